@@ -119,7 +119,7 @@ TEST_CASE(
         topology::orient_consistently(skin);
         CHECK(test::enclosed_volume(skin) == doctest::Approx(size.prod()).epsilon(4 * share));
         const auto sewn = [](const std::string& line) {
-            return line.find("were merged along the first") != line.npos;
+            return line.find("were merged into the first") != line.npos;
         };
         const auto notes = std::ranges::count(model.notes, "healing.edges_sewn", &Message::code);
         CHECK(notes > 6);

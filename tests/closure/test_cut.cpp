@@ -412,7 +412,7 @@ TEST_CASE("a ring that is cut once does not come apart, and one cut right throug
     soup.triangles = {{0, 1, 2}, {0, 2, 3}};
     soup.triangle_label = {1, 1};
     const Model half = healing::split_facets(soup);
-    CHECK(test::refusal([&] { closure::cut_by_face(ring, half, FaceId(0)); }, {"hangs together"}) ==
+    CHECK(test::refusal([&] { closure::cut_by_face(ring, half, FaceId(0)); }, {"stays in one piece"}) ==
           "closure.cut_apart");
     CHECK(all_faces(half).size() == 1);
 }

@@ -137,7 +137,7 @@ TEST_CASE("where tops of walls lie in no plane a named source tells nothing of a
 {
     for (int gone = 0; gone < 4; ++gone) {
         auto saddle = test::prism({.target = test::End::saddle, .drop = without_end({gone}, false)}).open();
-        CHECK(test::refusal([&] { test::seal(saddle); }, {"edge ", "tops of the walls"}) ==
+        CHECK(test::refusal([&] { test::seal(saddle); }, {"edge ", "tops of the given walls"}) ==
               "closure.wall_missing");
     }
 }

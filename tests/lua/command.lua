@@ -208,7 +208,7 @@ for _, ending in ipairs { "step", "stp", "STEP", "iges", "igs", "brep" } do
   check.write(folder .. "/" .. path, "ISO-10303-21;\nHEADER;\n")
   expect({ path }, 1, {}, { path .. ":1:", "`lacuna info " .. path .. "`" })
   for _, words in ipairs { { "check", path }, { "check", "--json", path }, { "convert", path, "x.msh" } } do
-    expect(words, 1, {}, { path .. " is CAD, which has no mesh", "`lacuna info`", "io.no_mesh" })
+    expect(words, 1, {}, { path .. " is a CAD file, which has no mesh", "`lacuna info`", "io.no_mesh" })
     for i, word in ipairs(words) do words[i] = word:gsub("part%.", "nosuch.") end
     expect(words, 1, {}, { "there is no file nosuch." .. ending, "io.no_file" })
   end

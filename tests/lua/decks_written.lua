@@ -174,7 +174,7 @@ do
   -- A mesh whose walls have other rows than the deck's.
   local plain = lacuna.load(path, { keep_mesh = false })
   local loose = plain:open_volume(roles(void)):sweep { layers = 3, size = 0.3 }
-  check.fails(function() loose:write(out, { with = plain }) end, "face", "quads of the mesh", " of ")
+  check.fails(function() loose:write(out, { with = plain }) end, "face", "of the mesh's", "quads")
 end
 
 -- A deck whose two parts have nodes of their own where they meet: the void between three of them.

@@ -34,7 +34,7 @@ local failures = {
   { "topology.face_in_two_roles",
     function() prism:open_volume { source = "source", target = "source" } end, "source", "target" },
   { "lua.unknown_ending", function() void():sweep({ layers = 1, size = 1 }):write("x.xyz") end, ".vtu" },
-  { "io.no_folder", function() void():sweep({ layers = 1, size = 1 }):write("no/x.msh") end, "make it" },
+  { "io.no_folder", function() void():sweep({ layers = 1, size = 1 }):write("no/x.msh") end, "create it" },
   { "view.ending", function() prism:picture("x.jpg") end, ".png", "x.jpg" },
   { "lua.wrong_object", function() prism.faces {} end, "colon" },
   { "lua.parameter", function() lacuna.params(3) end, "table" },

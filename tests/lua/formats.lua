@@ -47,13 +47,13 @@ local mesh = lacuna.synthetic.prism { sides = 4 }:open_volume {}:sweep { layers 
 local written_rows = rows "### `mesh:write`"
 local written = endings(written_rows)
 local message = check.fails(function() mesh:write(path "mesh.none") end, "lua.unknown_ending")
-local listed, count = set_of(message:match "meshes are written as ([^%[]*)", "[.%w]+")
+local listed, count = set_of(message:match "mesh files end in ([^%[]*)", "[.%w]+")
 check.that(count > 10)
 same(listed, written, "written")
 
 check.write(path "mesh.none", "of no format")
 local all_read = check.fails(function() lacuna.load(path "mesh.none") end, "io.unknown_ending")
-local read_listed = set_of(all_read:match "files are read that end in ([^%[]*)", "%.[%w_]+")
+local read_listed = set_of(all_read:match "supported endings are ([^%[]*)", "%.[%w_]+")
 local described = {}
 for _, row in ipairs(rows "### Files that are read") do
   for ending in row[1]:gmatch "`(%.[%w_]+)`" do described[ending] = true end

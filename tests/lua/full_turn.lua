@@ -214,7 +214,7 @@ refused({ source = 1, walls = { 2, 3, 4 }, full_turn = true }, nil, "full_turn",
 refused({ full_turn = true, class = "closed" }, nil, "full_turn")
 refused({ full_turn = true }, { size = 0.3, layers = 3 }, "4 layers at least", "3")
 refused({ full_turn = true }, { size = 0.3, layers = { count = 20, bias = 2 } }, "bias")
-check.fails(function() model:open_volume { full_turn = true }:close() end, "whole turn", "cut()")
+check.fails(function() model:open_volume { full_turn = true }:close() end, "full-turn", "cut()")
 model = lacuna.synthetic.prism { sides = 6, radius = 1, height = 3 }
 refused({ full_turn = true }, nil, "no plane through the centre", "volume:cut")
 

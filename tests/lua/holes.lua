@@ -136,7 +136,7 @@ for _, sides in ipairs { 4, 6 } do
       check.near(void:sweep({ layers = 4 }).fidelity.sealed_volume, volume, 1e-9 * volume)
     end
     check.that(void:close().watertight)
-    check.fails(function() void:close { cap = cap } end, "lua.sealed", "first close()")
+    check.fails(function() void:close { cap = cap } end, "lua.sealed", "first call of close()")
   end
 end
 

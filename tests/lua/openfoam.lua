@@ -303,7 +303,7 @@ do
   checked(case, "replaced")
   os.execute(("rm -rf '%s'"):format(case))
   check.write(case, "a file")
-  check.fails(function() mesh:write(case) end, "no folder", "io.not_replaced")
+  check.fails(function() mesh:write(case) end, "not a folder", "io.not_replaced")
   os.remove(case)
   mesh:write(case)
   checked(case, "new")

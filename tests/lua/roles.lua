@@ -108,7 +108,7 @@ for _, bends in ipairs { { 0.4, 1.5, 1.2 }, { 0.3, 2.5, 2 }, { 0.5, 1, 2 } } do
   local read = ell(table.unpack(bends)):open_volume {}
   read:close()
   check.that(read.class == "III" or read.class == "IV", read.class)
-  check.that(read:describe():find("is a membrane over a rim", 1, true), "what is open is told")
+  check.that(read:describe():find("is a smooth face over a rim", 1, true), "what is open is told")
   check.that(read:sweep { layers = 4, size = 0.3 }.hexes > 0)
 end
 

@@ -229,7 +229,7 @@ do
   check.that(size(places) > #centres)
   local without = void:sweep { order = 2, serendipity = true, size = 0.2 }
   local out = params.scratch .. "/refused.msh"
-  check.fails(function() without:write(out, { with = model }) end, "node in its middle", "serendipity")
+  check.fails(function() without:write(out, { with = model }) end, "centre node", "serendipity")
   check.that(not check.exists(out))
 end
 

@@ -370,7 +370,7 @@ TEST_CASE("rows without room are refused by wall and edge, with the room there i
     const OpenVolume tube = test::sealed(how);
     const auto all = layer_on(tube, tube.faces(Role::wall), 0.2, 1.2, 3);
     CHECK(test::refusal([&] { sweep::sweep(tube, with({all})); },
-                        {"edge", "0.728", "is the room to the opposite side"}) == "surface.layers_room");
+                        {"edge", "0.728", "up to the opposite side"}) == "surface.layers_room");
 
     const auto ends = layer_on(volume, volume.faces(Role::source), 3, 1, 1);
     CHECK(test::refusal([&] { sweep::sweep(volume, with({ends})); }, {"apart"}) == "sweep.layers_room");

@@ -9,9 +9,9 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Points per request: enough that the cost of a request is negligible, few enough that cancelling and other
-/// threads wait only briefly (0.1 s; measured on a million points of a sphere, where it is also faster than
-/// 100,000 points per request).
+/// Points per request. The overhead of a request is then negligible, and cancelling and other threads wait
+/// for at most 0.1 s. Measured on a million points of a sphere, where it is also faster than 100,000 points
+/// per request.
 constexpr std::size_t kAtOnce = 20'000;
 /// How long a request for points may continue after it is cancelled [s]. If it ends within this time the
 /// process, with the models it holds, need not be killed.
@@ -30,9 +30,10 @@ Reply ask_points(const CadSource& source, Opcode opcode, const Make& make, const
     task.grace = kGrace;
     Reply reply = source.ask<Reply>(opcode, make, task);
     if (reply.points.size() != count)
-        throw BackendError(
-            Message("cad.protocol", "{}: the CAD process returned the wrong number of points", source.path())
-                .remedy("load the file again"));
+        throw BackendError(Message("cad.protocol",
+                                   "{}: the CAD process returned another number of points than requested",
+                                   source.path())
+                               .remedy("load the file again"));
     return reply;
 }
 

@@ -158,7 +158,7 @@ void add_merged(InputFile& input, const std::string& path, const RunContext& con
         if (i > 0 && !found.skipped.empty() && found.skipped.back().word == "Exit")
             throw InvalidInput(
                 Message("cad.script",
-                        "{}, line {}: Exit in a file that a script includes ends that script too", own,
+                        "{}, line {}: Exit in an included file also ends the script that includes it", own,
                         found.skipped.back().line)
                     .remedy("remove it"));
         skip_commands(input, input.descriptors[i], own, std::move(text), found.skipped);

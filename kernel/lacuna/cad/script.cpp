@@ -142,7 +142,7 @@ private:
         line_ = line;
         refuse(formatted("{} has no ';' at its end", word));
     }
-    /// Remove what follows from `from` on: Gmsh does not come to it.
+    /// Remove everything from `from` on: Gmsh does not execute it.
     void end_at(std::size_t from)
     {
         if (depth_ != 0) refuse("Exit within If, For or a macro ends Gmsh at a place that is not known");
@@ -169,7 +169,7 @@ private:
     const std::string& path_;
     std::string_view text_;
     std::size_t at_ = 0;
-    int line_ = 1, depth_ = 0; ///< in what `kBegins` begins
+    int line_ = 1, depth_ = 0; ///< line number, and nesting depth of the commands of `kBegins`
     ScriptContent content_;
 };
 

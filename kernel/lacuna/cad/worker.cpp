@@ -262,7 +262,9 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
     const std::string program = find_worker_program();
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-        throw BackendError("cad.no_worker", "the CAD process does not start: {}", std::strerror(errno));
+        throw BackendError(
+            Message("cad.no_worker", "the CAD process does not start: {}", std::strerror(errno))
+                .remedy("check the installation of lacuna-cad"));
     Descriptor ours = raised(ends[0]), theirs = raised(ends[1]);
     // Large enough that a large message needs few waits.
     constexpr int kBuffer = 1 << 20;
@@ -288,8 +290,9 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
         hello_ = decode<Hello>(frame.bytes);
     } catch (const TimeOver&) {
         end();
-        throw BackendError("cad.no_worker", "{} did not answer within {:.3g} s", program,
-                           needed(kStartSeconds));
+        throw BackendError(
+            Message("cad.no_worker", "{} did not answer within {:.3g} s", program, needed(kStartSeconds))
+                .remedy("check the installation of lacuna-cad"));
     } catch (const ChannelClosed&) {
         end();
         throw BackendError("cad.no_worker", "{} ended while it was started ({}{})", program, how_it_ended(),
@@ -355,7 +358,7 @@ void Worker::died(const Task& task)
                                "{}: the CAD process ended while {}: {}{}. The file is damaged or Open "
                                "CASCADE cannot read it",
                                task.subject, doing(task), how_it_ended(), last_words())
-                           .remedy("repair it in the CAD system or export it anew"));
+                           .remedy("repair it in the CAD system or export it again"));
 }
 
 void Worker::give_up(const Task& task, const ProtocolError& error)
@@ -482,7 +485,7 @@ void Worker::release(std::uint64_t handle) noexcept
         }
         const std::unique_lock lock(busy_, std::try_to_lock);
         if (lock && !ended_) flush_released();
-    } catch (...) { // The process ended, or memory is exhausted; the next request notices.
+    } catch (...) { // the process ended, or memory is exhausted; the next request notices it
     }
 }
 

@@ -22,9 +22,9 @@ struct WriteCadOptions {
 
 /// The solid that was written, measured after reading it back.
 struct WrittenCad {
-    double volume = 0;       ///< of the solid [model length³]
+    double volume = 0;       ///< volume of the solid [model length³]
     double facet_volume = 0; ///< inside the facets of the sealed volume [model length³]
-    std::size_t faces = 0;   ///< of the solid
+    std::size_t faces = 0;   ///< number of faces of the solid
     std::size_t planes = 0;  ///< void faces written as planes
     std::size_t fitted = 0;  ///< void faces written as one or more fitted surfaces
     double tolerance = 0;    ///< used for sewing [model length]

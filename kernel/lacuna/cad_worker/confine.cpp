@@ -354,7 +354,8 @@ std::string confine()
     action.sa_flags = SA_SIGINFO | SA_NODEFER;
     if (::getrandom(&own_mark, sizeof(own_mark), 0) != sizeof(own_mark) ||
         ::sigaction(SIGSYS, &action, nullptr) != 0 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
-        throw BackendError("cad.no_wall", "the CAD process cannot be confined");
+        throw BackendError("cad.no_wall",
+                           "the CAD process cannot be confined: the kernel refuses the seccomp filter");
     const bool landlock = restrict_files();
     if (!make_filter().install())
         throw BackendError("cad.no_wall",
@@ -374,7 +375,9 @@ std::string offer(const std::string& folder, const std::string& name, int descri
         file.descriptor = descriptor;
         return path;
     }
-    throw BackendError("cad.too_many_files", "too many files at once, or a name that is too long: {}", name);
+    throw BackendError(
+        Message("cad.too_many_files", "too many files in one request, or too long a file name: {}", name)
+            .remedy("load fewer files at once, or shorten the name"));
 }
 
 void withdraw(const std::string& folder)

@@ -190,7 +190,8 @@ void serve(Channel& channel, const std::string& missing)
         } catch (const Error& error) {
             failed(Failure::backend, error.message());
         } catch (const std::bad_alloc&) {
-            failed(Failure::out_of_memory, Message("cad.memory_limit", "out of memory"));
+            failed(Failure::out_of_memory, Message("cad.memory_limit", "out of memory")
+                                               .remedy("raise the limit with LACUNA_CAD_MEGABYTES"));
         } catch (const std::exception& error) {
             failed(Failure::backend, Message("cad.gmsh", "{}", error.what()));
         }

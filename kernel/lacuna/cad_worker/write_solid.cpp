@@ -114,7 +114,8 @@ void write_whole(const Session& session, const std::string& path)
         struct stat file {};
         if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || ::stat(path.c_str(), &file) != 0) return;
         if (limit.rlim_cur == RLIM_INFINITY || static_cast<rlim_t>(file.st_size) < limit.rlim_cur) return;
-        session.refuse(Message("cad.file_limit", "the solid takes more than the {} bytes allowed for a file",
+        session.refuse(Message("cad.file_limit",
+                               "the file of the solid exceeds the limit of {} bytes per file",
                                needed(limit.rlim_cur))
                            .remedy("raise the limit (ulimit -f)"));
     };
@@ -158,10 +159,11 @@ std::pair<std::size_t, double> read_back(Session& session, const MakeSolidReques
                     .remedy("write the facets with write_facets"));
         const double volume = mass_of(3, tags_of(3).front());
         if (!(std::abs(volume - expected) <= kVolumeChange * expected)) {
-            session.refuse(Message("cad.reads_back",
-                                   "the file reads back with a volume of {:.6g} instead of {:.6g}",
-                                   found(volume), needed(expected))
-                               .remedy("write it as .brep"));
+            session.refuse(
+                Message("cad.reads_back",
+                        "the written file encloses a volume of {:.6g} when read back, instead of {:.6g}",
+                        found(volume), needed(expected))
+                    .remedy("write it as .brep"));
         }
         return std::pair(tags_of(2).size(), volume);
     });

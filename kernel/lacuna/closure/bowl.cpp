@@ -20,8 +20,8 @@ namespace {
 /// Number of faces tried as the mouth, the largest first. Each costs a pass over the facets and possibly a
 /// cut. A hollow has one such face, a box six; a lower number may miss a small mouth.
 constexpr std::size_t kMostMouths = 4;
-/// Number of heights at which the inclination is sampled, and where the skin may be cut. A rim rounded by a
-/// thirtieth of the depth covers two; fewer would miss it, more cost time.
+/// Number of heights between bottom and mouth at which the inclination is sampled, and where the skin may be
+/// cut. A rim rounded by a thirtieth of the depth still covers two of them.
 constexpr std::size_t kBins = 64;
 /// A skin whose steepest inclination is below this (11°) is only a bottom [radians]. A lower value separates
 /// walls that hardly rise; a higher one finds no walls in shallow bowls.

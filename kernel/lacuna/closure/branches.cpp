@@ -29,8 +29,8 @@ using namespace topology;
 
 namespace {
 
-/// Walls turn inward at a mouth by more than this [degrees]. A lower value takes the facets of a bent wall
-/// for mouths; a higher one misses branches that leave at a small angle.
+/// Angle by which walls turn inward at a mouth [degrees]: above the angle between facets of a bent wall,
+/// below that of a branch that leaves obliquely.
 constexpr double kConcave = 15;
 /// Largest depth of the dip as a share of the distance to the opposite wall: for equal tubes, the axis.
 constexpr double kDeepest = 0.5;
@@ -39,13 +39,12 @@ constexpr double kDeepest = 0.5;
 /// to each other; a lower one lets branches to different sides share a plane.
 constexpr double kSameSide = 0.87;
 /// A face at the mouth is an end of its branch, not a wall, if the cosine between its normal and the branch
-/// is above this (44°). A lower value refuses branches with strong taper; a higher one takes slanted ends for
-/// walls.
+/// is above this (44°): about half way between an end square to the branch and a wall along it.
 constexpr double kAlongWay = 0.72;
 /// Lines along a main body closer than this share of its widest mouth are merged, as they would bound a
 /// sliver. A higher value moves lines further from the centres of their mouths.
 constexpr double kBeside = 0.1;
-/// Chords of the dip, a parabola: each has a sag of 1/256 of its depth. More chords cost facets.
+/// Number of chords of the dip, a parabola: each has a sag of 1/256 of its depth.
 constexpr int kChords = 16;
 
 /// A closed line of concave edges.
@@ -227,8 +226,8 @@ private:
         throw NotSweepable(
             Message("closure.branches", "the branch of {} on {} cannot be cut automatically: {}",
                     wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host), why)
-                .remedy("cut by hand on both sides of the branch's mouth, which reaches from {} to {}, with "
-                        "planes of normal {{{:.3g}, {:.3g}, {:.3g}}}",
+                .remedy("cut by hand on both sides of the branch's mouth, from {} to {}, with planes of "
+                        "normal {{{:.3g}, {:.3g}, {:.3g}}}",
                         place_with_digits(on_axis(own.low), 4), place_with_digits(on_axis(own.high), 4),
                         axis_.x(), axis_.y(), axis_.z()));
     }
@@ -260,13 +259,12 @@ private:
         for (const FaceId face : found_.faces[mouth.branch]) {
             const double facing = std::abs(face_area_vector(model, face).dot(outward));
             if (!is_at(mouth, face) || facing <= kAlongWay * face_area(model, face)) continue;
-            throw NotSweepable(
-                Message("closure.branches",
-                        "the branch of {} on {} reaches beyond the side of the main body: {} at its mouth "
-                        "faces along the branch instead of across it",
-                        wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host),
-                        entity_of(model, face))
-                    .remedy("move the branch towards the middle, or make it narrower"));
+            throw NotSweepable(Message("closure.branches",
+                                       "the branch of {} on {} reaches beyond the side of the main body: at "
+                                       "its mouth, {} faces along the branch instead of across it",
+                                       wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host),
+                                       entity_of(model, face))
+                                   .remedy("move the branch towards the middle, or make it narrower"));
         }
     }
 
@@ -647,8 +645,9 @@ private:
     const OpenVolume& volume_;
     Branching found_;
     const RunContext& context_;
-    bool lined_ = false;                               ///< walls have lines along the main body
-    Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero(); ///< of the first mouth, and the direction along it
+    bool lined_ = false; ///< walls have lines along the main body
+    /// Centre of the first mouth, and direction of the main body's axis.
+    Vec3 centre_ = Vec3::Zero(), axis_ = Vec3::Zero();
 };
 
 } // namespace

@@ -130,7 +130,9 @@ std::vector<FaceId> no_tube(const OpenVolume& volume)
 EndLoops group_loops(OpenVolume& volume)
 {
     std::vector<Tube> tubes = tubes_of(volume);
-    if (tubes.empty()) throw NotClosed("closure.no_walls", "class V needs walls, and the volume has none");
+    if (tubes.empty())
+        throw NotClosed(Message("closure.no_walls", "class V needs walls, and the volume has none")
+                            .remedy("name the walls"));
     sort_ends(volume.model, tubes);
     face_the_void(volume, tubes);
     EndLoops ends;

@@ -46,10 +46,10 @@ void prove_sealed(const OpenVolume& volume)
                             .remedy("check the faces next to it"));
     }
     if (!(enclosed_volume(volume) > 0)) {
-        throw NotClosed("closure.no_volume",
-                        "the sealed faces enclose a volume of {:.3g}, which is not positive: source and "
-                        "target coincide, or the faces between them are twisted",
-                        found(enclosed_volume(volume)));
+        throw NotClosed(Message("closure.no_volume",
+                                "the sealed faces enclose a volume of {:.3g}, which is not positive: source "
+                                "and target coincide, or the faces between them are twisted",
+                                found(enclosed_volume(volume))));
     }
 }
 
@@ -63,17 +63,21 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
                    const CloseOptions& options)
 {
     if (options.holes != Holes::automatic && holes.empty()) {
-        throw InvalidInput(Message("closure.holes_unused", "the option holes is for holes of a given end "
-                                                           "without walls, and there is no such hole")
-                               .remedy("leave the option out"));
+        throw InvalidInput(
+            Message("closure.holes_unused",
+                    "the option holes applies to holes of a given end without walls, and there is none")
+                .remedy("leave the option out"));
     }
     if (!options.void_edges.empty() && !has_two_ends(value)) {
         if (value == VolumeClass::closed)
-            throw InvalidInput("closure.void_edges_unused",
-                               "void_edges replace missing walls, and none is missing");
-        throw InvalidInput("closure.void_edges_unused",
-                           "void_edges join a given source and target, but a volume of class {} lacks one",
-                           found(to_string(value)));
+            throw InvalidInput(
+                Message("closure.void_edges_unused", "void_edges replace missing walls, and none is missing")
+                    .remedy("leave void_edges out"));
+        throw InvalidInput(
+            Message("closure.void_edges_unused",
+                    "void_edges join a given source and target, and a volume of class {} lacks one of these",
+                    found(to_string(value)))
+                .remedy("leave void_edges out, or name both ends"));
     }
     if (options.cap == Cap::automatic || value == VolumeClass::IV) return;
     if (value == VolumeClass::V && options.cap == Cap::flat) return;
@@ -82,10 +86,11 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
                                    "cap = \"parallel\" moves a given end's shape to the "
                                    "missing one, and both are missing (class V)")
                                .remedy("use \"flat\", or name the source"));
-    throw InvalidInput("closure.cap_unused",
-                       "the option cap shapes a missing end, and {} and {} are both given",
-                       entity_of(volume.model, volume.faces(Role::source).front()),
-                       entity_of(volume.model, volume.faces(Role::target).front()));
+    throw InvalidInput(Message("closure.cap_unused",
+                               "the option cap shapes a missing end, but {} and {} are both given",
+                               entity_of(volume.model, volume.faces(Role::source).front()),
+                               entity_of(volume.model, volume.faces(Role::target).front()))
+                           .remedy("leave cap out"));
 }
 
 /// Angle between the normals of the two ends, both taken in the direction from source to target [radian].
@@ -101,8 +106,8 @@ double lean_of(const OpenVolume& volume)
     return geometry::angle_between(facing(source), facing(target));
 }
 
-/// Ends without walls at a larger angle are closed by a bend, because straight edges would meet both at small
-/// angles. A lower value bends more closings that were meant to be straight.
+/// Above this angle, ends without walls are closed by a bend, because straight edges would meet both ends at
+/// small angles. Between kLean and this angle they are closed straight.
 constexpr double kBend = 100 * kDegree;
 /// Straight closings between ends at a larger angle may have been meant as a bend; a note says so.
 constexpr double kLean = 20 * kDegree;
@@ -464,10 +469,9 @@ Message holes_message(const Model& model, const std::vector<EndHole>& holes, con
     };
     return Message("closure.holes_open", "{} has {} without walls", entity_of(model, holes.front().face),
                    holes.size() == 1 ? "a hole" : formatted("{} holes", holes.size()))
-        .remedy(
-            "close{{ holes = \"cover\" }}, with flat faces, {}; close{{ holes = \"through\" }}, up to the "
-            "missing end, {}",
-            encloses(volumes.covered), encloses(volumes.through));
+        .remedy("close{{ holes = \"cover\" }}, which closes them by flat faces, {}; close{{ holes = "
+                "\"through\" }}, which extends them to the missing end, {}",
+                encloses(volumes.covered), encloses(volumes.through));
 }
 
 /// Seal a volume, including holes without walls in its ends.
@@ -476,9 +480,9 @@ Closed close_as_asked(const OpenVolume& volume, const matching::Match& match, co
 {
     check_cancelled(context);
     if (volume.full_turn)
-        throw NotSweepable(Message("closure.full_turn_whole",
-                                   "the volume runs round its whole turn and has no ends to close between")
-                               .remedy("sweep it, or close the pieces that volume:cut() returns"));
+        throw NotSweepable(
+            Message("closure.full_turn_whole", "a full-turn volume has no ends to close between")
+                .remedy("sweep it, or close the pieces that volume:cut() returns"));
     const VolumeClass whole = classify(volume).value;
     const std::vector<EndHole> holes = holes_without_walls(volume);
     check_options(volume, whole, holes, options);

@@ -163,7 +163,7 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
         for (const EdgeUse& use : rim.uses) {
             if (volume.role[model.uses_of_edge(use.edge).front().face.index()] != Role::source) continue;
             throw NotClosed(Message("closure.wall_missing",
-                                    "{} of the source has no wall, and the tops of the walls given do not "
+                                    "{} of the source has no wall, and the tops of the given walls do not "
                                     "determine the missing target there",
                                     entity_of(model, use.edge))
                                 .remedy("name the wall, or the target"));
@@ -176,7 +176,7 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     if (loops.size() != wanted) {
         throw NotClosed(Message("closure.loop_counts",
                                 "the source has {} loops and the walls leave {} free loops for the target, "
-                                "but a sweep needs the same number on both ends",
+                                "but both ends need the same number",
                                 needed(wanted), found(loops.size()))
                             .remedy("check the walls, or name the target"));
     }

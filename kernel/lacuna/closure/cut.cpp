@@ -113,16 +113,16 @@ private:
         }
         if (!touched.empty())
             throw NotSweepable("closure.cut_misses",
-                               "the plane only touches {} and cuts nothing: the volume lies from {:.4g} to "
-                               "{:.4g} along the normal from the point given",
+                               "the plane only touches {} and cuts nothing: along its normal, measured from "
+                               "its point, the volume reaches from {:.4g} to {:.4g}",
                                entities_of(model_, touched), found(least), found(most));
         if (least < 0 && most > 0)
             throw NotSweepable(
                 Message("closure.cut_misses", "the plane passes between the faces without crossing any")
                     .remedy("close the volume first, then its void faces are cut"));
         throw NotSweepable("closure.cut_misses",
-                           "the plane misses the volume: the volume lies from {:.4g} to {:.4g} along the "
-                           "normal from the point given",
+                           "the plane misses the volume, which reaches from {:.4g} to {:.4g} along the "
+                           "normal, measured from the plane's point",
                            found(least), found(most));
     }
 
@@ -147,8 +147,10 @@ private:
             for (const std::size_t l : region) kept.push_back(walks_[l]);
         }
         if (kept.empty())
-            throw NotSweepable("closure.cut_misses",
-                               "the face is outside the volume, and its plane cuts the volume elsewhere");
+            throw NotSweepable(
+                Message("closure.cut_misses",
+                        "the face lies outside the volume, and only the rest of its plane cuts the volume")
+                    .remedy("cut by the plane instead"));
         walks_ = std::move(kept);
     }
 
@@ -157,7 +159,7 @@ private:
         return flat_places(plane_, use_places(model_, uses));
     }
 
-    /// For each open line, the line whose start its end is connected to. The straight connections have the
+    /// For each open line, the line that continues it after a straight connection. The connections have the
     /// least total length and cross nothing. Empty if there is no such order, or if there are too many lines.
     [[nodiscard]] std::vector<std::size_t> join(const std::vector<std::vector<Vec2>>& lines) const
     {

@@ -14,17 +14,16 @@ namespace {
 
 /// Number of heights at which the walls are cut: one per segment of a void edge.
 constexpr int kLevels = 64;
-/// Largest bow of ring walls, as a share of the rims' radius, for straight void edges, which lose about twice
-/// that share of the section. A lower value bends void edges next to almost straight walls; a higher one
-/// loses more volume.
+/// Largest bow of ring walls, as a share of the rims' radius, up to which void edges are straight. The
+/// section then loses about twice that share, 1 %.
 constexpr double kAstray = 0.005;
-/// The same for open walls that determine the rest of their loop, and for other walls. They are higher,
-/// because walls with a given mesh, and single twisted walls of few facets, are that rough when straight.
+/// The same limit for open walls that determine the rest of their loop, and for other open walls. The limits
+/// are higher because walls with a given mesh, and single twisted walls of few facets, deviate as much even
+/// if the true wall is straight.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
-/// Open walls whose bow exceeds the first share of the rims' radius are perhaps no walls of a sweep. Edges
-/// that follow them are then tried before straight ones only if following moves an edge off its line by more
-/// than the second share. A lower first share trusts fewer walls that bend far; a lower second share lets
-/// more of the distrusted walls bend the void edges.
+/// If the bow of open walls exceeds kBeside (share of the rims' radius), they may belong to another shape
+/// than a sweep. Edges that follow them are then tried before straight ones only if they leave their chord by
+/// more than kFarAstray (same unit).
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
 /// If some walls form rings, the open walls of another loop determine that loop only if the rings' motion
 /// misses half of their points by more than this, as a share of their radius. Below it the rings represent
@@ -72,7 +71,7 @@ double median(std::vector<double> values)
 double bow_of(const std::vector<std::vector<Vec3>>& levels)
 {
     constexpr std::size_t kStep = 4; // checks every fourth level only, to save time
-    constexpr double kOnePart = 4;   // in mean steps: points further apart belong to two parts
+    constexpr double kOnePart = 4;   // in mean steps: points that are further apart belong to different parts
     const std::size_t n = levels.front().size();
     std::vector<Vec3> points = levels.front();
     points.insert(points.end(), levels.back().begin(), levels.back().end());

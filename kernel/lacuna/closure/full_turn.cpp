@@ -26,9 +26,8 @@ namespace {
 /// Planes tried through each principal axis. Straight rings with up to as many sides are cut near the middle
 /// of a side.
 constexpr int kDirections = 8;
-/// Section lengths that differ by less than this share are equal, and the plane found first is tried first.
-/// Otherwise the facets of round walls would decide, as they are closer to the axis in their middles. A
-/// higher value may take a longer cut.
+/// Section lengths that differ by less than this share count as equal, and the plane found first is tried
+/// first. Otherwise the sag of facets would decide between planes through a round wall.
 constexpr double kAsShort = 0.02;
 
 /// Sections used to measure the length of the turn. With these, the chords of a half circle are short by
@@ -177,8 +176,7 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
     for (std::size_t f = 0; f < volume.role.size(); ++f) {
         if (volume.role[f] != Role::wall)
             throw InvalidInput(Message("closure.full_turn_ends",
-                                       "a volume that runs round its whole turn has no ends, but {} is named "
-                                       "as one",
+                                       "a full-turn volume has no ends, but {} is named as one",
                                        entity_of(volume.model, FaceId(f)))
                                    .remedy("name walls only"));
     }
@@ -194,8 +192,8 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
             }
             if (!why)
                 why = Message("closure.full_turn",
-                              "the plane that crosses the walls along the shortest lines cuts off {} pieces "
-                              "instead of two between two cuts",
+                              "of all planes, the one with the shortest section cuts the ring into {} pieces "
+                              "instead of two",
                               found(pieces.size()));
         } catch (const Cancelled&) {
             throw;
@@ -205,8 +203,8 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
     }
     Message message =
         Message("closure.full_turn", "no plane through the centre of the walls cuts the ring in two places")
-            .remedy("name all walls of the ring and no others, or use volume:cut{{ plane = … }} "
-                    "and lacuna.assembly");
+            .remedy(
+                "name exactly the walls of the ring, or use volume:cut{{ plane = … }} and lacuna.assembly");
     if (why) throw NotSweepable(message.attempt(std::move(*why)));
     throw NotSweepable(std::move(message));
 }

@@ -28,17 +28,16 @@ using namespace topology;
 
 namespace {
 
-/// A bent face is ambiguous if more than this share of the enclosed volume lies between it and its plane.
-/// A lower value refuses tops that bend by a few hundredths of the height; a higher one accepts shapes that
-/// may be further off.
+/// A bent face is ambiguous if more than this share of the enclosed volume lies between it and its plane: the
+/// shape of the face may change the volume by about as much.
 constexpr double kDoubt = 0.05;
 /// A missing end is ambiguous if more than this share of the enclosed volume lies between it and another
 /// smooth face over its rim. Measured on 893 ends over twelve outlines, of which 131 are refused, including
 /// those with straight rims: of the 762 accepted ends, 12 have a volume error above 3 % and 719 one below
 /// 1 %; of the refused ends, 41 and 70.
 constexpr double kBendDoubt = 0.03;
-/// A rough rim has points off a plane by up to this share of its diameter, as in scans of cut bones. A lower
-/// value refuses coarse scans; a higher one accepts rims that are bent, not rough.
+/// A rim is rough, not bent, if its points deviate from a plane by at most this share of its diameter, as in
+/// scans of cut bones.
 constexpr double kRough = 0.05;
 
 /// Volume between a face and heights over a plane [model length³].
@@ -145,8 +144,9 @@ std::vector<double> turns_of(const std::vector<Vec3>& chain)
 /// Whether an edge is straight between a few kinks.
 bool is_straight_between_kinks(const Model& model, const EdgeUse& use)
 {
-    // A ridge, a chamfer or a notch has up to three kinks, at which the edge makes at least this share of its
-    // turn. More kinks would take finer curves for straight sides; three already do so for four facets.
+    // An edge is straight between kinks if so many of them make at least this share of its turn: a ridge, a
+    // chamfer or a notch has up to three. With three, a curve of four facets counts as such; with more, finer
+    // curves would.
     constexpr std::size_t kKinks = 3;
     constexpr double kTurnedThere = 0.9;
     if (is_straight(model, {use})) return true;
@@ -384,14 +384,14 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
             assume(closure,
                    Message("closure.hole_closed",
                            "a hole of {} is closed in its plane, which fills any pocket behind it", face)
-                       .remedy("if there is one, give its faces"),
+                       .remedy("if there is a pocket, give its faces"),
                    area * std::sqrt(area) / enclosed_volume(sealed));
         else
             assume(closure,
                    Message("closure.hole_covered",
                            "a hole of {} is covered, because the faces face into the void", face)
-                       .remedy("with it as source, close{{ holes = \"through\" }} extends the hole to the "
-                               "missing end"),
+                       .remedy("with this face as source, close{{ holes = \"through\" }} extends the hole to "
+                               "the missing end"),
                    area * reach_of_others(sealed.model, closure.void_faces, filler) /
                        enclosed_volume(sealed));
     }
@@ -404,9 +404,9 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
     for (const FaceId face : membranes(model, closure.void_faces))
         assume(closure,
                Message("closure.membrane",
-                       "{} is a membrane over a rim that is not planar, so its shape is assumed",
+                       "{} is a smooth face over a rim that is not planar, so its shape is assumed",
                        entity_of(model, face))
-                   .remedy("if the face bulges, give it"),
+                   .remedy("if the true face bulges otherwise, give it"),
                std::abs(beside_thin_plate(model, face).above) / enclosed);
     for (const FaceId face : closure.void_faces) {
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
@@ -414,7 +414,7 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
         closure.notes.push_back(Message("closure.rough_rim",
                                         "the rim of {} is rough and is closed by a smooth face",
                                         entity_of(model, face))
-                                    .remedy("if the face bulges, give it"));
+                                    .remedy("if the true face bulges otherwise, give it"));
     }
 }
 

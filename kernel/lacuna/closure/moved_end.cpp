@@ -32,11 +32,10 @@ using namespace topology;
 
 namespace {
 
-/// A moved foot of a wall may be off the wall's top, and points of a straight side off their line, by this
-/// share of the end's width: more than the sag of round sides. A lower value refuses coarse facets; a higher
-/// one accepts motions that miss the tops.
+/// Tolerance of the motion, as a share of the end's width: by this much may a moved foot of a wall miss the
+/// wall's top, and points of a straight side their line. It exceeds the sag of round sides.
 constexpr double kOnTop = 0.01;
-/// Sample points along each wall's foot. More represent curved feet more closely and cost time.
+/// Number of sample points along each wall's foot, at which the fit is made and tested.
 constexpr int kSamples = 8;
 
 /// A segment of an end's rim between two places where walls lead up, or without walls.
@@ -219,7 +218,8 @@ private:
     bool add_tube(const Rim& rim)
     {
         const Model& model = volume_.model;
-        if (free_rims_.size() != 1) return false; // which of several it is remains ambiguous
+        // Several free rims: it is ambiguous which one belongs to the tube.
+        if (free_rims_.size() != 1) return false;
         const std::vector<Vec3> low = use_places(model, rim.uses),
                                 high = use_places(model, free_rims_[0].uses);
         rims_.back().push_back({rim.uses, free_rims_[0].uses});
@@ -333,8 +333,8 @@ private:
     /// Whether walls along enough of the end's outline, its longest loop, determine its scale.
     [[nodiscard]] bool tells_scale() const
     {
-        // Least share of the outline with walls: two walls of five determine a taper, one of four does not. A
-        // lower value takes the taper of a single bore or wall for that of the outline.
+        // Least share of the outline that must have walls for these to determine its taper: two walls of five
+        // do, one of four, or a single bore, does not.
         constexpr double kTold = 1.0 / 3;
         double longest = 0, told = 0;
         for (const std::vector<Stretch>& rim : rims_) {
@@ -399,7 +399,7 @@ private:
     Climber climber_;
     std::set<VertexId> on_end_;
     std::map<VertexId, EdgeUse> leaving_; ///< free uses of walls, by start vertex
-    std::vector<Rim> free_rims_;          ///< of walls
+    std::vector<Rim> free_rims_;          ///< free rims of walls
     std::size_t free_count_ = 0;          ///< number of free edges of walls
     std::map<VertexId, VertexId> above_;  ///< by vertex of the end, the vertex of the moved end
     std::set<EdgeId> accounted_;          ///< free edges that lead up to those
@@ -411,7 +411,7 @@ private:
 
 using Known = std::function<bool(const std::vector<Vec3>&)>;
 
-/// @param stop  out: set if the missing faces exist already
+/// @param stop  output: set if the missing faces exist already
 std::optional<MovedEnd> move_end(const OpenVolume& open, const Known& known, bool& stop,
                                  const RunContext& context)
 {

@@ -120,13 +120,13 @@ void refuse_without_roles(const Model& given, const std::vector<FaceId>& faces, 
     const std::string walls = in_braces(given, faces);
     if (free_edges(volume).empty() && is_ring(volume, context))
         throw InvalidInput(Message("topology.torus", "the torus of {} has no ends", entities_of(given, faces))
-                               .remedy("sweep them round the whole turn: open_volume{{ {}full_turn = true }}",
+                               .remedy("sweep it as a full turn: open_volume{{ {}full_turn = true }}",
                                        faces.size() == given.faces.size() ? "" : "walls = " + walls + ", "));
     const auto round = round_shape(model, FaceId(0));
     if (round && round->is_sphere() && model.faces.size() == 1 && free_edges(volume).empty())
         throw InvalidInput(
             Message("topology.sphere", "{} is a whole sphere, which has no ends", entities_of(given, faces))
-                .remedy("cut it in two by open_volume{{ walls = {} }}:{} and open each piece by "
+                .remedy("cut it in two by open_volume{{ walls = {} }}:{} and open each piece with "
                         "piece:model():open_volume()",
                         walls, cut_in_words(model, round->centre, Vec3::UnitZ())));
     const std::string cut = cut_at_concave_edge(volume, context);
@@ -138,17 +138,17 @@ void refuse_without_roles(const Model& given, const std::vector<FaceId>& faces, 
     };
     for (const FaceId face : all_faces(model))
         if (is_cone_to_its_tip(model, face))
-            throw InvalidInput(
-                advised(Message("topology.cone", "{} is a cone with its apex, where layers have no width",
-                                entity_of(model, face))));
+            throw InvalidInput(advised(
+                Message("topology.cone", "{} is a cone up to its apex, where layers would have no width",
+                        entity_of(model, face))));
     if (const EdgeId edge = crossing_of_bores(model); edge.valid())
-        throw InvalidInput(
-            advised(Message("topology.crossing_bores", "bores cross at {}, and one sweep cannot follow both",
-                            entity_of(model, edge))));
+        throw InvalidInput(advised(Message("topology.crossing_bores",
+                                           "bores cross at {}, and no single sweep can follow both",
+                                           entity_of(model, edge))));
     std::vector<NamedEntity> tags = entities_of(given, faces);
     for (NamedEntity& face : tags) face.name.clear(); // keeps the message short
-    throw InvalidInput(advised(
-        Message("topology.no_roles", "no roles of source, target and walls were found for {}", tags)));
+    throw InvalidInput(
+        advised(Message("topology.no_roles", "no source, target and walls were found among {}", tags)));
 }
 
 std::string listed(const std::vector<Reading>& readings, std::ptrdiff_t most)
@@ -170,8 +170,7 @@ void check_tubes(const OpenVolume& volume, const RunContext& context)
     const std::vector<Reading> readings = find_readings(model, all, context);
     const std::size_t loops = rims(model, part).size();
     Message message("closure.tube_loops",
-                    "{} and the walls connected to it have {} free {}, and class V needs {}, one at either "
-                    "end",
+                    "{} and the walls connected to it have {} free {}, but class V needs {}, one at each end",
                     entity_of(model, part.front()), found(loops), loops == 1 ? "loop" : "loops", needed(2));
     if (!readings.empty())
         throw NotClosed(std::move(message).remedy(

@@ -22,8 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// A cut is across the sweep if the cosine between its normal and the source's exceeds this (26°). A lower
-/// value takes slanted cuts for ends; a higher one takes them for walls.
+/// A cut is across the sweep, and so an end of its pieces, if the cosine between its normal and the source's
+/// exceeds this (26°); otherwise it is a wall.
 constexpr double kAcross = 0.9;
 
 /// A piece, in the common model.
@@ -83,8 +83,8 @@ private:
             if (behind == before) {
                 throw NotSweepable(
                     Message("closure.cut_apart",
-                            "{}{} cuts the volume open at {}, but the volume still hangs together",
-                            tool_.words, tool_.entity, entity_of(model_, face))
+                            "{}{} cuts the volume open at {}, but the volume stays in one piece", tool_.words,
+                            tool_.entity, entity_of(model_, face))
                         .remedy("cut it at another place too, or choose another cut"));
             }
             for (const std::size_t root : {behind, before}) {

@@ -19,14 +19,13 @@ using namespace topology;
 
 namespace {
 
-/// Number of candidates that are sealed, which takes some tenths of a second for 10,000 facets. A lower
-/// number may miss a void; a higher one costs time in proportion.
+/// Limit of candidates that are sealed, the likeliest first: some tenths of a second for 10,000 facets.
 constexpr std::size_t kMostSealed = 24;
 /// Number of candidates checked if none of the likeliest seals. A lower number may find no void; a higher one
 /// costs time in proportion.
 constexpr std::size_t kMostTried = 50;
-/// Cost of closing by flat faces that are not one per free loop: that of a missing end in
-/// `topology::role_candidates()`. A lower value prefers such closings to candidates of the given faces.
+/// Cost of closing by flat faces that are not one per free loop, compared with candidates of the given faces:
+/// as for a missing end in `topology::role_candidates()`.
 constexpr double kFilled = 0.1;
 
 /// Whether a void edge is further from its chord than a half circle.
@@ -42,8 +41,8 @@ bool detours(const Void& v)
     });
 }
 
-/// The void that flat faces close, if they are not one per free loop or the ends are congruent.
-/// @param told  whether a void without ambiguous bends is known: then no channel is assumed
+/// The void that flat faces close, if these are not simply one per free loop, or if the ends are congruent.
+/// @param told  whether a void without ambiguous bends is known; then the faces are not taken for a channel
 std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, bool told,
                               const RunContext& context)
 {
@@ -110,7 +109,7 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                      const RunContext& context)
 {
     if (faces.empty())
-        throw InvalidInput(Message("topology.no_faces", "the model has no faces to find a volume in")
+        throw InvalidInput(Message("topology.no_faces", "the model has no faces to form a volume")
                                .remedy("load a file that has some, or add_face{{ points =, cells = }}"));
     std::vector<Reading> readings = find_readings(model, faces, context);
     if (readings.empty()) refuse_without_roles(model, faces, context);
@@ -134,7 +133,7 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                 .remedy("choose one with open_volume{{ faces = …, reading = 1 }}, or name its roles"));
     }
     throw InvalidInput("topology.no_such_reading",
-                       "there is no reading {} of the faces; the likely ones are {}", found(number),
+                       "the faces have no reading number {}; the likely ones are {}", found(number),
                        listed(readings));
 }
 

@@ -62,9 +62,9 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// A tube with a flat annular floor at one of its two ends, such as a counterbore's wall and ledge, has that
 /// floor and the bore's mouth as source.
 ///
-/// Free loops that flat faces close, but not with one face each (a face has a hole, or a loop lies in two
-/// planes), are a further void. So is a channel without its ends and one wall if nothing else is certain:
-/// planar parts of the free loop are its ends if they are congruent.
+/// If flat faces close the free loops, but not with one face for each loop (a face has a hole, or a loop lies
+/// in two planes), that closing is a further void. A channel that lacks its ends and one wall is a void only
+/// if there is no other: the planar parts of its free loop are the ends if they are congruent.
 ///
 /// A void with an ambiguous bent face is dropped if there is one with flat faces; if it is the only void, it
 /// is kept, and `Reading::guess` describes the ambiguity.

@@ -30,8 +30,8 @@ using Powers = Eigen::Vector<double, 10>;
 /// Tolerance for points on a quadric, as a share of the rim's own deviation from its plane. Mesh points on a
 /// quadric are off by rounding only; a higher value finds quadrics that the rim merely approximates.
 constexpr double kOnQuadric = 1e-4;
-/// Number of redundant conditions required to find the quadrics through a rim. Nine points always lie on a
-/// quadric; a higher number refuses rims of few points, a lower one finds quadrics by chance.
+/// Number of conditions beyond the nine that determine a quadric. Nine points always lie on a quadric; the
+/// spare ones show that the rim really lies on it. More would exclude rims of few points.
 constexpr Eigen::Index kSpare = 4;
 /// Tolerance for a special quadric, as a share of its largest coefficient. It may be wide, because the
 /// quadric passes through the rim anyway.

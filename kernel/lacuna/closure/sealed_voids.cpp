@@ -22,8 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// Skins coincide if their distance is below this share of the cube root of their volume. A lower value finds
-/// one void twice because of different facets; a higher one merges different voids.
+/// Two skins coincide if their distance is below this share of the cube root of their volume: above the
+/// effect of different facets on one void, below the distance of different voids.
 constexpr double kSameSkin = 0.02;
 /// Cost of void faces bent by a half turn, added to that of the ends: of two closings, the one with flat
 /// faces is likelier. A higher value drops more closings by bent faces.

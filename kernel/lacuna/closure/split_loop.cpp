@@ -22,8 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// Ends are congruent if one moved onto the other is off by less than this share of its length, more than the
-/// sag of round sides. A higher value takes the ends of a channel with slight taper for congruent.
+/// Ends are congruent if one, moved onto the other, misses it by less than this share of its length: more
+/// than the sag of round sides, less than the taper of a channel.
 constexpr double kAlike = 0.005;
 
 /// The number of consecutive uses of a loop from `start` that lie in one plane.

@@ -37,7 +37,7 @@ constexpr int kRounds = 64;
 
 /// A rim of an end where the walls lead away from the opposite end.
 struct Hanging {
-    std::size_t part = 0; ///< of the end
+    std::size_t part = 0; ///< index of the part of the end
     Rim rim;
 };
 
@@ -84,7 +84,7 @@ struct Imprinted {
     Rim rim;
     FaceId target;                       ///< the face it lies on
     std::size_t inside = 0, outside = 0; ///< the regions of that face on its two sides
-    std::vector<Index> points;           ///< of the model, the first is not repeated
+    std::vector<Index> points;           ///< points of the model, the first not repeated
     std::vector<Vec2> flat;              ///< the same, projected along the sweep
     std::vector<FaceId> curtain;
 };
@@ -167,12 +167,15 @@ private:
                 const NamedEntity step = entity_of(builder_, steps_.parts[hanging.part].front());
                 if (!hit)
                     throw NotSweepable(
-                        "closure.steps",
-                        "the rim of the step at {} does not lie below the opposite end everywhere", step);
-                throw NotSweepable(Message("closure.steps", "the rim of the step at {} lies below {} and {}",
-                                           step, entity_of(builder_, image.target),
-                                           entity_of(builder_, hit->face))
-                                       .remedy("give the opposite end there as one face"));
+                        Message(
+                            "closure.steps",
+                            "the rim of the step at {} is not everywhere opposite to a face of the other end",
+                            step)
+                            .remedy("cut the volume with cut{{ plane = … }}"));
+                throw NotSweepable(
+                    Message("closure.steps", "the rim of the step at {} is opposite to two faces, {} and {}",
+                            step, entity_of(builder_, image.target), entity_of(builder_, hit->face))
+                        .remedy("give the opposite end there as one face"));
             }
             image.target = hit->face;
             const auto made = static_cast<Index>(builder_.points.size());
@@ -271,6 +274,7 @@ private:
                 throw NotSweepable(Message("closure.steps",
                                            "{} cannot be split along the projected outlines of the steps",
                                            entity_of(builder_, id))
+                                       .remedy("cut the volume with cut{{ plane = … }}")
                                        .attempt(error.message()));
             }
             Face face = before;
@@ -282,9 +286,10 @@ private:
             VoidFilling filling = filling_of(builder_, outline, made, [&](std::size_t p) {
                 const std::optional<Hit> hit = above(geometry::from_plane(across_, made.points[p], lowest()));
                 if (!hit)
-                    throw NotSweepable("closure.steps",
-                                       "{} folds back as seen along the sweep and cannot be cut",
-                                       entity_of(builder_, id));
+                    throw NotSweepable(Message("closure.steps",
+                                               "{} folds back along the sweep direction and cannot be cut",
+                                               entity_of(builder_, id))
+                                           .remedy("cut the volume with cut{{ plane = … }}"));
                 uv_.insert_or_assign(first_made + static_cast<Index>(p - outline.flat.size()), hit->uv);
                 return hit->place;
             });
@@ -305,9 +310,11 @@ private:
         }
         for (std::size_t i = 0; i < own.size(); ++i) {
             if (parents[given + i] == rings.size())
-                throw NotSweepable("closure.steps", "the rim of the step at {} does not lie within {}",
-                                   entity_of(builder_, steps_.parts[own[i]->part].front()),
-                                   entity_of(builder_, id));
+                throw NotSweepable(Message("closure.steps",
+                                           "the rim of the step at {}, projected along the sweep, leaves {}",
+                                           entity_of(builder_, steps_.parts[own[i]->part].front()),
+                                           entity_of(builder_, id))
+                                       .remedy("cut the volume with cut{{ plane = … }}"));
             own[i]->inside = region[given + i];
             own[i]->outside = region[parents[given + i]];
         }
@@ -365,10 +372,11 @@ private:
         for (const Imprinted& image : images_) {
             const std::size_t outer = part_beyond(image, part_of);
             if (outer == image.part)
-                throw NotSweepable("closure.steps",
-                                   "the faces on both sides of the step at {} have the same end below, seen "
-                                   "along the sweep",
-                                   entity_of(model_, steps_.parts[outer].front()));
+                throw NotSweepable(Message("closure.steps",
+                                           "along the sweep, the faces on both sides of the step at {} are "
+                                           "opposite to the same end",
+                                           entity_of(model_, steps_.parts[outer].front()))
+                                       .remedy("check the roles of the faces"));
             below[image.part] = outer;
             for (const std::size_t p : {image.part, outer})
                 walls[p].insert(walls[p].end(), image.curtain.begin(), image.curtain.end());
@@ -381,14 +389,16 @@ private:
         for (std::size_t p = 0; p <= none; ++p) {
             if (p == none && opposite[p].empty()) {
                 if (!walls[p].empty())
-                    throw NotSweepable("closure.steps", "{} touches neither end",
-                                       entity_of(model_, walls[p].front()));
+                    throw NotSweepable(Message("closure.steps", "{} touches neither end",
+                                               entity_of(model_, walls[p].front()))
+                                           .remedy("name its role, or leave it out"));
                 continue;
             }
             if (opposite[p].empty())
-                throw NotSweepable("closure.steps",
-                                   "nothing of the opposite end lies over {}, seen along the sweep",
-                                   entity_of(model_, steps_.parts[p].front()));
+                throw NotSweepable(Message("closure.steps",
+                                           "along the sweep, no face of the opposite end lies over {}",
+                                           entity_of(model_, steps_.parts[p].front()))
+                                       .remedy("check the roles of the faces"));
             Roles own{p == none ? std::vector<FaceId>{} : steps_.parts[p], opposite[p], walls[p]};
             if (stepped_ == Role::target) std::swap(own.source, own.target);
             if (volume_.turned_round) std::swap(own.source, own.target);
@@ -445,12 +455,13 @@ private:
     ModelBuilder builder_;
     Role stepped_, other_;
     const RunContext& context_;
-    Steps steps_;            ///< of the stepped end
+    Steps steps_;            ///< steps of the stepped end
     geometry::Plane across_; ///< its normal is the direction to the other end
     std::vector<Imprinted> images_;
-    std::vector<FaceId> regions_;                       ///< of the opposite end, after the cuts
-    std::map<Index, Vec2> uv_;                          ///< of points projected onto the opposite end
-    std::optional<geometry::FacetTree> tree_;           ///< of the original opposite end
+    std::vector<FaceId> regions_; ///< faces of the opposite end after the cuts
+    /// Surface parameters of points projected onto the opposite end.
+    std::map<Index, Vec2> uv_;
+    std::optional<geometry::FacetTree> tree_;           ///< facets of the original opposite end
     std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree
 };
 
@@ -462,10 +473,10 @@ void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunC
                                        volume.model.faces.empty() ? FaceId() : steps.parts.back().front());
     if (open.size() != 1)
         throw NotSweepable(Message("closure.steps",
-                                   "the steps at {} are cut towards the opposite end, which is missing, and "
-                                   "{} loops are open instead of one",
+                                   "the steps at {} need the opposite end, which is missing, and {} loops "
+                                   "are open instead of one",
                                    step, found(open.size()))
-                               .remedy("give its face, or the other missing faces"));
+                               .remedy("give that end, or the other missing faces"));
     add_void_face(volume,
                   fill(volume, {reversed(open.front())}, nullptr, {"the end opposite ", {step}}, context),
                   other);

@@ -37,8 +37,8 @@ PatchSide patch_side(const Model& model, const std::vector<EdgeUse>& uses)
     return side;
 }
 
-/// Place the points of a rising side by the follower's height on the walls, because void edges have points at
-/// even heights.
+/// Give the points of a rising side the positions of the follower's heights, because void edges have points
+/// at even heights.
 void by_height(PatchSide& side, const Follower& follower, bool rising)
 {
     const std::size_t n = side.chain.size();
@@ -103,8 +103,8 @@ geometry::Triangulation grid_within(const Outline& outline, double width, double
     // Cells per direction: the facets' error on a twisted patch is then 1/256 of that of two facets. If the
     // sides are finer, they are curved, and the grid is at least as fine.
     constexpr Index kCells = 16;
-    // Upper bound of cells, for sides as fine as those of scans: a void face needs no such resolution. A
-    // higher bound costs facets; a lower one makes them coarser than the sides earlier.
+    // Upper bound of the number of cells. Sides as fine as those of scans would give far more than the shape
+    // of a void face needs; the grid is then coarser than its sides.
     constexpr double kMostCells = 1e5;
     const double coarser = std::max(1.0, std::sqrt(width * height / kMostCells));
     const Index across = std::max(kCells, static_cast<Index>(width / coarser));

@@ -136,10 +136,10 @@ std::vector<char> points_on_edges(const Model& model)
     return on_edge;
 }
 
-/// Sum over the common facet sides of a part's ends and walls of their length times the cosine between the
-/// wall and the end's normal: positive if the walls leave the ends on the side that these face, negative if
-/// on the other side, 0 if both occur or the part lacks an end. Walls that join two ends leave them on the
-/// void's side; only walls of a step leave an end on the other side.
+/// On which side of a part's ends its walls stand: the sum over the facet sides common to an end and a wall
+/// of length times the cosine between the wall and the end's normal. Positive: on the side that the ends
+/// face; negative: on the other side; 0: on both, or the part lacks an end. Walls that join two ends stand on
+/// the void's side; only walls of a step stand on the other side.
 double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
                      const std::vector<char>& on_edge)
 {
@@ -181,11 +181,11 @@ double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
     return before > 0 && behind < 0 ? 0 : before + behind;
 }
 
-/// For each part, whether its facets face the void. The first rule that applies decides:
-/// 1. walls of a part inside no other, if they all leave its two ends to the same side;
-/// 2. ends that see an opposite end of another part;
-/// 3. ends of a part inside no other that see its own opposite end;
-/// 4. the void is on the centre's side of the facets, or on the far side for a part inside another.
+/// For each part, whether its facets face the void. The first applicable rule decides:
+/// 1. its walls all stand on the same side of its two ends, and the part is inside no other;
+/// 2. its ends face, or face away from, an opposite end of another part;
+/// 3. its ends face, or face away from, its own opposite end, and the part is inside no other;
+/// 4. otherwise the void is on the side of the facets' centre; for a part inside another, on the far side.
 std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<std::vector<FaceId>>& parts,
                                     const std::vector<char>& on_edge, const RunContext& context)
 {

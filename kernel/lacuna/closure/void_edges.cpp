@@ -25,8 +25,8 @@ namespace {
 
 /// Maximum number of segments of a void edge: a bend by 90° turns by less than 1.5° at each.
 constexpr int kMostSegments = 64;
-/// Maximum turn of a smooth curve's tangents, 3/4 of a circle. The handles become infinite at a full one; a
-/// higher value lets curves bulge further.
+/// Maximum turn between the tangents at both ends of a smooth curve: 3/4 of a circle [radian]. At a full
+/// circle the handles become infinite.
 constexpr double kMostTurn = 1.5 * std::numbers::pi;
 
 // --- gaps ---------------------------------------------------------------------------------------------
@@ -175,12 +175,12 @@ double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, cons
         asked = asked || gap.below.empty() || gap.above.empty();
     }
     if (asked && !(std::abs(lean) > kFileAccuracy * length)) {
-        throw NotClosed(
-            Message("closure.no_side",
-                    "{} and {} do not face each other, so smooth void edges could leave on either side",
-                    entity_of(model, volume.faces(Role::source).front()),
-                    entity_of(model, volume.faces(Role::target).front()))
-                .remedy("give one with close{{ void_edges = … }}"));
+        throw NotClosed(Message("closure.no_side",
+                                "{} and {} do not face each other, so the side to which smooth void edges "
+                                "leave them is ambiguous",
+                                entity_of(model, volume.faces(Role::source).front()),
+                                entity_of(model, volume.faces(Role::target).front()))
+                            .remedy("give one edge with close{{ void_edges = … }}"));
     }
     return lean < 0 ? -1 : 1;
 }
@@ -226,16 +226,18 @@ std::vector<Vec3> course_by_hand(const Model& model, const VoidEdge& edge, Verte
         const Vec3& p = edge.points[i];
         if (!p.allFinite())
             throw InvalidInput("closure.void_edge_point",
-                               "the void edge from {} to {}: point {} is not finite", vertex(edge.from),
-                               vertex(edge.to), i + 1);
+                               "the void edge from {} to {}: the coordinates of point {} are not finite",
+                               vertex(edge.from), vertex(edge.to), i + 1);
         const bool at_end = (i == 0 && (p - before).norm() <= model.tolerance) ||
                             (i + 1 == edge.points.size() && (p - last).norm() <= model.tolerance);
         if (at_end) continue;
         if ((p - before).norm() <= model.tolerance || (p - last).norm() <= model.tolerance)
             throw InvalidInput(
-                "closure.void_edge_point",
-                "the void edge from {} to {}: point {} coincides with the previous one or with an end",
-                vertex(edge.from), vertex(edge.to), i + 1);
+                Message(
+                    "closure.void_edge_point",
+                    "the void edge from {} to {}: point {} coincides with the previous point or with an end",
+                    vertex(edge.from), vertex(edge.to), i + 1)
+                    .remedy("leave it out"));
         points.push_back(p);
         before = p;
     }
@@ -257,9 +259,11 @@ void check_clear(const Model& model, const VoidEdge& edge, const std::vector<Vec
             const geometry::FacetTree::RayHit hit = tree.first_along(way[i] + start * along, along);
             if (hit.triangle < 0 || hit.t > end - start) continue;
             const Vec3 place = way[i] + (start + hit.t) * along;
-            throw InvalidInput("closure.void_edge_crosses", "the void edge from {} to {} crosses {} at {}",
-                               vertex(edge.from), vertex(edge.to), entity_of(model, FaceId(f)),
-                               place_with_digits(place, 6));
+            throw InvalidInput(Message("closure.void_edge_crosses",
+                                       "the void edge from {} to {} crosses {} at {}", vertex(edge.from),
+                                       vertex(edge.to), entity_of(model, FaceId(f)),
+                                       place_with_digits(place, 6))
+                                   .remedy("move its points"));
         }
     }
 }
@@ -312,8 +316,10 @@ private:
             throw InvalidInput("closure.void_edge_ends", "the void edge from {} to {} must join two vertices",
                                vertex(edge.from), vertex(edge.to));
         if (pairs_.contains(std::minmax(from, to)))
-            throw InvalidInput("closure.void_edge_twice", "the void edge from {} to {} is given twice",
-                               vertex(edge.from), vertex(edge.to));
+            throw InvalidInput(Message("closure.void_edge_twice",
+                                       "the void edge from {} to {} is given twice", vertex(edge.from),
+                                       vertex(edge.to))
+                                   .remedy("give it once"));
         for (const Gap& gap : gaps_) {
             if (std::minmax(gap.from, gap.to) == std::minmax(from, to)) return;
         }

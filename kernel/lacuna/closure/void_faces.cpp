@@ -128,13 +128,11 @@ std::vector<Loop> void_loops(const OpenVolume& volume, const std::vector<EdgeId>
         if (!walker.open(start)) continue;
         const auto path = walker.walk(start, start, kLookAhead);
         if (!path) {
-            throw NotClosed(
-                Message("closure.walk_open",
-                        "the walk from free {} does not return to it, so the free edges around it "
-                        "form no loop",
-                        entity_of(model, start.edge))
-                    .remedy("check the faces next to it, or pair the vertices with match{{ "
-                            "vertices = … }}"));
+            throw NotClosed(Message("closure.walk_open",
+                                    "the walk from free {} along free edges does not return to its start",
+                                    entity_of(model, start.edge))
+                                .remedy("check the faces next to it, or pair the vertices with match{{ "
+                                        "vertices = … }}"));
         }
         walker.take(*path);
         loops.push_back({*path});

@@ -104,8 +104,8 @@ struct QuadraticHeight {
 /// conic do not determine the height inside.
 std::optional<QuadraticHeight> quadratic_through(const Model& model, const NewellOutline& newell)
 {
-    // Least over largest eigenvalue. Ellipses are below 1e-4, slots 1.5 times as long as wide at 9e-4, longer
-    // ones up to 5e-3.
+    // Ratio of the smallest to the largest eigenvalue below which many quadratic heights fit. Ellipses are
+    // below 1e-4, slots 1.5 times as long as wide at 9e-4, longer ones up to 5e-3.
     constexpr double kManyConics = 7e-4;
     struct Sample {
         Vec2 place;
@@ -316,7 +316,7 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
             result = fill_transfinite(model, sides, follower, context);
         } catch (const InvalidInput& error) {
             throw NotClosed(Message("closure.face_folds",
-                                    "{}{}, with {}, folds when blended between its sides", face.words,
+                                    "{}{}, with {}, folds if it is blended between its sides", face.words,
                                     face.entity, entity_of(model, sides.front().front().edge))
                                 .attempt(error.message()));
         }
@@ -331,7 +331,7 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
     } else {
         const auto [a, b] = crossing_edges(model, loops, *crossing);
         throw NotClosed(Message("closure.outline_crosses",
-                                "{}{} cannot be laid out in a plane: {} and {} cross there", face.words,
+                                "{}{} cannot be flattened: {} and {} cross in its plane", face.words,
                                 face.entity, a, b)
                             .remedy("give a face for it, or split it by one more wall"));
     }
@@ -349,8 +349,8 @@ VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
     if (const auto crossing = geometry::find_crossing(outline.flat, outline.loops)) {
         const auto [a, b] = crossing_edges(model, loops, *crossing);
         throw NotClosed(Message("closure.outline_crosses",
-                                "{}{} cannot be projected to a plane: {} and {} cross there, so it cannot be "
-                                "parallel to the given end",
+                                "{}{} cannot be projected to a plane, because {} and {} cross there, so it "
+                                "cannot be parallel to the given end",
                                 face.words, face.entity, a, b)
                             .remedy("use cap = \"flat\""));
     }

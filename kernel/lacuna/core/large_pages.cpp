@@ -19,7 +19,7 @@ void use_large_pages(void* memory, std::size_t bytes)
 
 void clear_pages(void* memory, std::size_t bytes, const std::atomic<bool>& enough)
 {
-    constexpr std::size_t kPage = 4096; // the smallest page size there is
+    constexpr std::size_t kPage = 4096; // the smallest page size in use
     auto* const begin = static_cast<volatile char*>(memory);
     for (std::size_t at = 0; at < bytes && !enough.load(std::memory_order_relaxed); at += kPage)
         begin[at] = 0;

@@ -77,7 +77,7 @@ private:
     Role role_ = Role::plain;
 };
 
-/// Mark what the input has, and what it would need instead: `found(12)`, `needed(14)`.
+/// Mark a value as the one found in the input, or as the one needed instead: `found(12)`, `needed(14)`.
 inline Argument found(const Argument& value) { return {Argument::Role::found, value}; }
 inline Argument needed(const Argument& value) { return {Argument::Role::needed, value}; }
 
@@ -116,7 +116,7 @@ private:
     std::string_view text_;
 };
 
-/// What an error or a note says, as data and as text.
+/// An error or a note, as data and as text.
 ///
 ///     Message("surface.sides_asked", "{} has {} sides, but {} are asked for", face, found(7), needed(9))
 ///         .remedy("give an even number")
@@ -170,7 +170,7 @@ public:
 
 private:
     Message(std::string_view code, std::string_view format, std::initializer_list<Argument> arguments);
-    /// Keep the arguments as data. @return  their text
+    /// Store the arguments as data. @return  the formatted text
     std::string add(std::string_view format, std::initializer_list<Argument> arguments);
     void add(const NamedEntity& entity);
 

@@ -9,7 +9,7 @@ namespace lacuna {
 
 std::size_t edit_distance(const char* a, const char* b)
 {
-    // Over one row. Names are short: of letters beyond the row only their number counts.
+    // Computed over one row of this length. Names are short; letters beyond it only count by their number.
     constexpr std::size_t kLongest = 63;
     const std::size_t m = std::min(std::strlen(a), kLongest), n = std::min(std::strlen(b), kLongest);
     std::array<std::size_t, kLongest + 1> row{};

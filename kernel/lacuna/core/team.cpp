@@ -10,7 +10,7 @@ namespace lacuna {
 
 namespace {
 
-// The first byte of each exchanged string says whether it is a contribution or an error.
+// The first byte of each exchanged string tells whether it is a result or an error.
 constexpr char kSaid = 's', kFailed = 'f';
 
 std::string failure(const Message& message)

@@ -125,12 +125,13 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
     if (share == 1) return;
     if (!layers.heights.empty() || layers.bias != 1)
         throw InvalidInput(
-            Message("sweep.full_turn_layers", "layers of a full turn have no first and no last")
-                .remedy("give their count alone, or sweep the pieces that volume:cut() gives with 'heights' "
-                        "or a 'bias' of their own"));
+            Message("sweep.full_turn_layers", "the layers of a full turn have no first and no last one")
+                .remedy("give only their number, or sweep the pieces that volume:cut() returns, each with "
+                        "its 'heights' or 'bias'"));
     if (layers.count == 0) return;
     if (layers.count < kLeastPerTurn)
-        throw InvalidInput("sweep.full_turn_layers", "a full turn needs {} layers at least; asked for are {}",
+        throw InvalidInput("sweep.full_turn_layers",
+                           "a full turn needs at least {} layers, but {} are asked for",
                            needed(kLeastPerTurn), found(layers.count));
     const auto until = [&](double turn) { return static_cast<int>(std::lround(turn * layers.count)); };
     layers.count = std::max(1, until(volume.turn_to) - until(volume.turn_from));

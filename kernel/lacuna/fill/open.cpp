@@ -23,10 +23,10 @@ using topology::Roles;
 std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunContext& context)
 {
     if (roles.source.empty() && roles.target.empty())
-        throw InvalidInput(Message("lua.walls_without_ends",
-                                   "open_volume: walls = \"auto\" needs a source or a target, from whose rim "
-                                   "it finds the walls")
-                               .remedy("name one end"));
+        throw InvalidInput(
+            Message("lua.walls_without_ends",
+                    "open_volume: walls = \"auto\" searches from the rim of an end, and none is named")
+                .remedy("name the source or the target"));
     const topology::WallChoice found = topology::find_walls(model, roles.source, roles.target, context);
     roles.walls = found.walls;
     std::vector<FaceId>& end = roles.source.empty() ? roles.target : roles.source;
@@ -104,7 +104,7 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
     if (volume.closure && request.override_class && *request.override_class != volume.classification.value)
         throw InvalidInput(
             Message("lua.class_of_found_roles",
-                    "open_volume: these faces are swept between ends that closing makes, as class {}",
+                    "open_volume: at least one end of these faces is missing, and they are swept as class {}",
                     found(topology::to_string(volume.classification.value)))
                 .remedy("to override the class, name the roles"));
     if (!volume.closure) {

@@ -85,8 +85,9 @@ Volume match(Volume volume, const std::optional<matching::MatchOptions>& options
 Volume close(Volume volume, const std::optional<closure::CloseOptions>& options, const RunContext& context)
 {
     if (volume.closure && options && volume.told)
-        throw InvalidInput("lua.sealed", "close: the volume is sealed already; give these options to its "
-                                         "first close()");
+        throw InvalidInput(
+            "lua.sealed",
+            "close: the volume is sealed already; give these options in the first call of close()");
     if (volume.closure && options) reopen(volume, context);
     if (options) volume.others.reset();
     if (volume.closure) { // sealed while its roles were found, without logging its assumptions

@@ -28,7 +28,8 @@ struct Volume {
     std::shared_ptr<const closure::OtherSweeps> others;
     bool take_guess = false; ///< whether an ambiguous closing is accepted
     bool told = false;       ///< whether the notes of the closure were logged
-    int level = 0; ///< for a piece cut at steps: 0 spans source to target, others take the layers left over
+    /// For a piece cut at steps: 0 runs from source to target; others take the remaining layers.
+    int level = 0;
     double turn_from = 0, turn_to = 1; ///< for a piece of a full turn: its range, as fractions of the turn
     std::string turn_of;               ///< for a piece of a full turn: region of the whole turn
     std::string name;                  ///< region of its cells; empty: the default

@@ -245,7 +245,8 @@ void DelaunayMesh::fix_segment(Index a, Index b)
             break;
         t = tri.across((side + 1) % 3);
         if (t == start || t < 0)
-            throw Error("geometry.internal", "no triangle at a point contains the direction of its segment");
+            throw Error("geometry.internal",
+                        "internal error: no triangle at a point contains the direction of its segment");
     }
     std::vector<Index> strip{t};
     std::vector<Index> right{a, (*this)[t].from(side)};
@@ -261,7 +262,7 @@ void DelaunayMesh::fix_segment(Index a, Index b)
         const Index apex = tri.corner[static_cast<std::size_t>(entry)];
         if (apex == b) break;
         const double turn = orient2d(at(a), at(b), at(apex));
-        if (turn == 0) throw Error("geometry.internal", "a segment passes through a point");
+        if (turn == 0) throw Error("geometry.internal", "internal error: a segment passes through a point");
         (turn > 0 ? left : right).push_back(apex);
         // The corners are the apex and the ends of the left and right chains; cross the side between the apex
         // and one end.
@@ -312,7 +313,9 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
                     best = i;
                 }
             }
-            if (best == 0) throw Error("geometry.internal", "a strip along a segment cannot be triangulated");
+            if (best == 0)
+                throw Error("geometry.internal",
+                            "internal error: a strip along a segment cannot be triangulated");
             made.push_back({chain[last], chain[first], chain[best]});
             pending.emplace_back(first, best);
             pending.emplace_back(best, last);
@@ -321,7 +324,8 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
     fill(left);  // b … a; the base is a → b
     fill(right); // a … b; the base is b → a
     if (made.size() != strip.size())
-        throw Error("geometry.internal", "retriangulating a strip changed its number of triangles");
+        throw Error("geometry.internal",
+                    "internal error: retriangulating a strip changed its number of triangles");
 
     std::map<std::pair<Index, Index>, Index> owner;
     for (std::size_t i = 0; i < made.size(); ++i) {

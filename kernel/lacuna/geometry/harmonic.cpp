@@ -19,8 +19,8 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Half the digits of a double. Smaller weights, relative to the others of a point, are lost to rounding in
-/// the solution, so this is their lower limit: the system stays regular, and all weights positive.
+/// Half the digits of a double: the lower limit of weights, relative to the others of a point. Smaller
+/// weights are lost to rounding in the solution; the limit keeps the system regular and all weights positive.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 constexpr Index kFree = -1, kUnused = -2;

@@ -63,8 +63,8 @@ Plane newell_plane(std::span<const std::vector<Vec3>> loops)
         if (!first && !loop.empty()) first = &loop;
     }
     if (!first)
-        throw InvalidInput("geometry.no_points", "the plane of loops needs points; "
-                                                 "expected at least one loop of three points or more");
+        throw InvalidInput("geometry.no_points",
+                           "the plane of loops needs at least one loop of three points or more");
     Vec3 origin = Vec3::Zero();
     for (const Vec3& point : *first) origin += point - first->front();
     origin = first->front() + origin / static_cast<double>(first->size());

@@ -22,7 +22,8 @@ class RowPattern {
 public:
     explicit RowPattern(int size) : parent_(index(size), -1), met_(index(size), -1), row_(index(size)) {}
 
-    /// Columns of row k of L, each after those that it depends on, as the last part of `row_`.
+    /// The columns in which row k of L has entries, ordered so that each comes after those it depends on;
+    /// stored at the end of `row_`.
     /// @param tells  called with each entry of column k of the upper triangle.
     template <class Tell>
     std::span<const int> of(const Matrix& upper, int k, const Tell& tell)

@@ -219,10 +219,10 @@ GrownFace grow_face(const topology::Model& model, const Vec3& near, std::span<co
                                .remedy("give fewer conditions"));
     for (std::size_t f = 0; f < model.faces.size(); ++f)
         if (model.faces[f].surface)
-            throw InvalidInput("healing.exact_faces",
-                               "{} is an exact CAD surface, which cannot be cut; faces are grown in meshes "
-                               "only",
-                               entity_of(model, FaceId(f)));
+            throw InvalidInput(
+                "healing.exact_faces",
+                "{} is an exact CAD surface and cannot be split; only faces of facets can be grown",
+                entity_of(model, FaceId(f)));
     Grower grower(model, options.angle);
     const std::vector<bool> grown = grower.grow(near, among, context);
     const Index seed = grower.seed_face();

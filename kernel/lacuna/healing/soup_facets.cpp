@@ -61,7 +61,7 @@ void check_size(const Vec3& low, const Vec3& high, double diagonal)
     constexpr double kLeast = 1e-70, kMost = 1e70; // their fourth powers are well within a double's range
     if (low == high || (diagonal > kLeast && diagonal < kMost)) return;
     throw InvalidInput(Message("topology.size",
-                               "the facets lie between {} and {}: areas overflow or underflow at this size",
+                               "the facets lie between {} and {}: at this size, areas overflow or underflow",
                                place_with_digits(low, 6), place_with_digits(high, 6))
                            .remedy("load with another scale"));
 }
@@ -227,12 +227,14 @@ void check_left(const FacetSoup& soup, const Facets& facets, double given)
                                .remedy("give a smaller one"));
     Message message = facets.count() == 0
                           ? Message("topology.no_facets",
-                                    "every facet is smaller than the tolerance of {:.4g}: it depends on the "
-                                    "extent of all points",
+                                    "every facet is smaller than the tolerance of {:.4g}, which is derived "
+                                    "from the extent of all points",
                                     found(facets.tolerance))
+                                .remedy("give a smaller tolerance")
                           : Message("topology.small_facets",
-                                    "{} facets are smaller than the tolerance of {:.4g} and {} are not: it "
-                                    "depends on the extent of all points",
+                                    "{} facets are smaller than the tolerance of {:.4g} and {} are not; the "
+                                    "tolerance is derived from the extent of all points, so check for "
+                                    "outlying points, or give a smaller one",
                                     found(facets.shrunk), found(facets.tolerance), facets.count());
     throw InvalidInput(std::move(message).remedy(
         "remove the point at {} if it is not part of the shape, or give a tolerance",

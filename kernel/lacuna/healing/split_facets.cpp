@@ -99,7 +99,7 @@ std::vector<Vec3> normals_of(const Facets& facets, const FacetSides& sides, doub
 }
 
 struct Flood {
-    std::vector<Index> face;   ///< of each facet
+    std::vector<Index> face;   ///< for each facet
     std::vector<bool> flipped; ///< facets oriented against their face
     Index faces = 0;
 };
@@ -136,12 +136,12 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, double feature,
                     flood.flipped[index(g)] = flipped;
                     front.push_back(g);
                 } else if (flood.flipped[index(g)] != flipped) {
-                    throw InvalidInput(
-                        Message("topology.not_orientable",
-                                "{} is one-sided, as a Möbius band is: facets at {} cannot be oriented",
-                                NamedEntity{"face", face + 1},
-                                place_with_digits(facets.points[index(sides.from(side))], 6))
-                            .remedy("give its parts different labels"));
+                    throw InvalidInput(Message("topology.not_orientable",
+                                               "{} is one-sided like a Möbius band: its facets at {} cannot "
+                                               "be oriented consistently",
+                                               NamedEntity{"face", face + 1},
+                                               place_with_digits(facets.points[index(sides.from(side))], 6))
+                                           .remedy("give its parts different labels"));
                 }
             }
         }
@@ -337,7 +337,7 @@ private:
     const FacetSides& sides_;
     const RunContext& context_;
     double least_cosine_;
-    std::vector<Index> kind_; ///< of each segment; -1 within a face
+    std::vector<Index> kind_; ///< for each segment; -1 within a face
     std::vector<bool> done_;  ///< segments already chained
     Incidence at_;            ///< edge segments at each point
     std::vector<bool> is_vertex_;

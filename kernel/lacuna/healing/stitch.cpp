@@ -133,8 +133,8 @@ void Stitcher::join_vertices()
     }
     if (furthest > 2 * tolerance_) {
         report_.notes.push_back(Message("healing.vertex_chain",
-                                        "vertices are closer than the tolerance of {:.3g} in a chain; all "
-                                        "became one, and {} moved by {:.3g}",
+                                        "a chain of vertices, each within the tolerance of {:.3g} of the "
+                                        "next, became one vertex, and {} moved by {:.3g}",
                                         tolerance_, entity_of(model(), VertexId(far)), furthest)
                                     .remedy("give a smaller tolerance to keep them apart"));
     }
@@ -168,7 +168,7 @@ void Stitcher::settle_points()
     }
     for (const FaceId f : shrunk.meshes) {
         report_.notes.push_back(Message("healing.mesh_not_kept",
-                                        "the mesh of {} cannot be kept: it has quads with sides no longer "
+                                        "the mesh of {} cannot be kept: sides of its quads are no longer "
                                         "than the tolerance of {:.3g}",
                                         entity_of(model(), f), tolerance_)
                                     .remedy("give a smaller tolerance"));
@@ -301,11 +301,11 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
                 stop.node = taken = near;
         }
         if (stop.node == 0 && keeps_mesh) {
-            report_.notes.push_back(Message("healing.kept_meshes_differ",
-                                            "{} lies on {} between two nodes of a kept mesh, so the faces "
-                                            "there stay apart",
-                                            entity_of(model(), stop.vertex), named(e))
-                                        .remedy("load with keep_mesh = false, or make the meshes match"));
+            report_.notes.push_back(
+                Message("healing.kept_meshes_differ",
+                        "{} lies on {} between two nodes of a kept mesh, so the faces stay unconnected there",
+                        entity_of(model(), stop.vertex), named(e))
+                    .remedy("load with keep_mesh = false, or make the meshes match"));
             continue;
         }
         // A stop before an occupied point would fold the edge back.
@@ -393,8 +393,8 @@ void Stitcher::merge_edges()
     }
     if (bundles.empty()) return;
 
-    // Collect the sides that get points first, with the points before merging and the numbers they merge
-    // into.
+    // For each facet side that gets points: its end points and new points, with the point numbers from before
+    // merging, and the numbers they are merged into. All are collected before any is changed.
     struct FilledSide {
         Index from, to;
         std::vector<Index> between;
@@ -463,7 +463,8 @@ std::vector<Stitcher::Bundle> Stitcher::bundles_of(std::vector<EdgeId> group)
     return bundles;
 }
 
-/// Merge two free edges further apart than the tolerance if they are close relative to their length.
+/// Merge two free edges that are further apart than the tolerance, if their distance is small relative to
+/// their length.
 void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
 {
     std::vector<Bundle*> free;
@@ -478,11 +479,11 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
     if (!try_add(*free[0], b, reach)) return;
     report_.notes.push_back(Message("healing.edges_sewn",
                                     "{} of {} and {} of {} have the same ends and are up to {:.3g} apart "
-                                    "between them; they were merged along the first",
+                                    "between them; they were merged into the first",
                                     named(a), entity_of(model(), face_a), named(b),
                                     entity_of(model(), face_b),
                                     greatest_gap(track(a), track(b), tolerance_, context_))
-                                .remedy("give a tolerance to decide it yourself"));
+                                .remedy("to decide this yourself, give a tolerance"));
     report_.sewn.push_back(report_.notes.back());
     std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
 }
@@ -555,11 +556,12 @@ bool Stitcher::add_nodes(Bundle& bundle, EdgeId e, bool reversed,
     become.push_back(order.back());
     if (keeps_mesh) fits = fits && std::set<std::size_t>(become.begin(), become.end()).size() == order.size();
     if (!fits) {
-        report_.notes.push_back(Message("healing.kept_meshes_differ",
-                                        "{} and {} coincide, but a kept mesh has other nodes there, so the "
-                                        "faces stay apart",
-                                        named(bundle.first), named(e))
-                                    .remedy("load with keep_mesh = false, or make the meshes match"));
+        report_.notes.push_back(
+            Message(
+                "healing.kept_meshes_differ",
+                "{} and {} coincide, but a kept mesh has other nodes there, so the faces stay unconnected",
+                named(bundle.first), named(e))
+                .remedy("load with keep_mesh = false, or make the meshes match"));
         return false;
     }
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {

@@ -83,8 +83,8 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
     std::map<std::vector<EdgeId>, std::vector<FaceId>> by_border;
     for (std::size_t f = 0; f < edges.size(); ++f)
         if (!loose.is_gone(FaceId(f))) by_border[edges[f]].emplace_back(f);
-    // Many faces may have no border, such as spheres. Their boxes tell most of them apart; boxes of different
-    // facets of the same surface differ by far less than a tenth.
+    // Many faces may lack a border, such as spheres. Comparing their boxes excludes most pairs; the boxes of
+    // different facets of one surface differ by far less than a tenth.
     std::map<FaceId, Eigen::AlignedBox3d> boxes;
     const auto box_of = [&](FaceId f) -> const Eigen::AlignedBox3d& {
         auto [box, fresh] = boxes.try_emplace(f);

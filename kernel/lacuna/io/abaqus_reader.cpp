@@ -43,7 +43,7 @@ std::optional<DeckShape> shape_of(std::string_view type)
         if (family.word == "STRI" && nodes == 65) nodes = 6;
         constexpr std::array<int, 5> kCorners{3, 4, 5, 6, 8};
         const bool centred = family.dimension == 3 &&
-                             (nodes == 14 || nodes == 18 || nodes == 27); // not Abaqus's
+                             (nodes == 14 || nodes == 18 || nodes == 27); // shapes that Abaqus does not have
         if (centred) continue;
         for (const int corners : kCorners)
             if (const auto shape = find_shape(family.dimension, corners, nodes)) return shape;
@@ -367,7 +367,7 @@ private:
         for (const DeckBlock& block : deck.blocks)
             for (std::size_t e = 0; e < block.count(); ++e) {
                 if (!std::ranges::binary_search(cells, block.tags[e])) continue;
-                for (const Index node : block.element(e)) // of a part that is read by its number
+                for (const Index node : block.element(e)) // nodes of the current part, by index
                     if (node >= 0) set().members.push_back(of_instance ? deck.point_tags[index(node)] : node);
             }
     }
@@ -431,7 +431,7 @@ private:
         std::size_t further = 0;
         while (!line.empty()) {
             const std::string_view field = next_field(line);
-            if (field.empty() && line.empty()) break; // a comma at the end says that the next line goes on
+            if (field.empty() && line.empty()) break; // a comma at the end means that the next line continues
             const Index number = whole(field);
             if (given_ < wanted)
                 element_[given_++] = number;
@@ -661,30 +661,31 @@ private:
         if (count > budget_) fail("ranges, sets and instances make more than the file could mean");
         budget_ -= count;
     }
-    static constexpr std::size_t kMadePerByte = 16; // some fifty sets of all elements; not measured
+    // Sets and copies created per byte of the file: about fifty sets of all elements; not measured.
+    static constexpr std::size_t kMadePerByte = 16;
 
-    std::size_t budget_ = 100'000; // and what a small deck may make
+    std::size_t budget_ = 100'000; // what even a small deck may create
 
     Cursor& main_;
     DeckBuilder& into_;
     DeckFiles files_;
-    std::vector<std::unique_ptr<Scope>> parts_; ///< the first is what stands outside all parts
+    std::vector<std::unique_ptr<Scope>> parts_; ///< the first scope holds what is outside all parts
     Scope* scope_ = nullptr;
     std::map<std::pair<Scope*, std::string>, Index> regions_;
-    std::vector<Index> set_instance_; ///< of the deck's first sets
+    std::vector<Index> set_instance_; ///< instance of each of the deck's first sets
     DeckPlace place_, element_place_;
     Mode mode_ = Mode::none;
     bool mesh_begun_ = false, in_part_ = false, cylindrical_ = false, generate_ = false, goes_on_ = false;
-    std::ptrdiff_t set_ = -1; ///< of the scope, that is read
+    std::ptrdiff_t set_ = -1; ///< index in the scope of the set that is being read
     Index of_instance_ = -1;
     std::string type_, instance_name_;
     DeckShape shape_ = DeckShape::hex8;
     std::size_t block_ = 0, given_ = 0;
-    std::ptrdiff_t further_ = -1; ///< nodes that each line of the keyword lists too many; -1: not known yet
+    std::ptrdiff_t further_ = -1; ///< number of surplus nodes in each line of the keyword; -1: not known yet
     Index region_ = 0;
-    std::array<Index, 28> element_{}; ///< tag and nodes of the element that is read
+    std::array<Index, 28> element_{}; ///< tag and nodes of the element that is being read
     Scope* instance_part_ = nullptr;
-    std::vector<std::vector<double>> rows_; ///< of an instance
+    std::vector<std::vector<double>> rows_; ///< data lines of an instance
     DeckTag highest_ = 0;
 };
 

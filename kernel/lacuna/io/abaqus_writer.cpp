@@ -157,7 +157,7 @@ private:
                 if (set.kind != mesh::SetKind::elements || !same_word(set.name, regions[r].name) ||
                     !is_region(set, r))
                     continue;
-                // Not by both: CalculiX would list each element twice in the set.
+                // Not by both ways: CalculiX would list each element twice in the set.
                 makes_set_[r] = by_elements_[s] = !set.listed;
                 set_of_region_[r] = static_cast<Index>(s);
             }
@@ -189,7 +189,7 @@ private:
                         set.kind == kind && (abaqus_name(set.name) == set.name) == stays)
                         names_[s] = choose(kind, set.name);
         for (std::size_t r = 0; r < dimensions_.size(); ++r) {
-            if (dimensions_[r] == 0) continue; // without elements
+            if (dimensions_[r] == 0) continue; // no elements
             std::string name = view_->regions[r].name;
             // A region from another format that has only a number is named after it.
             if (name.empty() && !same_)
@@ -280,13 +280,14 @@ private:
     }
 
     View view_;
-    bool same_; ///< names and text stay
+    bool same_; ///< same format: names and text stay
     DeckFile file_;
-    std::vector<bool> by_elements_;                 ///< sets
-    std::vector<bool> makes_set_;                   ///< regions
-    std::vector<Index> set_of_region_;              ///< that it makes; -1: none
-    std::vector<int> dimensions_;                   ///< of the elements of regions; 0: there are none
-    std::vector<std::string> names_, region_names_; ///< of sets and regions in the file
+    std::vector<bool> by_elements_;    ///< sets
+    std::vector<bool> makes_set_;      ///< regions
+    std::vector<Index> set_of_region_; ///< set that each region creates; -1: none
+    /// Dimension of the elements of each region; 0: there are none.
+    std::vector<int> dimensions_;
+    std::vector<std::string> names_, region_names_; ///< names of sets and of regions in the file
 };
 
 } // namespace

@@ -100,19 +100,21 @@ void check_content(const std::string& name, const FormatRow& format, std::string
 {
     if (format.read == read_stl && is_binary_stl(bytes)) return;
     if (const std::string_view unread = unread_by_content(bytes); !unread.empty())
-        throw InvalidInput(Message("io.unreadable",
-                                   "cannot read {}, line 1: expected {}, found {}, which is not read", name,
-                                   format.name, found(unread))
-                               .remedy("export it as .vtu, .unv or .msh"));
+        throw InvalidInput(
+            Message("io.unreadable",
+                    "cannot read {}, line 1: expected {}, found {}, a format that is not supported", name,
+                    format.name, found(unread))
+                .remedy("export it as .vtu, .unv or .msh"));
     const std::string_view ending = ending_by_content(bytes);
     if (ending.empty() || ending == format.ending) return;
     const Format* const other = find_format("file" + std::string(ending));
-    if (other != nullptr && row_of(*other).read == format.read) return; // several endings mean the same
+    // Several endings can mean the same format.
+    if (other != nullptr && row_of(*other).read == format.read) return;
     throw InvalidInput(Message("io.unreadable", "cannot read {}, line 1: expected {}, found {}", name,
                                format.name,
                                found(other != nullptr ? std::string(other->name)
                                                       : formatted("what a {} file begins with", ending)))
-                           .remedy("give it the ending of what it holds, {}", ending));
+                           .remedy("use the file name ending of its contents, {}", ending));
 }
 
 } // namespace
@@ -134,8 +136,8 @@ std::size_t Deck::element_count(int dimension) const
 
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale)
 {
-    // Points sorted along x: within the tolerance there can be as many as in a plane normal to x; of these,
-    // the ones near in y are found by bisection too.
+    // Points are sorted along x. Within the tolerance there can be as many as lie in a plane normal to x;
+    // among these, bisection finds the ones near in y.
     std::vector<Index> order(deck.points.size());
     std::iota(order.begin(), order.end(), Index(0));
     const auto cell_of = [&](double x) { return tolerance > 0 ? std::floor(x / tolerance) : x; };
@@ -185,8 +187,8 @@ Deck read_deck(const std::string& path, const RunContext& context)
     for (const char* cad : {".step", ".stp", ".iges", ".igs", ".brep", ".geo", ".geo_unrolled"})
         if (ending_of(path) == cad) {
             check_file(path);
-            throw InvalidInput(Message("io.no_mesh", "{} is CAD, which has no mesh", path)
-                                   .remedy("`lacuna info` lists faces"));
+            throw InvalidInput(Message("io.no_mesh", "{} is a CAD file, which has no mesh", path)
+                                   .remedy("`lacuna info` lists its faces"));
         }
     needed_reader(path, {});
     Deck deck = read_deck(path, read_file(path));

@@ -36,7 +36,7 @@ struct DeckBlock {
     DeckShape shape = DeckShape::hex8;
     std::string type;             ///< as in the file: "CQUAD4", "S4R", "C3D8I", "115"; may be empty
     std::vector<Index> nodes{};   ///< indices in `Deck::points`; -1: a middle node that the file omits
-    std::vector<DeckTag> tags{};  ///< of each element
+    std::vector<DeckTag> tags{};  ///< for each element
     std::vector<Index> regions{}; ///< index in `Deck::regions`, for each element
     /// Fields of an element's card after its nodes, as in the file, separated by commas: angle, offset and
     /// thicknesses of a Nastran shell. By the element's index in the block, increasing.
@@ -65,10 +65,11 @@ struct DeckSet {
     Kind kind = Kind::elements;
     int tag = 0; ///< number of the group, if the format has one
     std::string name;
-    std::vector<DeckTag> members{}; ///< of nodes or elements, rising, each once; may name what is in `texts`
-    std::vector<DeckSide> sides{};  ///< of a surface, increasing, each once
-    bool listed = false;            ///< Abaqus has a card for it, even if it equals a region
-    bool of_one_deck = false;       ///< holds all nodes or solids of one of several merged decks
+    /// Members of a set of nodes or elements, rising, each once; may include entities in `texts`.
+    std::vector<DeckTag> members{};
+    std::vector<DeckSide> sides{}; ///< members of a surface, increasing, each once
+    bool listed = false;           ///< Abaqus has a card for it, even if it equals a region
+    bool of_one_deck = false;      ///< holds all nodes or solids of one of several merged decks
 };
 
 /// A part instance. Decks without parts have none.
@@ -77,8 +78,8 @@ struct DeckSet {
 /// deck: minus `offset` they are the file's. With more than one instance, sets are named "instance.set".
 struct DeckInstance {
     std::string name, part;
-    std::size_t first_point = 0, points = 0; ///< of `Deck::points`
-    DeckTag offset = 0;                      ///< of nodes and elements
+    std::size_t first_point = 0, points = 0; ///< range of the instance in `Deck::points`
+    DeckTag offset = 0;                      ///< offset of its node and element numbers
 };
 
 /// Text of a file besides the mesh, verbatim and with its line ends, so that the same format can be written
@@ -111,7 +112,7 @@ struct DeckGap {
 struct Deck {
     std::string path;
     DeckFormat format = DeckFormat::nastran;
-    double version = 0;              ///< of .msh and .vtk
+    double version = 0;              ///< version of the format, for .msh and .vtk
     std::vector<Vec3> points;        ///< in the basic frame [the file's length], in the file's order
     std::vector<DeckTag> point_tags; ///< unique
     /// Fields of a node's card after its coordinates, as in the file, separated by commas: the displacement

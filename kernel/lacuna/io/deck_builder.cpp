@@ -162,7 +162,7 @@ void DeckBuilder::add_face(std::span<const Index> corners, Index region, const C
 
 void DeckBuilder::pass_over(const std::string& what, std::size_t count)
 {
-    constexpr std::size_t kMostKinds = 1000; // a file of nonsense must not fill the memory with its words
+    constexpr std::size_t kMostKinds = 1000; // keeps nonsense files from filling the memory with their words
     const bool known = passed_over_.size() < kMostKinds || passed_over_.contains(what);
     if (count > 0) passed_over_[known ? what : "others"] += count;
 }
@@ -184,7 +184,7 @@ std::string DeckBuilder::counted() const
 
 void DeckBuilder::check_points(const std::string& path) const
 {
-    constexpr double kFarthest = 1e100; // a volume of such lengths is still a number
+    constexpr double kFarthest = 1e100; // largest coordinate: its cube is still a finite number
     for (std::size_t p = 0; p < deck_.points.size(); ++p) {
         if (deck_.points[p].cwiseAbs().maxCoeff() <= kFarthest) continue;
         throw InvalidInput("io.unreadable", "cannot read {}: {} has a coordinate beyond 1e100", path,

@@ -68,11 +68,11 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The entities a label stands for; regions and lists of sets by number, -1: none.
+/// The entities that a label stands for: regions, and lists of sets, by number; -1: none.
 struct Label {
     Index shell = -1;     ///< region of the shells
     int sets = 0;         ///< of the shells, or surfaces of the sides
-    Index a = -1, b = -1; ///< regions of the solids on either side, a <= b where both are
+    Index a = -1, b = -1; ///< regions of the solids on either side, a <= b if both exist
     friend auto operator<=>(const Label&, const Label&) = default;
 };
 
@@ -115,10 +115,10 @@ private:
 
     [[noreturn]] void refuse() const
     {
-        throw InvalidInput(
-            Message("io.no_faces", "{} holds no faces that can be read", deck_.path)
-                .remedy("check that it is what its ending says, and holds triangles, quads or solids{}",
-                        deck_.notes.empty() ? "" : formatted(". {}", deck_.notes.front())));
+        throw InvalidInput(Message("io.no_faces", "{} contains no faces", deck_.path)
+                               .remedy("check that its contents agree with its ending, and that it has "
+                                       "triangles, quads or solids{}",
+                                       deck_.notes.empty() ? "" : formatted(". {}", deck_.notes.front())));
     }
 
     void list_sets()
@@ -177,7 +177,7 @@ private:
                 if (corner[k] >= 0) found[k] = joined[index(nodes[index(corner[k])])];
             std::sort(found.begin(), found.end());
             if (found[0] >= 0) return found;
-            return Quad{found[1], -1, found[2], found[3]}; // the least first, then none
+            return Quad{found[1], -1, found[2], found[3]}; // the lowest first, then -1 for the missing corner
         };
         const auto each = [&](const auto& visit) {
             solids_.each([&](std::size_t e, const Elements::Element& element) {
@@ -409,7 +409,7 @@ private:
             for (const Index region : {label.a, label.b})
                 if (region >= 0) about.regions.push_back(names_[index(region)]);
             if (about.regions.empty() && !about.groups.empty()) {
-                // Of a shell between nothing: its own.
+                // A shell next to no solid has its own region.
                 about.regions.push_back({about.groups.back()});
                 if (label.shell >= 0 && !deck_.regions[index(label.shell)].part.empty())
                     about.regions.back().push_back(deck_.regions[index(label.shell)].part);
@@ -434,7 +434,7 @@ private:
     std::vector<Side> sides_;
     std::vector<Label> label_of_shell_, labels_;
     std::map<Label, int> numbers_;
-    std::vector<std::vector<std::string>> names_; ///< of each region
+    std::vector<std::vector<std::string>> names_; ///< for each region
     std::size_t shared_by_many_ = 0, singles_ = 0;
     FacetFile file_;
 };

@@ -108,7 +108,7 @@ std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3
     }
     std::vector<Vec3> middles(wanted.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
     const std::vector<Index> found = find_middles<N>(deck, all);
-    for (std::size_t i = found.size(); i-- > 0;) // of several the first stays
+    for (std::size_t i = found.size(); i-- > 0;) // backwards, so that the first of several wins
         if (found[i] >= 0) middles[of[i]] = deck.points[index(found[i])] * scale;
     return middles;
 }
@@ -159,19 +159,19 @@ void join_centres(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
             if (found[q] < 0)
                 throw InvalidInput(
                     Message("io.mixed_order",
-                            "{}: the quad of {} has no node in its middle in the deck, and the mesh has",
+                            "{}: the quad of {} has no centre node in the deck, but it has one in the mesh",
                             face, corners)
                         .remedy("sweep with serendipity = true"));
             if (!full)
                 throw InvalidInput(
                     Message("io.mixed_order",
-                            "{}: the quad of {} has a node in its middle in the deck, and the mesh has none",
-                            face, corners)
+                            "{}: the quad of {} has a centre node in the deck, but none in the mesh", face,
+                            corners)
                         .remedy("sweep with order = 2, without serendipity"));
             throw InvalidInput(
                 "io.mixed_order",
-                "{}: the quad of {} has the node in its middle elsewhere in the deck than in the mesh", face,
-                corners);
+                "{}: the centre node of the quad of {} has different positions in the deck and in the mesh",
+                face, corners);
         }
         points[middle] = found[q];
     }
@@ -189,7 +189,7 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
 {
     struct Side {
         std::size_t middle; ///< number of the mesh's middle node; 0: of order 1
-        std::size_t quad;   ///< of the skin
+        std::size_t quad;   ///< quad of the skin
     };
     std::vector<Segment> pairs;
     std::vector<Side> sides;
@@ -213,7 +213,7 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
             if (found[s] >= 0)
                 throw InvalidInput(Message("io.mixed_order",
                                            "{}: the side between {} and {} has a middle node in the deck, "
-                                           "and the mesh is of order 1: the two would not conform",
+                                           "but the mesh is of order 1",
                                            face_at(s), node(pairs[s][0]), node(pairs[s][1]))
                                        .remedy("sweep with order = 2, serendipity = true"));
             continue;
@@ -222,7 +222,7 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
             if (matched[sides[s].quad])
                 throw InvalidInput(Message("io.mixed_order",
                                            "{}: the side between {} and {} has no middle node in the deck, "
-                                           "and the mesh is of order 2: the two would not conform",
+                                           "but the mesh is of order 2",
                                            face_at(s), node(pairs[s][0]), node(pairs[s][1]))
                                        .remedy("sweep with order = 1, or give the deck elements of order 2"));
             continue;
@@ -231,7 +231,7 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
         if (!((mesh.node(sides[s].middle) - there).norm() <= tolerance))
             throw InvalidInput(
                 "io.mixed_order",
-                "{}: the side between {} and {} has its middle {} elsewhere in the deck than in the mesh",
+                "{}: the middle of the side between {} and {}, {}, has another position in the mesh",
                 face_at(s), node(pairs[s][0]), node(pairs[s][1]), node(found[s]));
         points[sides[s].middle] = found[s];
     }

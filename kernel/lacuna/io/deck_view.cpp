@@ -62,7 +62,7 @@ struct Bulk {
                 const bool is_last = next == known.end() || index(next->first) - node >= nodes.size();
                 const std::size_t run = is_last ? nodes.size() : index(next->first) - node;
                 if (run > 0) take(nodes.first(run));
-                if (!is_last) ++next; // and pass over the known node
+                if (!is_last) ++next; // and skip the known node
                 const std::size_t passed = is_last ? run : run + 1;
                 node += passed;
                 nodes = nodes.subspan(passed);

@@ -194,7 +194,7 @@ std::string abaqus_name(std::string_view name)
 std::string free_name(std::string_view name, DeckFormat format,
                       const std::function<bool(const std::string&)>& is_taken)
 {
-    constexpr std::size_t kLongest = 80; // characters that Abaqus and CalculiX take
+    constexpr std::size_t kLongest = 80; // maximum length of a name in Abaqus and CalculiX
     const bool abaqus = format == DeckFormat::abaqus;
     const std::string fit = abaqus ? abaqus_name(name) : std::string(name);
     const std::size_t longest = abaqus ? kLongest : fit.npos;
@@ -216,7 +216,7 @@ bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b)
 TextNumbers numbers_in_text(const Deck& deck)
 {
     TextNumbers numbers;
-    bool elements = false; // of an Abaqus deck are read
+    bool elements = false; // whether element lines of an Abaqus deck are being read
     for (const DeckText& text : deck.texts) {
         if (text.place == DeckText::Place::head) continue;
         if (deck.format == DeckFormat::unv) {

@@ -16,11 +16,11 @@ namespace {
 
 /// An array of a netCDF file.
 struct NcArray {
-    std::vector<std::size_t> lengths; ///< of its dimensions
+    std::vector<std::size_t> lengths; ///< lengths of its dimensions
     std::string element_type{};       ///< its attribute of that name
     const VtkType* type = nullptr;
     std::uint64_t begin = 0;
-    bool records = false; ///< one of each time step
+    bool records = false; ///< one array per time step
 };
 
 /// The header of a netCDF file in a classic format: with offsets of 32 or 64 bits, or all counts of 64.
@@ -40,7 +40,7 @@ public:
         cursor_.coding = Coding::big;
         wide_ = version == 5;
         wide_offsets_ = version != 1;
-        count(); // time steps
+        count(); // number of time steps
         read_dimensions();
         skip_attributes(nullptr);
         read_arrays();
@@ -159,7 +159,7 @@ private:
             }
             skip_attributes(&array.element_type);
             array.type = type_of(cursor_.integer());
-            count(); // bytes, which its dimensions say too
+            count(); // number of bytes, which also follows from the dimensions
             array.begin = wide_offsets_ ? cursor_.size() : static_cast<std::uint32_t>(cursor_.integer());
             arrays_.insert_or_assign(of, std::move(array));
         }
@@ -172,11 +172,12 @@ private:
         return number < 1 || number > 11 ? nullptr : vtk_type(kNames[number]);
     }
 
-    static constexpr std::uint64_t kMostTimes = 3; // an array is looked at twice at most
+    static constexpr std::uint64_t kMostTimes = 3; // each array is read at most twice
 
     Cursor& cursor_;
-    mutable std::uint64_t taken_ = 0; ///< bytes so far, for files that say the same bytes are many arrays
-    Cursor whole_ = cursor_;          ///< at the beginning of the file
+    /// Bytes read so far; stops files in which many arrays share the same bytes.
+    mutable std::uint64_t taken_ = 0;
+    Cursor whole_ = cursor_; ///< at the beginning of the file
     bool wide_ = false, wide_offsets_ = false;
     std::vector<std::size_t> dimensions_;
     std::map<std::string, std::size_t> lengths_;
@@ -374,7 +375,7 @@ private:
         for (std::size_t s = 0; s < count; ++s) {
             const std::string number = std::to_string(s + 1);
             const NcArray* members = head_.find(list + number);
-            if (members == nullptr) continue; // an empty one
+            if (members == nullptr) continue; // an empty set
             DeckSet set{.kind = of,
                         .tag = static_cast<int>(std::clamp<std::int64_t>(id[s], 0, kMostTag)),
                         .name = name[s]};
@@ -408,13 +409,13 @@ private:
     }
 
     static constexpr std::int64_t kMostTag = std::numeric_limits<int>::max() - 1;
-    static constexpr std::size_t kLongestName = 4096; // a name longer than this is none
+    static constexpr std::size_t kLongestName = 4096; // limit of a plausible name [bytes]
 
     Cursor& cursor_;
     DeckBuilder& into_;
     NcHead head_;
-    std::vector<DeckTag> numbers_;                 ///< of all elements, block after block
-    std::vector<std::optional<DeckShape>> shapes_; ///< of these; none where they are passed over
+    std::vector<DeckTag> numbers_;                 ///< numbers of all elements, block after block
+    std::vector<std::optional<DeckShape>> shapes_; ///< their shapes; empty: the element is ignored
 };
 
 } // namespace

@@ -45,7 +45,7 @@ void put_name(std::string& out, std::string_view name)
 struct Attribute {
     std::string name;
     NcType type;
-    std::string values{}; ///< as they lie in the file
+    std::string values{}; ///< bytes as in the file
     std::size_t count = 1;
 };
 
@@ -121,11 +121,12 @@ public:
         std::vector<Section> sections(1);
         for (Array& array : arrays_) {
             const std::size_t bytes = array.count * bytes_of(array.type);
-            constexpr std::size_t kMost = 0xffff'fffb; // what the format's counts of bytes hold
+            constexpr std::size_t kMost = 0xffff'fffb; // largest byte count that the format can store
             if (bytes > kMost)
-                throw InvalidInput("io.too_large",
-                                   "{} would have {} bytes, more than an array of netCDF can hold",
-                                   array.name, bytes);
+                throw InvalidInput(Message("io.too_large",
+                                           "{} would have {} bytes, more than a netCDF array can hold",
+                                           array.name, bytes)
+                                       .remedy("write another format"));
             put_array(head, array.name, array.dimensions, array.attributes, array.type, padded(bytes), begin);
             begin += padded(bytes);
             sections.push_back({{},
@@ -140,7 +141,7 @@ public:
         return sections;
     }
 
-    static constexpr int kTimeStep = 0; ///< the first dimension, whose length is that of the records: none
+    static constexpr int kTimeStep = 0; ///< the record dimension comes first; it has no records
 
 private:
     struct Array {
@@ -288,7 +289,7 @@ private:
     struct Set {
         std::string name;
         mesh::Ranges members{};                             ///< from 1
-        std::shared_ptr<std::vector<std::int32_t>> sides{}; ///< of each member; null: not a set of sides
+        std::shared_ptr<std::vector<std::int32_t>> sides{}; ///< for each member; null: not a set of sides
     };
 
     void find_blocks()

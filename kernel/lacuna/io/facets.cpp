@@ -30,8 +30,9 @@ struct Skin {
 {
     const std::vector<EdgeId> open = free_edges(volume);
     if (open.empty())
-        throw InvalidInput(Message("io.not_sealed", "the volume is not sealed, so its facets would not be "
-                                                    "watertight: its facets do not meet side by side")
+        throw InvalidInput(Message("io.not_sealed",
+                                   "the volume is not sealed, so its facets would not be watertight: the "
+                                   "facets of neighbouring faces do not match")
                                .remedy("close() it first"));
     throw InvalidInput(
         Message("io.not_sealed",
@@ -130,7 +131,7 @@ char* put_point(char* out, const Vec3& point)
 
 std::vector<Section> stl_text(const Skin& skin)
 {
-    constexpr std::size_t kWords = 100; // of a facet, besides its numbers
+    constexpr std::size_t kWords = 100; // bytes of the words around a facet's numbers
     return {{"solid volume\n", skin.triangles.size(), kWords + 12 * kNumberBytes,
              [&skin](std::size_t begin, std::size_t end, char* out) {
                  for (std::size_t i = begin; i < end; ++i) {
@@ -256,9 +257,9 @@ void write_facets(const OpenVolume& volume, const OutputPath& path, const FacetF
     const std::string ending = ending_of(path.text());
     if (ending != ".stl" && ending != ".obj" && ending != ".msh")
         throw InvalidInput(Message("io.unknown_ending",
-                                   "cannot write facets to '{}': the ending \"{}\" says no format",
-                                   path.text(), ending)
-                               .remedy("facets are written as .stl, .obj and .msh"));
+                                   "cannot write facets to '{}': the ending \"{}\" is unknown", path.text(),
+                                   ending)
+                               .remedy("use .stl, .obj or .msh"));
     check_sealed(volume);
     const Skin skin = skin_of(volume);
     if (ending == ".msh")

@@ -131,8 +131,8 @@ const Format& needed_mesh_format(const std::string& call, const std::string& pat
     const Format* const format = find_format(path);
     if (format != nullptr && (decks ? holds_decks(*format) : is_written(*format))) return *format;
     throw InvalidInput(
-        Message("lua.unknown_ending", "{}: the ending of {} says no format", call, path)
-            .remedy("meshes are written as {}", decks ? endings_of(holds_decks) : endings_of(is_written)));
+        Message("lua.unknown_ending", "{}: the ending of {} is unknown", call, path)
+            .remedy("mesh files end in {}", decks ? endings_of(holds_decks) : endings_of(is_written)));
 }
 
 const Format& format_of(DeckFormat deck)
@@ -153,9 +153,8 @@ const FormatRow& needed_reader(const std::string& path, std::string_view others)
     const Format* const format = find_format(path);
     if (format != nullptr && format->is_read) return row_of(*format);
     const std::string known = endings_of([](const Format& of) { return of.is_read; });
-    throw InvalidInput(
-        Message("io.unknown_ending", "{}: the ending \"{}\" is unknown", path, ending_of(path))
-            .remedy("files are read that end in {}{}{}", others, others.empty() ? "" : " ", known));
+    throw InvalidInput(Message("io.unknown_ending", "{}: the ending \"{}\" is unknown", path, ending_of(path))
+                           .remedy("supported endings are {}{}{}", others, others.empty() ? "" : " ", known));
 }
 
 } // namespace lacuna::io

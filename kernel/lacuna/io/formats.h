@@ -31,9 +31,10 @@ struct Format {
     enum class Skin { quads, nodes, nodes_and_sides };
     Skin skin = Skin::quads;
     bool has_lines = false, has_hex27 = false;
-    bool numbers_regions = false;      ///< users know regions by property number
-    std::string_view unwritten_sets{}; ///< deck sets that it cannot hold, and why; empty: holds all
-    bool has_node_sets = true;         ///< else sets are of sides only
+    bool numbers_regions = false; ///< users identify regions by property number
+    /// Kinds of deck sets that it cannot store, and why; empty: it stores all.
+    std::string_view unwritten_sets{};
+    bool has_node_sets = true; ///< otherwise sets contain sides only
 
     [[nodiscard]] bool has_option(std::string_view option) const
     {

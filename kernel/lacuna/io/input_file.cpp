@@ -33,10 +33,10 @@ public:
         if (S_ISDIR(about.st_mode))
             refuse(Message("io.not_a_file", "{} is a folder", path).remedy("name a file in it"));
         if (!S_ISREG(about.st_mode))
-            refuse(Message("io.not_a_file", "{} is no plain file but a pipe or a device", path)
+            refuse(Message("io.not_a_file", "{} is a pipe or a device, not a plain file", path)
                        .remedy("copy it to a file"));
         if (about.st_size == 0)
-            refuse(Message("io.empty_file", "{} is empty", path).remedy("export it anew"));
+            refuse(Message("io.empty_file", "{} is empty", path).remedy("export it again"));
         bytes_ = static_cast<std::size_t>(about.st_size);
     }
     ~InputFile() { ::close(descriptor_); }

@@ -99,7 +99,7 @@ private:
         const auto take = [&](std::span<const Index> points, Index region) {
             Quad nodes{-1, -1, -1, -1};
             const std::size_t corners = points.size();
-            bool all = true; // corners are the skin's
+            bool all = true; // whether all corners lie on the skin
             for (std::size_t k = 0; k < corners; ++k) {
                 nodes[k] = node_of_[index(points[k])];
                 all = all && nodes[k] >= 0;
@@ -138,7 +138,7 @@ private:
         }
     }
 
-    using Votes = std::vector<std::array<Index, 2>>; ///< two different points at most, of each node
+    using Votes = std::vector<std::array<Index, 2>>; ///< for each node, at most two different points
 
     static void vote(Votes& votes, Index node, Index point)
     {
@@ -168,8 +168,8 @@ private:
     {
         const Vec3& p = mesh_.nodes[node];
         throw InvalidInput(Message("io.nodes_coincide",
-                                   "{} and {} of the deck both lie at ({}, {}, {}), where the mesh has "
-                                   "one node, and elements beside it use both",
+                                   "{} and {} of the deck both lie at ({}, {}, {}), where the mesh has one "
+                                   "node, and adjacent elements use both",
                                    numbered("node", deck_.point_tags[index(first)]),
                                    numbered("node", deck_.point_tags[index(second)]), p.x(), p.y(), p.z())
                                .remedy("merge coincident nodes in the deck"));
@@ -191,12 +191,12 @@ private:
             if (face == nullptr || matched == quads || !is_of_deck(*face)) continue;
             const std::size_t given = face->given_quads.size();
             throw InvalidInput(Message("io.not_conformal",
-                                       "the deck has {} quads and {} triangles on {}, and {} of {} quads of "
-                                       "the mesh there are faces of its elements",
+                                       "the deck has {} quads and {} triangles on {}, but only {} of the "
+                                       "mesh's {} quads there are faces of its elements",
                                        given,
                                        face->triangles.size() - std::min(2 * given, face->triangles.size()),
                                        entity_of(patch), found(matched), needed(quads))
-                                   .remedy("mesh:report says which meshes were kept"));
+                                   .remedy("mesh:report lists the kept meshes"));
         }
     }
 
@@ -206,9 +206,9 @@ private:
         if (patch.face == 0) return nullptr;
         const auto found = std::ranges::find(model_.faces, patch.face, &topology::Face::tag);
         if (found == model_.faces.end())
-            throw InvalidInput(Message("io.other_model", "with: the mesh has {}, which the model does not",
+            throw InvalidInput(Message("io.other_model", "with: the mesh has {}, but the model does not",
                                        numbered("face", patch.face))
-                                   .remedy("give the model the volume was made of"));
+                                   .remedy("give the model from which the volume was made"));
         return &*found;
     }
 
@@ -229,12 +229,13 @@ private:
     double scale_;
     const mesh::HexMesh& mesh_;
     std::vector<Index> skin_;                        ///< nodes of the mesh
-    NodesAt at_;                                     ///< of these
-    std::vector<std::span<const Index>> candidates_; ///< of each node of the mesh, in `at_`
-    std::vector<Index> node_of_;                     ///< of each of the deck's points the mesh's node; -1
+    NodesAt at_;                                     ///< points of the deck at these nodes
+    std::vector<std::span<const Index>> candidates_; ///< for each node of the mesh, in `at_`
+    /// Node of the mesh at each of the deck's points; -1: none.
+    std::vector<Index> node_of_;
     Votes by_face_, by_side_;
     std::vector<bool> matched_;         ///< quads of the skin
-    std::vector<std::size_t> touching_; ///< faces of each region that are the skin's
+    std::vector<std::size_t> touching_; ///< for each region, number of its faces on the skin
 };
 
 } // namespace

@@ -69,7 +69,7 @@ public:
             if (shape_info(block.shape).dimension == 2) shells[shell_key(block, e)] = block.tags[e];
             int side = 0;
             for (const Quad& face : face_corners(block.shape)) {
-                Quad corners = face; // the last of a triangle stands twice
+                Quad corners = face; // a triangle repeats its last corner
                 for (Index& k : corners) k = nodes[index(k < 0 ? face[2] : k)];
                 faces[face_key(block, e, face)].push_back({corners, {block.tags[e], ++side}});
             }
@@ -97,7 +97,7 @@ public:
             return 1;
         }
         if (old.kind == elements && added_.skin.empty()) return 0;
-        std::vector<double> held; // area of each face of the skin that the set had
+        std::vector<double> held; // for each face of the old skin, its area if the set contained it
         for (const Face& face : skin_) {
             std::vector<DeckTag> corners;
             for (const Index node : face.corners) corners.push_back(gone_.point_tags[index(node)]);
@@ -125,7 +125,7 @@ private:
     struct Face {
         Quad corners;
         DeckSide side;
-        DeckTag shell = -1; ///< of the element that lies on it
+        DeckTag shell = -1; ///< element on the face; -1: none
         Vec3 area = Vec3::Zero();
     };
 
@@ -154,14 +154,15 @@ private:
 
     const Deck& gone_;
     const NewCells& added_;
-    std::vector<DeckTag> cells_, nodes_; ///< of the part that has the volume's name, else of all; rising
-    std::vector<Face> skin_;             ///< of what was left out
-    std::vector<Index> on_;              ///< of each quad of the new skin, in `skin_`; -1: none
-    std::vector<double> area_;           ///< of these quads
+    /// Of the part with the volume's name, otherwise of everything left out; increasing.
+    std::vector<DeckTag> cells_, nodes_;
+    std::vector<Face> skin_;   ///< of the elements left out
+    std::vector<Index> on_;    ///< for each quad of the new skin, in `skin_`; -1: none
+    std::vector<double> area_; ///< area of each of these quads
 };
 
-/// Whether a set of all solids is neither a body's own set nor the cells behind a surface of a one-layer
-/// mesh.
+/// Whether a set of all solids was meant as such: it is neither a body's own set nor the set of cells behind
+/// a surface of a mesh with one layer.
 bool is_of_all(const Deck& deck, const DeckSet& set)
 {
     if (same_word(set.name, "all") || same_word(set.name, "eall")) return true;

@@ -147,8 +147,8 @@ public:
             mark_skin();
         const std::size_t count = static_cast<std::size_t>(std::ranges::count(is_out_, 1));
         if (count == is_out_.size() && count > 0)
-            throw InvalidInput("io.nothing_left", "without: {} {} all of {}; nothing would be left", list(),
-                               parts_.size() > 1 ? "are" : "is", deck_.path);
+            throw InvalidInput("io.nothing_left", "without: {} {} all of {}; no elements would be left",
+                               list(), parts_.size() > 1 ? "are" : "is", deck_.path);
         find_nodes();
         split_blocks();
         split_points();
@@ -172,7 +172,7 @@ private:
     /// face also belongs to a remaining solid.
     void mark_skin()
     {
-        std::map<Quad, bool> stays; // of faces of solids left out
+        std::map<Quad, bool> stays; // by the face of a removed solid, whether it remains
         for (const bool out : {true, false})
             each_element(deck_, [&](const DeckBlock& block, std::size_t e, std::size_t at) {
                 for (const Quad& face : face_corners(block.shape)) {
@@ -308,7 +308,8 @@ private:
             if (after < before)
                 sets_.push_back(formatted("{} loses {} of {}", set.name, before - after, before));
             if (after == 0 && before > 0) add_emptied(set.name);
-            // All nodes, of which the part may have none of its own, are more with the part that replaces it.
+            // The set of all nodes also lost members if the removed part owned no node alone: the replacement
+            // adds nodes.
             if (after < before || after >= deck_.points.size()) gone_.sets.push_back(all);
             found_.kept.sets.push_back(std::move(set));
         }
@@ -337,11 +338,11 @@ private:
     const Deck& deck_;
     std::span<const std::string> parts_;
     TagPlaces elements_, nodes_;
-    std::vector<char> is_out_; ///< elements, of all blocks one after the other
-    std::vector<char> goes_;   ///< nodes
+    std::vector<char> is_out_; ///< whether each element is left out, for all blocks one after the other
+    std::vector<char> goes_;   ///< whether each node is removed
     LeftOut found_;
     Deck gone_;
-    std::vector<std::string> sets_; ///< that lose members, in words
+    std::vector<std::string> sets_; ///< sets that lose members, in words
 };
 
 /// The text without the sections of empty sets.
@@ -419,7 +420,7 @@ Deck close_gap(Deck deck, const RunContext& context)
                            deck.path, listed(lost)));
     deck.gap.gone.clear();
     if (deck.gap.names.empty()) return deck;
-    std::vector<std::string> empty; // of elements, whose sections go
+    std::vector<std::string> empty; // empty element sets, whose sections are removed
     const std::vector<char> used = used_regions(deck);
     for (const std::string& name : deck.gap.names) {
         bool has_any = false;

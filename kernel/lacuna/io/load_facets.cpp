@@ -88,8 +88,8 @@ void append(FacetFile& all, FacetFile more)
     move_in(all.notes, more.notes);
 }
 
-/// The entities of one model and after them those of another, without their loops; face, edge and vertex tags
-/// count on.
+/// The entities of one model followed by those of another, without loops. Tags of faces, edges and vertices
+/// of the second follow the highest of the first.
 topology::Model joined(topology::Model first, topology::Model second)
 {
     topology::ModelBuilder model(std::move(first)), more(std::move(second));
@@ -193,7 +193,7 @@ public:
 private:
     const std::vector<std::string>& parts_;
     std::vector<bool> found_;
-    std::vector<Deck> names_; ///< what the decks have, for the message
+    std::vector<Deck> names_; ///< all part names of the decks, for the message
 };
 
 /// The facets of files as faces, before stitching.
@@ -240,14 +240,13 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
 void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& context)
 {
     topology::Model& model = loaded.model;
-    constexpr double kMostTolerance = 0.01; // of the diagonal: more than this joins what was drawn apart
+    constexpr double kMostTolerance = 0.01; // share of the diagonal: a larger tolerance joins separate parts
     if (model.tolerance > kMostTolerance * model.diagonal) {
-        throw InvalidInput(
-            Message("io.tolerance",
-                    "the tolerance {:.6g} is more than a hundredth of the model's diagonal ({:.6g}),  "
-                    "so faces would fall together",
-                    found(model.tolerance), model.diagonal)
-                .remedy("give a smaller one"));
+        throw InvalidInput(Message("io.tolerance",
+                                   "the tolerance {:.6g} exceeds a hundredth of the model's diagonal "
+                                   "({:.6g}), so faces would collapse",
+                                   found(model.tolerance), model.diagonal)
+                               .remedy("give a smaller one"));
     }
     const double share = options.tolerance > 0 ? 0 : healing::kSewnShare;
     healing::StitchReport report = healing::stitch(model, model.tolerance, context, share);
@@ -280,7 +279,7 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
     }
     if (facets.empty() && !options.without.empty())
         throw InvalidInput("io.no_such_part",
-                           "without: {}: parts are of finite element meshes, and none is read",
+                           "without: {}: only finite element meshes have parts, and none of the files is one",
                            options.without.front());
     LoadedFiles loaded{.scale = options.scale};
     if (!other.empty()) loaded = others.import(other, options, context);

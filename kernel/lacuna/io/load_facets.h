@@ -34,8 +34,8 @@ struct FacetFile {
 ///
 /// | ending | read | a region or set is |
 /// |---|---|---|
-/// | .stl | text with several solids; binary | a solid, counted |
-/// | .obj | points and polygons; more than four corners are split | an `o` or `g` line, counted |
+/// | .stl | text with several solids; binary | a solid; regions are numbered in order |
+/// | .obj | points and polygons; more than four corners are split | an `o` or `g` line; numbered in order |
 /// | .msh | 1.0, 2.x, 4.0 and 4.1, text and binary | an entity; a physical group |
 /// | .unv | nodes 15, 781, 2411; elements 71, 780, 2412; groups 752 to 2477 | a property; a group |
 /// | .bdf .nas .dat | Nastran bulk data: free, small, large fields; INCLUDE beside it | a property |
@@ -71,7 +71,7 @@ struct LoadedFiles {
     topology::Model model{};
     /// Decks of the files that hold elements, in their order; `nodes_at()` finds the nodes of model points.
     std::vector<std::shared_ptr<const Deck>> decks{};
-    double scale = 1; ///< of the model's coordinates to the decks' [-]
+    double scale = 1; ///< factor from the model's coordinates to the decks' [-]
     /// Those notes of the model that report content read differently from the file, to be shown to every
     /// user.
     std::vector<Message> warnings{};

@@ -12,7 +12,7 @@ struct Section {
     std::string_view name;
     int values;
     bool elements = false;
-    DeckShape shape = DeckShape::tri3; ///< of elements
+    DeckShape shape = DeckShape::tri3; ///< shape of the section's elements
 };
 
 /// Shapes without middle nodes are read as they are; others are reduced to their corners.

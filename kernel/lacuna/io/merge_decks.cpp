@@ -85,8 +85,8 @@ private:
     {
         throw InvalidInput(Message("io.numbers_clash", "with: {} is in {} and in {}{}", first, all_.path,
                                    more_.path, count > 1 ? formatted(", and so are {} more", count - 1) : "")
-                               .remedy("renumber = true gives those of the later deck numbers and names of "
-                                       "their own, and leaves its cards out, which name the old ones"));
+                               .remedy("renumber = true gives the entities of the later deck new numbers and "
+                                       "names, and omits its cards, which use the old ones"));
     }
 
     [[nodiscard]] std::vector<DeckTag> shared_properties() const
@@ -126,7 +126,7 @@ private:
         if (in_both(taken, own).empty()) return 0;
         const DeckTag highest = *std::ranges::max_element(taken), last = *std::ranges::max_element(own);
         if (highest + last > std::numeric_limits<Index>::max())
-            throw InvalidInput("io.number_taken", "with: the highest {} would have the number {}", what,
+            throw InvalidInput("io.number_taken", "with: the highest {} would get the number {}", what,
                                highest + last);
         return highest;
     }

@@ -28,16 +28,17 @@ DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& tex
     for (const DeckTag tag : taken) highest = std::max(highest, tag);
     const DeckTag first = asked != 0 ? asked : highest + 1;
     if (first < 1)
-        throw InvalidInput("io.number_taken", "{} = {}: numbers are 1 or more", option, found(first));
+        throw InvalidInput("io.number_taken", "{} = {}: numbers must be at least 1", option, found(first));
     const DeckTag last = first + static_cast<DeckTag>(count) - 1;
     if (last > std::numeric_limits<Index>::max())
-        throw InvalidInput("io.number_taken", "{} = {}: the last of {} would be {}, more than {}", option,
+        throw InvalidInput("io.number_taken",
+                           "{} = {}: the last of {} would get the number {}, above the limit of {}", option,
                            first, count, found(last), needed(std::numeric_limits<Index>::max()));
     for (const DeckTag tag : taken)
         if (tag >= first && tag <= last)
-            throw InvalidInput(Message("io.number_taken", "{} = {}: the deck has a {}", option, found(first),
-                                       numbered(what, tag))
-                                   .remedy("the first free one is {}", needed(highest + 1)));
+            throw InvalidInput(Message("io.number_taken", "{} = {}: the deck already has {}", option,
+                                       found(first), numbered(what, tag))
+                                   .remedy("the first free number is {}", needed(highest + 1)));
     return first;
 }
 
@@ -71,10 +72,9 @@ public:
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
         if (cell_shape(mesh_) == DeckShape::hex27 && !format_of(options_.format).has_hex27)
-            throw InvalidInput(
-                Message("io.no_such_element",
-                        "hexahedra of 27 nodes are no elements of Abaqus, CalculiX, Nastran or UNV")
-                    .remedy("sweep with order = 2, serendipity = true for those of 20"));
+            throw InvalidInput(Message("io.no_such_element",
+                                       "Abaqus, CalculiX, Nastran and UNV have no hexahedron of 27 nodes")
+                                   .remedy("sweep with order = 2, serendipity = true for 20 nodes"));
         if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
         first_set_ = deck_.sets.size();
@@ -102,7 +102,7 @@ private:
         const bool second = mesh_.order() == 2;
         element_ = options_.element.empty() ? (second ? "C3D20" : "C3D8") : options_.element;
         if (is_abaqus_element(element_, cell_shape(mesh_))) return;
-        throw InvalidInput("io.element", "element = \"{}\": expected Abaqus's word for a hexahedron of {}",
+        throw InvalidInput("io.element", "element = \"{}\": expected an Abaqus name of a hexahedron of {}",
                            element_,
                            second ? "twenty nodes, such as C3D20 or C3D20R; the mesh is of order 2"
                                   : "eight nodes, such as C3D8, C3D8I or C3D8R; the mesh has no "
@@ -229,7 +229,7 @@ private:
         std::string& region = deck_.regions[index(region_)].name;
         const bool own = group == volume_;
         DeckSet cells;
-        cells.listed = added_.region >= 0; // for several pieces
+        cells.listed = added_.region >= 0; // so that several pieces can extend it
         for (std::size_t c = 0; c < mesh_.cell_count() && joins(); ++c)
             cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
         const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
@@ -252,8 +252,8 @@ private:
         join_sets(deck_, added, of_all, [&](const DeckSet& set) { return may_join(set); });
     }
 
-    /// Whether the cells may join a set: not if its section would give them a second material or, where each
-    /// of several decks has one for all its cells, a second section.
+    /// Whether the cells may join a set. They must not if its section would give them a second material, or a
+    /// second section if several decks each have one for all their cells.
     bool may_join(const DeckSet& set)
     {
         if (options_.format != deck_.format || takes_place()) return true;
@@ -319,7 +319,7 @@ private:
         });
     }
 
-    /// Nastran's cards and case control refer to some sets by number, so these sets are not changed.
+    /// Report sets that were not changed because Nastran's cards or case control refer to them by number.
     void tell_kept_sets() const
     {
         if (!joins() || deck_.format != DeckFormat::nastran) return;
@@ -497,7 +497,8 @@ private:
                            known.empty() ? "no materials"
                                          : formatted("the materials {}", short_list(known, std::identity())));
     }
-    static constexpr const char* kSkin = "\n"; // keeps keys of skin and cell groups apart; in no name
+    // Separates keys of skin groups from those of cell groups; occurs in no name.
+    static constexpr const char* kSkin = "\n";
 
     [[nodiscard]] std::string volume() const
     {

@@ -25,10 +25,10 @@ void check_version(const Format& format, const MeshFileOptions& options)
     if (!format.has_option("version")) return;
     if (options.version != 2.2 && options.version != 4.1)
         throw InvalidInput(
-            Message("io.unknown_version", "MSH version {} cannot be written", text_of(options.version))
-                .remedy("known are 4.1 and 2.2"));
+            Message("io.unknown_version", "MSH version {} is not supported", text_of(options.version))
+                .remedy("use 4.1 or 2.2"));
     if (options.partition.parts > 0 && options.version != 4.1)
-        throw InvalidInput(Message("io.partition_version", "parts are written in MSH version 4.1 alone")
+        throw InvalidInput(Message("io.partition_version", "only MSH version 4.1 can contain partitions")
                                .remedy("leave out the version"));
 }
 
@@ -51,7 +51,7 @@ void write_view(const FormatRow& format, const View& view, const mesh::ViewParts
     write_file(path, file.sections, file.sizes, context, team);
 }
 
-/// Write the view of swept meshes, in parts where these are asked for or the format has only pieces.
+/// Write the view of swept meshes; in parts if that is requested or if the format consists of pieces.
 template <class PartsOf>
 void write_divided(const FormatRow& format, const View& view, const PartsOf& parts_of_view,
                    const MeshFileOptions& options, const OutputPath& path, const RunContext& context,
@@ -77,7 +77,7 @@ void write_as_deck(const Format& format, std::span<BulkPart> parts, const Output
         context, team);
 }
 
-/// Write a swept mesh. @param readers  makes the readers of its fields, which decks have not
+/// Write a swept mesh. @param readers  makes the readers of its fields, which decks do not have
 template <class Readers>
 void write_swept(const Format& format, const mesh::HexMesh& mesh, std::unique_ptr<const NodeReader> nodes,
                  const Readers& readers, const OutputPath& path, const MeshFileOptions& options,

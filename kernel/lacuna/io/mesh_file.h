@@ -106,14 +106,14 @@ void write_parts(const Format& format, std::span<const mesh::LayeredPart> parts,
 /// Abaqus (CalculiX reads no more; 14 to 17 digits), 17 digits in UNV. Another format than the deck's gets
 /// nodes, elements, regions and sets; the log lists omitted content.
 ///
-/// Exodus has a block of each region and shape, sets of nodes, elements and sides, and numbers as maps.
-/// In .msh a region is a physical group, and a set of elements where these have no region; with `all_groups`
-/// all regions and sets of elements are. In .vtk and .vtu elements that are in the same
-/// region and sets are an entity; cell arrays hold its number, the region's and the cell's, a point array the
-/// node's, and arrays of the whole file, called as the sets and regions are, list the entities of each. Sets
-/// of nodes are such arrays too, "nodes:" before their names, with places of points from 0.
-/// @throw InvalidInput "io.no_such_element"  the format has no such element, or none without middle nodes.
-///                     "io.folder" and the like as `WholeFile`.
+/// Exodus has a block for each region and shape; sets of nodes, elements and sides; and number maps. In .msh,
+/// a region is a physical group; a set of elements is one if these have no region, and with `all_groups` all
+/// regions and element sets are. In .vtk and .vtu, the elements of the same region and sets form an entity.
+/// Cell arrays hold the numbers of the entity, of the region and of the cell; a point array holds the node
+/// numbers. Arrays of the whole file, with the names of the sets and regions, list the entities of each; node
+/// sets are such arrays too, with "nodes:" before their names and point indices from 0.
+/// @throw InvalidInput "io.no_such_element"  the format lacks an element type, or requires middle nodes.
+/// "io.no_folder" and others as `WholeFile`.
 /// @throw BackendError  as `WholeFile`.
 void write_deck(const Deck& deck, const Format& format, const OutputPath& path,
                 const RunContext& context = {}, const MeshFileOptions& options = {});

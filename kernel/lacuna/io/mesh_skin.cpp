@@ -47,7 +47,7 @@ MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context)
         face.name = of.groups.empty() ? "" : of.groups.front();
         face.tag = of.face != 0 ? of.face : of.tag;
         if (skin.face[patch].valid())
-            throw InvalidInput("io.skin_in_pieces", "the quads of {} of a mesh do not hang together",
+            throw InvalidInput("io.skin_in_pieces", "the quads of {} of a mesh are not connected",
                                NamedEntity{"patch", of.tag, face.name});
         skin.face[patch] = FaceId(f);
         roles.walls.emplace_back(f);

@@ -123,7 +123,7 @@ struct MshNumbers {
         *out++ = ' ';
         return out;
     }
-    /// End a line that holds at least one number.
+    /// End a line that contains at least one number.
     [[nodiscard]] char* end(char* out) const
     {
         if (!binary) out[-1] = '\n';
@@ -361,7 +361,7 @@ private:
     void open(const char* version)
     {
         text_ = std::string("$MeshFormat\n") + version + (numbers_.binary ? " 1 8\n" : " 0 8\n");
-        if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // tells readers the byte order
+        if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // shows readers the byte order
         text_ += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names_.size()) + "\n";
         for (const PhysicalName& name : names_)
             text_ += formatted("{} {} \"{}\"\n", name.dimension, name.tag, name.name);

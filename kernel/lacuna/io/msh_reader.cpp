@@ -23,7 +23,7 @@ namespace {
 struct ElementType {
     int type, dimension, nodes;
     DeckShape shape = DeckShape::line2;
-    bool is_kept = true; ///< else only counted
+    bool is_kept = true; ///< otherwise elements are only counted
 };
 
 /// Types without a DeckShape: points, and elements of order 3 and more, which are reduced to their corners.
@@ -35,7 +35,8 @@ constexpr ElementType kFurtherTypes[] = {
     {38, 2, 36, quad4},       {29, 3, 20, tet4},        {30, 3, 35, tet4},        {31, 3, 56, tet4},
     {92, 3, 64, hex8},        {93, 3, 125, hex8},       {90, 3, 40, wedge6}};
 
-constexpr bool kBig = std::endian::native == std::endian::big; // numbers lie as this machine has them
+// Numbers in binary have the byte order of this machine.
+constexpr bool kBig = std::endian::native == std::endian::big;
 
 ElementType type_of(const Cursor& cursor, int type)
 {
@@ -151,7 +152,7 @@ private:
     /// Read the parents of partitioned entities: a partitioned mesh is read as a whole one.
     void read_parts()
     {
-        cursor_.size(); // of parts
+        cursor_.size(); // number of parts
         const std::uint64_t ghosts = cursor_.plausible(cursor_.size(), 8, 2);
         for (std::uint64_t i = 0; i < 2 * ghosts; ++i) cursor_.integer();
         read_entities(true);
@@ -196,7 +197,7 @@ private:
         return tag < 0 ? -tag : tag;
     }
 
-    /// Of versions 2 and 4.0.
+    /// A node tag in versions 2 and 4.0.
     std::uint64_t node_tag()
     {
         const int tag = cursor_.integer();
@@ -272,7 +273,7 @@ private:
         for (std::size_t i = first; i < points.size(); ++i)
             if (!points[i].allFinite()) {
                 Cursor at = cursor_.part(bytes.substr((i - first) * sizeof(Vec3)));
-                at.point(); // says which number it is
+                at.point(); // reports which number is wrong
             }
     }
 
@@ -308,7 +309,7 @@ private:
             tags[i] = tag;
             std::memcpy(static_cast<void*>(points.data() + i), record + 4, sizeof(Vec3));
             if (tag >= 0 && points[i].allFinite()) continue;
-            cursor_ = cursor_.part(bytes.substr(i * kRecord)); // says which number it is
+            cursor_ = cursor_.part(bytes.substr(i * kRecord)); // reports which number is wrong
             node_tag();
             cursor_.point();
         }
@@ -341,7 +342,7 @@ private:
         region_ = static_cast<Index>(found->second);
     }
 
-    /// Cells as they lie: numbers of `Tag`, a tag, `skipped` numbers, and nodes.
+    /// Cells as stored in binary: numbers of type `Tag`, a tag, `skipped` numbers, and nodes.
     template <class Tag>
     void take_cells(const ElementType& type, std::size_t count, std::size_t skipped)
     {
@@ -471,7 +472,7 @@ private:
     {
         const std::size_t record = 4 * (1 + tags + static_cast<std::size_t>(type.nodes));
         const std::string_view bytes = cursor_.rest();
-        cursor_.part(bytes).bytes(count * record); // or the file is cut off
+        cursor_.part(bytes).bytes(count * record); // fails if the file is cut off
         for (std::size_t i = 0; i < count;) {
             const char* const head = bytes.data() + i * record + 4;
             std::size_t same = 1;
@@ -564,14 +565,15 @@ private:
     /// In version 2 a cell in several groups is repeated for each: keep one, in all of these groups.
     void merge_copies()
     {
-        std::map<std::pair<int, int>, int> groups_of; // of each entity
+        std::map<std::pair<int, int>, int> groups_of; // number of groups of each entity
         for (const Place& place : place_of_) ++groups_of[{place.dimension, place.entity}];
         Deck& deck = into_.deck();
         std::vector<bool> several;
         for (const Place& place : place_of_)
             several.push_back(groups_of[{place.dimension, place.entity}] > 1);
         if (std::ranges::find(several, true) == several.end()) return;
-        std::map<std::pair<Index, std::set<int>>, Index> joined; // by the region of the first and all groups
+        // By the region of the first copy and all groups.
+        std::map<std::pair<Index, std::set<int>>, Index> joined;
         for (DeckBlock& block : deck.blocks) merge_copies(block, several, joined);
     }
 
@@ -592,14 +594,15 @@ private:
             const auto by = compare(a, b);
             return by != 0 ? by < 0 : a < b;
         });
-        std::map<std::size_t, std::set<int>> further; // groups of cells that stand more than once
+        std::map<std::size_t, std::set<int>> further; // groups of cells that occur more than once
         std::vector<bool> copy(block.count(), false);
         for (std::size_t i = 0, first = 0; i < cells.size(); ++i) {
             if (i == first || compare(cells[first], cells[i]) != 0) {
                 first = i;
                 continue;
             }
-            if (place(cells[i]).physical == place(cells[first]).physical) continue; // given twice
+            // Repeated with the same group.
+            if (place(cells[i]).physical == place(cells[first]).physical) continue;
             further[cells[first]].insert(place(cells[i]).physical);
             copy[cells[i]] = true;
         }
@@ -628,21 +631,22 @@ private:
     std::optional<TagPlaces> tags_;
     std::size_t block_ = 0, cells_ = 0;
     Index region_ = -1;
-    /// Where cells belong.
+    /// Entity and physical group of a region's cells.
     struct Place {
         int dimension, entity, physical;
         friend auto operator<=>(const Place&, const Place&) = default;
     };
     Place last_place_{};
     std::map<Place, std::size_t> regions_;
-    std::vector<Place> place_of_;                ///< of each region
+    std::vector<Place> place_of_;                ///< for each region
     std::map<Index, std::set<int>> more_groups_; ///< of regions: further physical groups, in version 2
-    std::map<std::size_t, std::pair<std::size_t, bool>> named_by_; ///< of regions: cells, whether by number
-    std::map<Key, std::string> names_;                             ///< dimension -1: not said
+    /// For each region, number of cells of its naming group, and whether by number.
+    std::map<std::size_t, std::pair<std::size_t, bool>> named_by_;
+    std::map<Key, std::string> names_; ///< dimension -1: not given
     std::map<Key, std::set<int>> members_;
     std::map<Key, int> whole_of_; ///< of entities that are parts
     int version_ = 0;
-    bool first_of_4_ = false; ///< version 4.0, which counts tags in 4 bytes and has them in another order
+    bool first_of_4_ = false; ///< version 4.0, which has 4-byte counts and another order of tags
     bool nodes_known_ = false;
 };
 

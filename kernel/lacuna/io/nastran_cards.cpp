@@ -41,7 +41,7 @@ bool is_free(std::string_view line)
            (before.find_first_not_of(" \t") < kField && word.find_first_of(" \t") == std::string_view::npos);
 }
 
-/// The n in `*n` and `*(n)`, `=n` and `=(n)`.
+/// The number n in `*n`, `*(n)`, `=n` and `=(n)`.
 std::string_view replication_value(std::string_view field)
 {
     field.remove_prefix(1);
@@ -59,7 +59,8 @@ std::string stepped(std::string_view field, std::string_view step, const DeckPla
         place.fail("cannot add {} to {} of the card that is replicated", shown(step), shown(field));
     std::array<char, 32> text{};
     std::string sum(text.data(), std::to_chars(text.data(), text.data() + text.size(), *real + *more).ptr);
-    return sum.find_first_of(".e") == std::string::npos ? sum + '.' : sum; // or it would be a whole number
+    // Otherwise it would become an integer.
+    return sum.find_first_of(".e") == std::string::npos ? sum + '.' : sum;
 }
 
 bool is_large(std::string_view first) { return first.find('*') != std::string_view::npos; }
@@ -230,7 +231,7 @@ void BulkData::free_fields(const Cursor& cursor, std::string_view line)
 /// Split a line in small or large format; a tab skips to the next column of eight.
 void BulkData::fixed_fields(std::string_view line)
 {
-    constexpr std::size_t kColumns = (kFields + 2) * kField; // what is further right does not count
+    constexpr std::size_t kColumns = (kFields + 2) * kField; // columns further right are ignored
     line = line.substr(0, kColumns);
     if (line.find('\t') != std::string_view::npos) {
         std::string& wide = expanded_.emplace_back();
@@ -272,7 +273,7 @@ void BulkData::read_line(const Cursor& cursor, std::uint64_t file, std::string_v
     }
 }
 
-/// The fields in `line_`. @return false  they are of a card elsewhere.
+/// Take the fields in `line_`. @return false if they belong to a card elsewhere
 bool BulkData::take_fields(const DeckPlace& place)
 {
     const std::string_view first = line_.front();
@@ -283,7 +284,8 @@ bool BulkData::take_fields(const DeckPlace& place)
     if (first.empty() || first[0] == '+' || first[0] == '*') {
         const bool both_named = first.size() > 1 && marker_.size() > 1;
         const bool another = both_named && !same_word(first.substr(1), marker_.substr(1));
-        // Behind a card that names none, a name that no line gives is a mark of somebody's.
+        // If the previous card names no continuation and no line gives this name, the name is only a remark
+        // of the user.
         const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && is_awaited(first.substr(1));
         if (first.size() > 1 && (!open_ || another || unsaid)) return false;
         if (!open_) place.fail("a continuation {} of no card", shown(first));
@@ -345,10 +347,10 @@ void BulkData::end_card()
     }
     card_.fields.clear();
     marker_ = {};
-    while (expanded_.size() > 1) expanded_.pop_front(); // the last may be the line that ends the card
+    while (expanded_.size() > 1) expanded_.pop_front(); // the last one may be the line that ends the card
 }
 
-/// Pass on a card, unless it repeats a card of another superelement. @return  false: it does.
+/// Pass on a card. @return false if it repeats a card of another superelement, which is then ignored
 bool BulkData::hand_over(const Card& card, CardUse use)
 {
     if (use == CardUse::both) {
@@ -378,7 +380,8 @@ void BulkData::begin_replica(const DeckPlace& place)
     card_.place = place;
 }
 
-/// The next field of a replica: `=` is the pattern's, `*(n)` that and n, here and in replicas of this one.
+/// Add the next field of a replica: `=` copies the pattern's field, `*(n)` adds n to it, here and in replicas
+/// of this card.
 void BulkData::add_replicated(std::string_view field)
 {
     const std::size_t at = card_.fields.size();
@@ -392,7 +395,7 @@ void BulkData::add_replicated(std::string_view field)
         steps_[at].empty() ? pattern_[at] : stepped(pattern_[at], steps_[at], card_.place)));
 }
 
-/// `=(n)`: n more of the replica above.
+/// `=(n)`: replicate the card above n times.
 void BulkData::replicate(std::string_view count, const DeckPlace& place)
 {
     const auto times = parse_integer<Index>(count);
@@ -433,7 +436,7 @@ bool BulkData::is_awaited(std::string_view name)
     return std::ranges::binary_search(*awaited_, upper(name));
 }
 
-/// Fields that stay when the line they are of has gone.
+/// Copy the fields of a card, so that they remain valid when its lines are discarded.
 void BulkData::own_fields(Card& card)
 {
     for (std::string_view& field : card.fields)
@@ -498,7 +501,7 @@ void BulkData::finish()
         card.card.fail("its continuation {} is not there, and no card names {}", shown(card.marker),
                        unasked_);
     }
-    // What they name never came: a mark of somebody's.
+    // The named continuations never appeared, so the names were only remarks.
     std::map<std::uint64_t, const Waiting*> in_order;
     for (const auto& [name, waiting] : cards_) in_order.emplace(waiting.card.place.number(), &waiting);
     for (const auto& [place, waiting] : in_order) hand_over(waiting->card, waiting->use);

@@ -9,12 +9,12 @@
 namespace lacuna::io {
 namespace {
 
-/// An element by the name of its card: the shape without middle nodes, and with them.
+/// An element card: its shape without and with middle nodes.
 struct ElementCard {
     std::string_view name;
     DeckShape corners, all;
-    bool always_all = false; ///< the card has room for middle nodes, used or not
-    int kept_from = 0;       ///< first field behind the nodes that is kept; 0: none may follow
+    bool always_all = false; ///< the card has fields for middle nodes, whether used or not
+    int kept_from = 0;       ///< first field after the nodes that is kept; 0: no field may follow
 };
 constexpr ElementCard kElementCards[] = {
     {"CTRIA3", DeckShape::tri3, DeckShape::tri3, false, 7},
@@ -31,7 +31,7 @@ constexpr ElementCard kElementCards[] = {
     {"CHEXA", DeckShape::hex8, DeckShape::hex20},
 };
 constexpr std::string_view kFrameCards[] = {"CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S"};
-/// Properties of shells and solids, and the field that names their material; 0: none does.
+/// Property cards of shells and solids, and the field of their material; 0: they have none.
 struct PropertyCard {
     std::string_view name;
     std::size_t material;
@@ -95,7 +95,7 @@ private:
             into_.pass_over(card.name.empty() ? "lines without the name of a card" : card.name);
     }
 
-    /// Whether a superelement of this type is another one put elsewhere.
+    /// Whether a superelement of this type is a copy of another one at another place.
     static bool is_copy(std::string_view type)
     {
         return same_word(type, "REPEAT") || same_word(type, "MIRROR");
@@ -130,7 +130,7 @@ private:
         const DeckShape shape = middles ? kind.all : kind.corners;
         const auto count = static_cast<std::size_t>(shape_info(shape).nodes);
         std::array<Index, 20> nodes{};
-        const auto places = exodus_places(shape); // which Nastran has too
+        const auto places = exodus_places(shape); // Nastran has the same node order
         for (std::size_t k = 0; k < count; ++k) nodes[places.empty() ? k : places[k]] = found[k];
         const Index tag = card.needed(2);
         const std::size_t block = into_.block_of(shape, card.name);
@@ -169,7 +169,7 @@ private:
             frames_.add(card.needed(2), frame);
             return;
         }
-        // Two in a card.
+        // A card holds two.
         for (const std::size_t first : {std::size_t(2), std::size_t(6)}) {
             if (first == 6 && card.field(first).empty()) break;
             for (std::size_t k = 0; k < 3; ++k) frame.node[k] = card.needed(first + 1 + k);
@@ -177,7 +177,7 @@ private:
         }
     }
 
-    /// Nodes listed twice alike are one; then all go from their frames to the basic one.
+    /// Merge nodes that are listed twice with the same data; then convert all nodes to the basic frame.
     void finish_nodes()
     {
         Deck& deck = into_.deck();
@@ -193,7 +193,7 @@ private:
         });
         if (default_frame_ != 0 || !default_output_.empty() || !default_constraint_.empty()) use_defaults();
         if (!repeated.empty()) drop(repeated);
-        // The basic frame is what is meant anyway.
+        // The basic frame is the default.
         std::erase_if(deck.point_more,
                       [&](const auto& more) { return default_output_.empty() && more.second == "0"; });
         const std::vector<Vec3> given = deck.points;
@@ -262,7 +262,7 @@ private:
         return in_basic(index(node));
     }
 
-    /// What is of one superelement alone must not be of another in the deck they are read as.
+    /// Check that superelements do not share numbers, because they are merged into one deck.
     void finish_superelements()
     {
         const DeckPlace& place = bulk_.first_superelement();
@@ -277,8 +277,8 @@ private:
                              bulk_.superelements()));
     }
 
-    /// An element without a property has that of its own number. Where no card gives such properties, all
-    /// these elements are one region.
+    /// An element without a property has the property of its own number. If no card defines such properties,
+    /// all these elements form one region.
     void finish_properties()
     {
         Deck& deck = into_.deck();
@@ -297,9 +297,10 @@ private:
     DeckBuilder& into_;
     std::vector<Grid> grids_;
     std::optional<TagPlaces> tags_;
-    const std::vector<Vec3>* given_ = nullptr; ///< points as the file has them, while they are turned
+    const std::vector<Vec3>* given_ = nullptr; ///< points as in the file, during their conversion
     std::vector<std::pair<std::size_t, std::size_t>> unowned_; ///< elements with a blank property
-    std::map<Index, std::string> materials_;                   ///< of properties that have a card
+    /// Materials of the properties that have a card.
+    std::map<Index, std::string> materials_;
     Index last_property_ = -1, last_region_ = -1;
     Index default_frame_ = 0;
     std::string default_output_, default_constraint_;

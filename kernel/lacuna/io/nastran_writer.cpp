@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <array>
 
-// Nodes in large fields, in the basic frame; elements in small fields where their numbers fit. Fields that a
-// card brought along keep their text, if need be in free fields.
+// Nodes are written in large fields, in the basic frame; elements in small fields if their numbers fit.
+// Fields that a card was read with keep their text; if they do not fit, the card is written in free format.
 
 namespace lacuna::io {
 
@@ -19,9 +19,9 @@ namespace {
 using mesh::MeshView;
 
 constexpr std::size_t kSmall = 8, kLarge = 16; // characters of a field
-constexpr std::size_t kNumber = 20;            // characters of a tag, at most
+constexpr std::size_t kNumber = 20;            // maximum length of a tag [characters]
 
-/// Gathers the fields of a card and puts it out.
+/// Collects the fields of a card and writes it.
 class CardWriter {
 public:
     void begin() { fields_.clear(), used_ = 0; }
@@ -40,7 +40,7 @@ public:
         used_ += kNumber;
         fields_.emplace_back(at, static_cast<std::size_t>(end - at));
     }
-    /// Fields apart by commas.
+    /// Add fields that are separated by commas.
     void add_text(std::string_view text)
     {
         while (!text.empty()) {
@@ -77,7 +77,7 @@ public:
         *out++ = '\n';
         return out;
     }
-    /// No card of so many fields, none longer, takes more bytes.
+    /// Upper bound of the bytes of a card with this many fields of at most this length.
     static std::size_t room(std::size_t fields, std::size_t longest)
     {
         return (std::max(longest, kLarge) + 4) * (fields + 8) + 32;
@@ -97,11 +97,11 @@ private:
     }
 
     std::vector<std::string_view> fields_;
-    std::array<char, 32 * kNumber> digits_{}; ///< of the numbers of a card; a CHEXA has 22
+    std::array<char, 32 * kNumber> digits_{}; ///< digits of the numbers of a card; a CHEXA has 22
     std::size_t used_ = 0;
 };
 
-/// Bytes that the longest text takes as fields.
+/// Bytes of the longest text when it is written as fields.
 std::size_t room_of(MeshView::TextByIndex more)
 {
     std::size_t room = 0;
@@ -140,7 +140,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
                                                                     : words_of(block.shape).nastran;
     if (name.empty()) refuse_element(block, "Nastran", "there is no such card");
     const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
-    const auto places = exodus_places(block.shape); // which Nastran has too
+    const auto places = exodus_places(block.shape); // Nastran has the same node order
     const MeshView::TextByIndex more = view->kept ? view->kept->cells[b] : MeshView::TextByIndex();
     const auto put = [=, card = CardWriter()](std::size_t e, DeckTag tag, Index region,
                                               std::span<const Index> element, char* out) mutable {
@@ -165,7 +165,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
         section_of_cells(view, b, CardWriter::room(nodes + 2, kNumber) + room_of(more), put));
 }
 
-/// SET1, which names no kind: a comment does.
+/// A SET1 card; it does not state the kind of its members, so a comment does.
 std::string set_text(const MeshView::Set& set, int number)
 {
     CardWriter card;
@@ -186,7 +186,7 @@ std::string set_text(const MeshView::Set& set, int number)
            "\n" + text;
 }
 
-/// Names of the properties of another format's deck, and cards of those that solids have.
+/// Comments with the property names of a deck in another format, and property cards for solids.
 std::string property_text(const MeshView& view)
 {
     std::vector<bool> solid(view.regions.size(), false);

@@ -31,7 +31,8 @@ NodeReader::NodeReader(const mesh::LayeredMesh& layered, const RunContext& conte
         const std::size_t begin = places.side(index(first), 0);
         std::vector<Vec3> nodes(places.upright(index(last), 0) - begin);
         layers_->place_middles(first, last, nodes, context);
-        if (last < mesh_.layers) nodes.resize(places.side(index(last), 0) - begin); // the next part has them
+        // The next part starts with these.
+        if (last < mesh_.layers) nodes.resize(places.side(index(last), 0) - begin);
         return nodes;
     });
 }

@@ -6,7 +6,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Words of a Wavefront file that hold no faces and may be passed over unsaid.
+/// Words of a Wavefront file without faces, which are skipped without a note.
 constexpr std::string_view kUncounted[] = {"vt", "vn", "s", "usemtl", "mtllib"};
 
 class ObjReader {
@@ -18,7 +18,7 @@ public:
         while (!cursor_.at_end()) {
             line_ = without_comment(cursor_.line());
             const std::size_t begin = cursor_.last();
-            // A line that ends with a backslash goes on with the next; a comment does not.
+            // A line that ends with a backslash continues on the next one; a comment does not.
             std::string joined;
             while (line_.ends_with('\\')) {
                 if (joined.empty()) joined = line_;
@@ -67,7 +67,7 @@ private:
         into_.add_face(corners_, label_, cursor_);
     }
 
-    /// Counted from 1, or back from the last point where negative.
+    /// A point number: from 1, or if negative, counted back from the last point.
     Index corner(std::string_view word) const
     {
         const auto value = parse_integer<std::int64_t>(word);
@@ -93,7 +93,7 @@ private:
 
     Cursor& cursor_;
     DeckBuilder& into_;
-    std::string_view line_; ///< what is left of it
+    std::string_view line_; ///< the unread rest of the line
     std::size_t begin_ = 0;
     std::vector<Index> corners_;
     std::string name_;

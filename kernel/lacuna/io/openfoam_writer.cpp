@@ -97,7 +97,7 @@ private:
             if (info.dimension != 3 || block.count == 0) continue;
             if (info.nodes != info.corners)
                 throw InvalidInput(Message("io.no_such_element",
-                                           "polyMesh has no middle nodes, and {} cells have {} nodes each",
+                                           "polyMesh has no middle nodes, but {} cells have {} nodes each",
                                            block.count, info.nodes)
                                        .remedy("sweep with order = 1"));
             mesh::each_run(block.entities, 0, block.count,
@@ -120,7 +120,7 @@ private:
             check_cancelled(context_);
         }
         if (cells == 0)
-            throw InvalidInput("io.no_such_element", "a polyMesh needs cells, and the mesh has none");
+            throw InvalidInput("io.no_such_element", "a polyMesh needs cells, but the mesh has none");
     }
 
     /// Drop points that no cell uses, which checkMesh reports as an error.
@@ -175,7 +175,7 @@ private:
                     ++end;
                 if (end - k > 2)
                     throw InvalidInput("io.not_conformal",
-                                       "a face of {} is one of {} cells; {} have a face in common at most",
+                                       "a face of {} belongs to {} cells, but at most {} can share a face",
                                        numbered("cell", face.cell + 1), found(end - k), needed("two"));
                 // Faces were collected cell by cell and the sort kept that order: the owner comes first.
                 if (end - k == 2)
@@ -258,7 +258,7 @@ std::string head_of(const char* kind, const char* object, const std::string& not
                      kind, note.empty() ? "" : formatted("    note        \"{}\";\n", note), object);
 }
 
-/// A list of `count` entries, one a line, each of at most `numbers` numbers.
+/// A list of `count` entries, one per line, each of at most `numbers` numbers.
 std::vector<Section> list(const std::string& head, std::size_t count, std::size_t numbers, Fill fill)
 {
     return {{head + std::to_string(count) + "\n(\n", count, numbers * kNumberBytes + 4, std::move(fill)},

@@ -18,13 +18,14 @@ using mesh::MeshView;
 
 [[noreturn]] void refuse_parts(int parts, std::size_t layers)
 {
-    throw InvalidInput(Message("io.too_many_parts",
-                               "partitions = {}: the mesh has {} layers, and a part is one layer at least",
-                               found(parts), needed(layers))
-                           .remedy("ask for as many at most"));
+    throw InvalidInput(
+        Message("io.too_many_parts",
+                "partitions = {}: the mesh has {} layers, and each partition needs at least one",
+                found(parts), needed(layers))
+            .remedy("ask for no more than that"));
 }
 
-/// Number of parts of each mesh, if there are more parts than meshes: by its cells.
+/// Number of parts of each mesh if there are more parts than meshes, in proportion to its cells.
 std::vector<int> parts_of_each(std::span<const BulkPart> meshes, int parts)
 {
     std::vector<int> each(meshes.size(), 1);
@@ -57,7 +58,7 @@ std::vector<std::vector<Index>> parts_of_layers(std::span<const BulkPart> meshes
                 all[m].resize(index(part.last), next++);
         return all;
     }
-    // The largest mesh first, each to the part with the fewest cells so far.
+    // Assign the largest mesh first, each to the part with the fewest cells so far.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::ranges::stable_sort(order, std::greater<>{},
@@ -71,7 +72,7 @@ std::vector<std::vector<Index>> parts_of_layers(std::span<const BulkPart> meshes
     return all;
 }
 
-/// Divides the elements of a view. A list of parts is numbered; 0: none.
+/// Divides the elements of a view. Lists of parts are numbered; list 0 is empty.
 class Divider {
 public:
     Divider(const MeshView& view, std::span<const BulkPart> meshes, int parts) : view_(view), meshes_(meshes)
@@ -108,7 +109,7 @@ private:
         return of_layer_[m][cell / meshes_[m].mesh.quads.size()];
     }
 
-    /// Solids lie in their blocks mesh after mesh.
+    /// Find the parts of solids, which are stored mesh after mesh in their blocks.
     void find_solids()
     {
         first_.assign(meshes_.size(), 0);
@@ -128,7 +129,7 @@ private:
         }
     }
 
-    /// A mesh numbers its cells, then its skin.
+    /// Find the parts of quads; each mesh numbers its cells first, then its skin.
     void find_quads()
     {
         std::vector<std::vector<std::uint32_t>> behind;
@@ -145,12 +146,12 @@ private:
         }
     }
 
-    /// Find the parts of which elements are ghosts: row by row, those of elements with a common node.
+    /// Find the parts for which elements are ghosts, row by row: those of elements with a common node.
     void find_ghosts(int rows)
     {
         std::vector<Index> alone;
         for (int p = 0; p < parts_.parts; ++p) alone.push_back(list_of({p}));
-        std::vector<std::vector<Index>> reached(part_.size()); // of each solid, a list with its own part
+        std::vector<std::vector<Index>> reached(part_.size()); // for each solid, a list with its own part
         for (std::size_t b = 0; b < part_.size(); ++b)
             for (const Index part : part_[b]) reached[b].push_back(alone[index(part)]);
         for (int row = 0; row < rows; ++row) {
@@ -198,7 +199,7 @@ private:
         return at->second;
     }
 
-    /// Each point is owned by the lowest part that has it.
+    /// Find the part of each point: the lowest part that uses it.
     void find_points()
     {
         std::vector<Index> lowest(view_.points, parts_.parts - 1);
@@ -233,10 +234,10 @@ private:
     std::span<const BulkPart> meshes_;
     std::vector<std::vector<Index>> of_layer_; ///< part of each layer of each mesh
     std::vector<DeckTag> first_;               ///< number of the first cell of each mesh
-    std::vector<std::vector<Index>> part_;     ///< of each element of each block
-    /// Ghosts by their part and the list of the parts that have them, then by block.
+    std::vector<std::vector<Index>> part_;     ///< for each element of each block
+    /// Ghosts by their own part and the list of the parts that see them, then by block.
     std::map<std::pair<Index, Index>, std::map<std::size_t, mesh::Ranges>> ghosts_;
-    std::vector<std::vector<int>> lists_{{}}; ///< of parts, increasing
+    std::vector<std::vector<int>> lists_{{}}; ///< lists of parts, increasing
     std::map<std::vector<int>, Index> known_{{{}, 0}};
     std::map<std::pair<Index, Index>, Index> unions_;
     mesh::ViewParts parts_;

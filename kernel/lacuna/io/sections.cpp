@@ -29,9 +29,9 @@ struct Chunk {
     const Section* section;
     std::string_view text;
     std::size_t begin, end;
-    std::uint64_t offset; ///< in the file, where sizes are exact
-    /// Where sizes are exact, the bytes of them that are this chunk's: [skip, skip + bytes) of text and
-    /// records together. A record that two chunks meet in is filled for both.
+    std::uint64_t offset; ///< in the file, if sizes are exact
+    /// If sizes are exact, the bytes that this chunk writes: [skip, skip + bytes) of its text and records. A
+    /// record on the border of two chunks is filled for both.
     std::size_t skip = 0, bytes = 0;
 
     [[nodiscard]] std::size_t most_bytes() const
@@ -46,7 +46,7 @@ std::vector<Chunk> cut_exact(const std::vector<Section>& sections, const Team* t
 {
     const bool first = team == nullptr || team->rank == 0;
     std::vector<Chunk> chunks;
-    std::uint64_t start = 0; // of a section in the file
+    std::uint64_t start = 0; // start of the section in the file
     for (const Section& section : sections) {
         const auto [share_begin, share_end] = share_of(team, section.records);
         const std::uint64_t records = start + section.text.size(), size = section.record_bytes;
@@ -207,7 +207,7 @@ void write_sections(const std::vector<Section>& sections, Sizes sizes, const Wri
 /// Reserve space for a whole file in steps, because it takes time if the file is in memory.
 void reserve(WholeFile& file, std::uint64_t bytes, const RunContext& context)
 {
-    constexpr std::uint64_t kStep = std::uint64_t(256) << 20; // tens of milliseconds in memory: a choice
+    constexpr std::uint64_t kStep = std::uint64_t(256) << 20; // tens of milliseconds in memory. Not measured
     for (std::uint64_t begin = 0; begin < bytes; begin += kStep) {
         check_cancelled(context);
         file.reserve(begin, std::min(begin + kStep, bytes));
@@ -226,7 +226,7 @@ public:
         begin(paths, WholeFile::Naming::named);
     }
 
-    /// Write a file's sections: of a team's file a share of each. @param sharing  null: this process alone
+    /// Write a file's sections; with a team, a share of each. @param sharing  null: this process only
     void write(std::size_t f, const std::vector<Section>& sections, Sizes sizes, const std::string& stage,
                const RunContext& context, const Team* sharing)
     {
@@ -246,7 +246,7 @@ public:
         shared->close();
     }
 
-    std::vector<std::unique_ptr<WholeFile>> files; ///< of rank 0; elsewhere none
+    std::vector<std::unique_ptr<WholeFile>> files; ///< of rank 0; empty in other processes
 
 private:
     void begin(const std::vector<OutputPath>& paths, WholeFile::Naming naming)
@@ -283,7 +283,7 @@ private:
     }
 
     const Team* team_;
-    std::vector<std::string> names_, shown_; ///< to open files by, and as a person knows them
+    std::vector<std::string> names_, shown_; ///< names for opening the files, and names for messages
 };
 
 } // namespace
@@ -293,7 +293,7 @@ void write_file(const OutputPath& path, const std::vector<Section>& sections, Si
 {
     SharedFiles shared({path}, team);
     shared.write(0, sections, sizes, "writing " + path.text(), context, team);
-    gather(team, {}); // all is there
+    gather(team, {}); // everything is written
     if (!shared.files.empty()) shared.files.front()->commit();
 }
 
@@ -308,7 +308,7 @@ void write_files(const std::vector<FileOfSet>& files, const OutputPath& head_pat
     for (std::size_t f = begin; f < end; ++f)
         shared.write(f, files[f].sections(), Sizes::exact, "writing " + files[f].path.text(), context,
                      nullptr);
-    gather(team, {}); // all is there
+    gather(team, {}); // everything is written
     if (shared.files.empty()) return;
     shared.files.back()->append(head);
     commit_together(shared.files);

@@ -19,7 +19,7 @@ void each_element(const Deck& deck, int dimension, const Visit& visit)
             for (std::size_t e = 0; e < block.count(); ++e) visit(block, e);
 }
 
-/// The side of a solid that each element of two dimensions is, by its corners; side 0: it lies on none.
+/// For each two-dimensional element, by its corners, the side of a solid that it lies on; side 0: none.
 std::map<Quad, DeckSide> sides_below(const Deck& deck)
 {
     std::map<Quad, DeckSide> below;
@@ -50,7 +50,7 @@ Deck skin_as_sets(Deck deck, DeckFormat format)
     const bool has_faces = from.is_mesh && from.skin == Format::Skin::quads && deck.format != DeckFormat::unv;
     if (!has_faces || format_of(format).skin == Format::Skin::quads) return deck;
     const std::map<Quad, DeckSide> below = sides_below(deck);
-    std::unordered_map<DeckTag, std::vector<std::string>> names; // of the elements that become sets
+    std::unordered_map<DeckTag, std::vector<std::string>> names; // for the elements that become sets
     each_element(deck, 2, [&](const DeckBlock& block, std::size_t e) {
         if (below.at(shell_key(block, e)).side > 0) names[block.tags[e]];
     });

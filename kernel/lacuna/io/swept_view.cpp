@@ -141,12 +141,11 @@ void check_skin(const mesh::HexMesh& mesh)
     if (!sizes || !std::all_of(mesh.source_patch.begin(), mesh.source_patch.end(), valid) ||
         !std::all_of(mesh.target_patch.begin(), mesh.target_patch.end(), valid) ||
         !std::all_of(mesh.wall_patch.begin(), mesh.wall_patch.end(), valid))
-        throw InvalidInput("io.no_patch",
-                           "a quad of the skin belongs to no patch; every one needs one to be written");
+        throw InvalidInput("io.no_patch", "a quad of the skin belongs to no patch; assign each quad to one");
     std::set<int> tags;
     for (const mesh::SkinPatch& patch : mesh.patches)
         if (patch.tag <= 0 || !tags.insert(patch.tag).second)
-            throw InvalidInput("io.patch_tag", "the skin {} must have a positive tag of its own",
+            throw InvalidInput("io.patch_tag", "the skin {} must have its own positive tag",
                                numbered("patch", patch.tag));
 }
 
@@ -190,7 +189,7 @@ mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& opti
         parts.points.emplace_back(p, nodes_of_levels(mesh, part.first, part.last, p != last));
         parts.used.push_back(nodes_of_levels(mesh, part.with_first, part.with_last, false));
     }
-    // Runs of layers of one part that are ghosts of the same other parts.
+    // Runs of layers in one part that are ghosts of the same other parts.
     const auto others = [&](Index own, int layer) {
         std::vector<int> of;
         for (Index p = 0; p <= last; ++p)

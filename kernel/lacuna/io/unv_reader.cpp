@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::string_view kMark = "-1"; ///< begins and ends a dataset
 
-/// Datasets of groups: how many numbers each entity has (type, tag, and in the later ones node and
-/// component), and which number of the header counts them.
+/// Datasets of groups: how many numbers each entity has (type, tag, and in later datasets node and
+/// component), and which number of the header is the number of entities.
 struct GroupDataset {
     int number;
     std::size_t values, count_at;
@@ -23,10 +23,10 @@ constexpr GroupDataset kGroupDatasets[] = {{752, 2, 5},  {2417, 2, 6}, {2429, 2,
                                            {2430, 2, 7}, {2432, 2, 7}, {2435, 4, 7},
                                            {2452, 4, 7}, {2467, 4, 7}, {2477, 4, 7}};
 
-/// What a descriptor says: the shape, none for beams and the like, and how many nodes are listed for each
-/// that is read; cubic faces give their corners.
-/// Plane stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96
-/// count alike: triangles linear, quadratic and cubic, then quadrilaterals.
+/// The meaning of an element descriptor: the shape (none for beams and other ignored elements), and the
+/// number of nodes listed for each one read; cubic faces are reduced to their corners. Plane stress 41-46,
+/// plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96 are numbered alike:
+/// triangles linear, quadratic and cubic, then quadrilaterals.
 struct ElementKind {
     std::optional<DeckShape> shape;
     std::size_t step = 1;
@@ -58,7 +58,7 @@ public:
     void read()
     {
         std::size_t datasets = 0;
-        std::string_view between; // the first line of numbers alone since the last dataset
+        std::string_view between; // the first line of only numbers since the last dataset
         for (std::string_view line; !(line = cursor_.full_line()).empty();) {
             const std::size_t begin = cursor_.last();
             if (line != kMark) {
@@ -71,7 +71,8 @@ public:
             }
             ++datasets;
             const std::string_view head = cursor_.full_line();
-            // These numbers are a dataset without its first mark if this mark is its last one.
+            // If this mark is the last of its dataset, these numbers are a dataset whose first mark is
+            // missing.
             if (!between.empty() && (head.empty() || head == kMark))
                 cursor_.fail_at(static_cast<std::size_t>(between.data() - whole_.data()),
                                 "expected -1, which begins a dataset, found {}", found(shown(between)));
@@ -119,7 +120,8 @@ private:
                dataset == 2412 || group != std::end(kGroupDatasets);
     }
 
-    /// Frames that turn or move coordinates: part, its name, then label, name and four rows of each.
+    /// Coordinate frames that rotate or shift coordinates: part, its name, then label, name and four rows of
+    /// each.
     void read_frames()
     {
         if (!more_lines() || !more_lines()) return;
@@ -272,9 +274,9 @@ private:
     std::string_view line_;
     std::vector<std::string_view> numbers_;    ///< words of the line
     std::string_view whole_;                   ///< the file
-    std::string text_;                         ///< datasets that are no mesh
-    std::map<int, std::string> others_;        ///< elements that are no shells or solids, by dataset
-    std::map<Index, std::size_t> frames_used_; ///< by nodes, and where first
+    std::string text_;                         ///< datasets that are not part of the mesh
+    std::map<int, std::string> others_;        ///< elements other than shells and solids, by dataset
+    std::map<Index, std::size_t> frames_used_; ///< frames used by nodes, and the place of their first use
     std::set<Index> frames_turned_;
 };
 

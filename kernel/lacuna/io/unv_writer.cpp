@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <charconv>
 
-// Datasets 2411 (nodes), 2412 (elements) and 2467 (groups) behind those that are text. Numbers are I10, real
-// numbers D25.16, which is all 17 digits.
+// Datasets 2411 (nodes), 2412 (elements) and 2467 (groups) follow those kept as text. Integers are I10, real
+// numbers D25.16, which holds all 17 digits.
 
 namespace lacuna::io {
 
@@ -21,7 +21,7 @@ namespace {
 using mesh::MeshView;
 
 constexpr std::size_t kColumn = 10, kReal = 25; // characters
-constexpr std::size_t kPerLine = 8;             // nodes of a line
+constexpr std::size_t kPerLine = 8;             // nodes per line
 constexpr std::string_view kMark = "    -1\n";
 
 char* put_right(char* out, std::string_view text, std::size_t width)
@@ -91,7 +91,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
     file.sections.push_back(section_of_cells(view, b, (nodes + 7) * kNumberBytes + 4, put));
 }
 
-/// Members of one kind, two to a line.
+/// Add the members of one kind, two per line.
 void add_members(const View& view, std::size_t set, std::string head, DeckFile& file)
 {
     const int kind = view->sets[set].kind == mesh::SetKind::nodes ? kUnvNode : kUnvElement;
@@ -109,7 +109,7 @@ void add_members(const View& view, std::size_t set, std::string head, DeckFile& 
 
 DeckFile unv_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
-    constexpr DeckTag kMost = 9'999'999'999; // in ten characters: others would run into the number before
+    constexpr DeckTag kMost = 9'999'999'999; // ten characters: larger numbers would touch the previous number
     check_numbers(*view, kMost, "a universal file", "write another format");
     const std::vector<MeshView::Set>& sets = view->sets;
     DeckFile file;
@@ -126,7 +126,7 @@ DeckFile unv_file(const View& view, const MeshFileOptions& /*options*/, const me
     for (std::size_t s = 0; s < sets.size(); ++s) {
         const MeshView::Set& set = sets[s];
         if (set.kind == mesh::SetKind::sides || set.count == 0) continue;
-        // Elements and nodes of one group were read as two sets.
+        // A group of elements and nodes was read as two sets.
         const bool two = s + 1 < sets.size() && set.tag > 0 && sets[s + 1].tag == set.tag &&
                          sets[s + 1].name == set.name && sets[s + 1].kind == mesh::SetKind::nodes;
         const std::size_t count = set.count + (two ? sets[s + 1].count : 0);

@@ -43,13 +43,13 @@ constexpr VtkType kTypes[] = {
     type_of<std::int64_t>("vtktypeint64", ""), type_of<std::uint64_t>("vtktypeuint64", ""),
     type_of<std::int32_t>("vtktypeint32", ""), type_of<std::int64_t>("vtkIdType", "")};
 
-/// Cells by VTK's numbers: shapes that are kept, those that are cut into faces, lists of corners,
-/// and others.
+/// Cells by VTK's type numbers: shapes that are kept, cells that are split into faces, lists of corners, and
+/// others.
 enum class Kind { shape, polygon, pixel, voxel, strip, other };
 struct CellType {
     std::int64_t number;
     Kind kind;
-    std::int64_t points; ///< least
+    std::int64_t points; ///< minimum number of points
     DeckShape shape = DeckShape::tri3;
 };
 using enum DeckShape;
@@ -64,7 +64,7 @@ constexpr CellType kFurtherTypes[] = {
     {11, Kind::voxel, 8, hex8},
     {15, Kind::other, 10},
     {16, Kind::other, 12},
-    {30, Kind::shape, 6, quad4}, // linear across, quadratic along
+    {30, Kind::shape, 6, quad4}, // linear in one direction, quadratic in the other
     {31, Kind::shape, 12, wedge6},
     {33, Kind::shape, 24, hex8},
     {34, Kind::shape, 7, tri6},
@@ -86,7 +86,7 @@ std::optional<CellType> find_type(std::int64_t number)
 {
     if (const auto shape = shape_numbered(&ShapeWords::vtk, number))
         return CellType{number, Kind::shape, shape_info(*shape).nodes, *shape};
-    // Bézier cells are numbered as Lagrange's, seven more each.
+    // Bézier cells have the numbers of Lagrange cells plus seven.
     const auto known = std::ranges::find(kFurtherTypes, number >= 75 && number <= 81 ? number - 7 : number,
                                          &CellType::number);
     if (known == std::end(kFurtherTypes)) return {};
@@ -106,7 +106,7 @@ const VtkType* vtk_type(std::string_view name)
 
 std::int64_t append_places(const VtkType& type, std::string_view bytes, bool big, std::vector<Index>& places)
 {
-    constexpr std::size_t kPart = 4096; // numbers at a time, which the nearest cache holds
+    constexpr std::size_t kPart = 4096; // numbers per pass, which fit into the first-level cache
     std::int64_t part[kPart];
     const std::size_t count = bytes.size() / type.bytes;
     if (places.size() + count > places.capacity())
@@ -154,7 +154,7 @@ void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& curs
             if (!known) cursor.fail("{}: the cell type {} is not known", name(c), cells.types[c]);
             type = *known;
         }
-        // Cells of one type at a time; lists of corners one by one.
+        // Runs of cells of one type are taken together; lists of corners one by one.
         next = c + 1;
         const bool list = type.kind == Kind::polygon || type.kind == Kind::strip;
         while (!list && next < cells.ends.size() && cells.types[next] == type.number) ++next;

@@ -21,7 +21,7 @@ public:
             cursor_.fail("expected \"# vtk DataFile Version\", found {}", found(shown(head)));
         into_.deck().version =
             parse_real(trimmed(head.substr(std::min<std::size_t>(22, head.size())))).value_or(0);
-        cursor_.line(); // the title, any text
+        cursor_.line(); // the title, which may be any text
         const std::string_view coding = cursor_.word("ASCII or BINARY");
         if (!same_word(coding, "ASCII") && !same_word(coding, "BINARY"))
             cursor_.fail("expected ASCII or BINARY, found {}", found(shown(coding)));
@@ -97,7 +97,8 @@ private:
         each_value(type, plausible(count, 3 * type.bytes, 3) * 3, take);
     }
 
-    /// Lists of points: each with its length before it, or, since 5.1, where each begins and then all.
+    /// Lists of points: each preceded by its length or, from version 5.1 on, first the offsets and then all
+    /// points.
     void read_lists(std::vector<std::int64_t>& ends, std::vector<Index>& points)
     {
         ends.clear();
@@ -142,7 +143,7 @@ private:
         take_vtk_cells(cells_, into_, cursor_);
     }
 
-    /// Arrays that belong to the whole file.
+    /// Skip arrays that belong to the whole file.
     void skip_field()
     {
         cursor_.word("a name");
@@ -230,7 +231,7 @@ private:
         return count;
     }
 
-    /// The bytes of an array, which begin on the line after its head.
+    /// The bytes of an array; they begin on the line after its header.
     std::string_view array_bytes(const VtkType& type, std::uint64_t count)
     {
         cursor_.line();
@@ -245,7 +246,7 @@ private:
             take(i, binary_ ? type.real(bytes.data() + i * type.bytes, true) : cursor_.text_real());
     }
 
-    /// Of a file of text.
+    /// The same for a text file.
     template <class Take>
     void each_whole(const VtkType& type, std::uint64_t count, const Take& take)
     {

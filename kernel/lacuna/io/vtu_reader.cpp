@@ -12,9 +12,9 @@ namespace {
 
 /// A begin or end tag; attributes keep their order.
 struct XmlTag {
-    std::string_view name; ///< an end tag's begins with '/'
+    std::string_view name; ///< begins with '/' for an end tag
     std::vector<std::pair<std::string_view, std::string_view>> attributes;
-    bool empty = false; ///< ends itself
+    bool empty = false; ///< has no content and no end tag
 
     [[nodiscard]] std::string_view operator[](std::string_view attribute) const
     {
@@ -33,8 +33,8 @@ int base64_value(char c)
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-/// Bytes of base64 text up to the first character that is none; every padded piece ends with its '='.
-/// @param most  bytes wanted; no more are decoded.
+/// Decode base64 text up to the first character that is not part of it; each padded piece ends with '='.
+/// @param most  number of bytes required; no more are decoded.
 std::string from_base64(std::string_view text, std::uint64_t most)
 {
     std::string bytes;
@@ -96,7 +96,7 @@ public:
 private:
     struct Array {
         const VtkType* type = nullptr;
-        std::string_view format, text; ///< `text`: what stands between its tags
+        std::string_view format, text; ///< `text`: the content between its tags
         std::uint64_t offset = 0;
         std::size_t position = 0;
     };
@@ -105,7 +105,7 @@ private:
         Array at, connectivity, offsets, types;
     };
 
-    /// The next tag; false at the end of the file. Comments and declarations are passed over.
+    /// Read the next tag; false at the end of the file. Comments and declarations are skipped.
     bool next_tag(XmlTag& tag)
     {
         while (cursor_.skip_past("<")) {
@@ -130,7 +130,7 @@ private:
         return false;
     }
 
-    /// Where a tag ends: a `>` in the quotes of an attribute is part of its value.
+    /// The end of a tag; a `>` inside a quoted attribute does not end it.
     static std::size_t tag_end(std::string_view text)
     {
         char quote = '\0';
@@ -192,7 +192,7 @@ private:
     {
         Array array{vtk_type(tag["type"]), tag["format"], {}, 0, cursor_.last()};
         if (!tag.empty) {
-            // Text holds no '<'; a tag within, as <InformationKey>, ends it.
+            // The text contains no '<'; an inner tag such as <InformationKey> ends it.
             array.text = cursor_.rest().substr(0, cursor_.rest().find('<'));
         }
         if (section_.empty() || pieces_.empty()) return;
@@ -243,7 +243,7 @@ private:
     {
         std::vector<Vec3>& points = into_.points();
         const std::size_t first = points.size();
-        std::size_t done = 0; // numbers
+        std::size_t done = 0; // numbers read so far
         const auto grow = [&](std::size_t count) {
             const std::size_t needed = first + (done + count + 2) / 3;
             if (needed > points.capacity()) reserve_large(points, std::max(needed, 2 * points.capacity()));
@@ -268,7 +268,7 @@ private:
         return static_cast<std::int64_t>(value);
     }
 
-    /// As `each_run()`; arrays of floating-point numbers are taken one by one.
+    /// Like `each_run()`, but arrays of floating-point numbers are passed one by one.
     template <class Take, class Run>
     void each_whole(const Array& array, const char* name, std::uint64_t count, const Take& take,
                     const Run& run)
@@ -310,8 +310,8 @@ private:
         });
     }
 
-    /// All `count` values of an array, whichever way they are written: `take(value)` of text, `run(bytes, n)`
-    /// of n values as they lie.
+    /// Read all `count` values of an array in any encoding: `take(value)` is called for values in text,
+    /// `run(bytes, n)` for n values in binary.
     template <class Take, class Run>
     void each_run(const Array& array, const char* name, std::uint64_t count, const Take& take, const Run& run)
     {
@@ -338,7 +338,7 @@ private:
                                 .remedy("write the file with another compressor or none")
                                 .about(name));
         if (!compressor_.empty()) return each_compressed(array, from, appended && !base64_, count, fail, run);
-        // No count is believed beyond what the text can hold.
+        // Reject a count that the text cannot hold.
         if (count > from.size()) fail("the file is cut off: expected {} numbers", needed(count));
         const std::uint64_t least = header_->bytes + count * array.type->bytes;
         const std::string decoded = appended && !base64_ ? std::string() : from_base64(from, least);
@@ -351,7 +351,7 @@ private:
         run(bytes.data() + header_->bytes, count);
     }
 
-    /// A number of the type that the head names.
+    /// A number of the type that the file's header declares.
     [[nodiscard]] std::uint64_t header_number(const char* bytes) const
     {
         std::int64_t number = 0;
@@ -359,7 +359,7 @@ private:
         return static_cast<std::uint64_t>(number);
     }
 
-    /// Blocks, each compressed by itself, behind a list of their lengths.
+    /// Blocks that are compressed separately, preceded by a list of their lengths.
     template <class Fail, class Run>
     void each_compressed(const Array& array, std::string_view from, bool raw, std::uint64_t count,
                          const Fail& fail, const Run& run)
@@ -388,7 +388,7 @@ private:
         const std::string_view all = raw ? from.substr(0, packed) : std::string_view(bytes);
         if (all.size() < packed)
             fail("the file is cut off: expected {} bytes, found {}", needed(packed), found(all.size()));
-        std::string left; // bytes of a value that goes on in the next block
+        std::string left; // bytes of a value that continues in the next block
         std::uint64_t taken = 0;
         for (std::uint64_t b = 0, at = (3 + blocks) * width; b < blocks; ++b) {
             const std::uint64_t length = whole(list, 3 + b);
@@ -409,7 +409,8 @@ private:
                  found(taken == count ? "more" : std::to_string(taken)));
     }
 
-    static constexpr double kMostWhole = 9007199254740992.0; // 2^53: whole numbers a double holds
+    // 2^53: up to here a double holds every whole number.
+    static constexpr double kMostWhole = 9007199254740992.0;
 
     Cursor& cursor_;
     DeckBuilder& into_;

@@ -40,14 +40,14 @@ fs::path resolved(const std::string& path)
 {
     throw InvalidInput(Message("io.no_folder", "the folder '{}' cannot be used: {}", path,
                                std::generic_category().message(error))
-                           .remedy("make it first, or name another place"));
+                           .remedy("create it first, or name another place"));
 }
 
-/// What names beside the place begin with, before the number of the process. Files are `unfinished` that are
-/// still written to; those that are whole and about to replace one are `replacing`.
+/// Beginning of the names of temporary files next to the path, before the number of the process: `unfinished`
+/// files are still being written; `replacing` files are complete and about to replace one.
 std::string prefix_beside(const std::string& name, const char* state)
 {
-    // Whatever the name is, this one must not be too long for the file system.
+    // The temporary name must not exceed the file system's limit, whatever the length of `name`.
     constexpr std::size_t kLongest = 200;
     return "." + name.substr(0, kLongest) + "." + state + "-";
 }
@@ -60,7 +60,7 @@ std::string numbered(const std::string& prefix, std::uint64_t number)
     return formatted("{}{}-{}", prefix, ::getpid(), number);
 }
 
-/// A number that no name had before it.
+/// A number that this process has not used before.
 std::uint64_t new_number()
 {
     std::uint64_t number = 0;
@@ -162,7 +162,7 @@ std::pair<std::shared_ptr<const Folder>, std::string> OutputPath::place() const
     if (!fs::is_directory(parent, ignored))
         throw InvalidInput(
             Message("io.no_folder", "cannot write '{}': there is no folder '{}'", path_, parent.string())
-                .remedy("make it first, or name another place"));
+                .remedy("create it first, or name another place"));
     return {std::make_shared<const Folder>(parent.string()), target.filename().string()};
 }
 
@@ -173,7 +173,7 @@ WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text())
     struct stat before = {};
     const bool exists = ::fstatat(folder_->descriptor(), name_.empty() ? "." : name_.c_str(), &before,
                                   AT_SYMLINK_NOFOLLOW) == 0;
-    if (!exists && errno != ENOENT) fail(errno); // too long a name, a folder that may not be searched
+    if (!exists && errno != ENOENT) fail(errno); // the name is too long, or the folder cannot be searched
     if (name_.empty() || (exists && S_ISDIR(before.st_mode)))
         throw InvalidInput(
             Message("io.not_a_file", "cannot write '{}': it is a folder", path_).remedy("add a file name"));
@@ -253,7 +253,7 @@ std::string WholeFile::unfinished_path() const
 
 void WholeFile::fail(int error)
 {
-    Message failed("io.write_failed", "cannot write '{}': {}. Nothing was left behind", path_,
+    Message failed("io.write_failed", "cannot write '{}': {}. No partial file was left", path_,
                    std::generic_category().message(error));
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
         failed = failed.remedy("make room, or name another disk");
@@ -269,27 +269,27 @@ void WholeFile::reserve(std::uint64_t begin, std::uint64_t end)
     while (::fallocate(descriptor_, 0, static_cast<off_t>(begin), static_cast<off_t>(end - begin)) != 0) {
         if (errno == EINTR) continue;
         if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG) fail(errno);
-        return; // a file system that cannot
+        return; // the file system does not support it
     }
 #endif
 }
 
-/// Pages that a large file fills are ones the system has to find, or to take from other files. Where memory
-/// is lent to the machine piece by piece, each new one cost ten times the copying: 6 GB took 22 s of
-/// processor time, and 1.5 s when pages are given back as soon as the disk has them.
+/// Bypassing the page cache avoids allocating a page for everything written. On a virtual machine that gets
+/// its memory piece by piece, each new page cost ten times the copying: 6 GB took 22 s of processor time, and
+/// 1.5 s if pages are released as soon as the disk has them.
 ssize_t WholeFile::write_some(std::uint64_t offset, std::string_view bytes)
 {
 #ifdef __linux__
 #ifdef RWF_DONTCACHE
     constexpr int kPassCache = RWF_DONTCACHE;
 #else
-    constexpr int kPassCache = 0x80; // the same, for headers that do not know it yet
+    constexpr int kPassCache = 0x80; // the same constant, for headers that lack it
 #endif
     if (can_pass_cache_ && std::max(reserved_, offset + bytes.size()) > cached_) {
         const iovec piece{const_cast<char*>(bytes.data()), bytes.size()};
         const ssize_t done = ::pwritev2(descriptor_, &piece, 1, static_cast<off_t>(offset), kPassCache);
         if (done >= 0 || (errno != EOPNOTSUPP && errno != ENOSYS && errno != EINVAL)) return done;
-        can_pass_cache_ = false; // a system or a file system that cannot
+        can_pass_cache_ = false; // the system or the file system does not support it
     }
 #endif
     return ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
@@ -316,7 +316,7 @@ void WholeFile::append(std::string_view bytes)
 
 void WholeFile::publish_unnamed()
 {
-    // What writing did not tell, closing does: this asks before anything is in its place.
+    // Closing may report errors that writing did not: close a duplicate before the file is moved to its path.
     const int other = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
     if (other >= 0 && ::close(other) != 0) fail(errno);
     const std::string source = formatted("/proc/self/fd/{}", descriptor_);
@@ -326,12 +326,13 @@ void WholeFile::publish_unnamed()
     };
     if (link_as(name_)) return;
     if (errno != EEXIST) fail(errno);
-    // Linking replaces nothing; renaming does. The name in between lives for two system calls. The number of
-    // a process does not tell that one is left over, for in containers they come again; its lock does.
+    // Linking does not replace an existing file, renaming does, so a temporary name exists for two system
+    // calls. Whether such a name was left over is decided by its lock, because process numbers recur in
+    // containers.
     ::flock(descriptor_, LOCK_EX | LOCK_NB);
     const std::string prefix = replacing_prefix(name_);
     remove_left_over(prefix, [](const LeftOver& file) { return is_abandoned(file.folder, file.name); });
-    // A name that nobody had: who finds the one before it abandoned removes no other.
+    // Use a name that nobody has used: whoever removes an abandoned file then removes no other.
     const std::string between = numbered(prefix, new_number());
     if (!link_as(between)) fail(errno);
     if (::renameat(folder_->descriptor(), between.c_str(), folder_->descriptor(), name_.c_str()) == 0) return;

@@ -45,7 +45,7 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
         replaces_ = true;
         if (!S_ISDIR(before.st_mode))
             throw InvalidInput(
-                Message("io.not_replaced", "cannot write '{}': it is there and no folder", path_)
+                Message("io.not_replaced", "cannot write '{}': it exists and is not a folder", path_)
                     .remedy("remove it, or name another place"));
         for (const std::string& name : names_in(folder_->descriptor(), name_)) {
             struct stat status = {};
@@ -56,9 +56,9 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
             if (!is_file || !is_own(name))
                 throw InvalidInput(
                     Message("io.not_replaced",
-                            "cannot write '{}': the folder is there and holds '{}', which would be lost",
-                            path_, name)
-                        .remedy("move that away, or name another place"));
+                            "cannot write '{}': the folder already contains '{}', which would be lost", path_,
+                            name)
+                        .remedy("move that file away, or name another place"));
         }
     } else if (errno != ENOENT) {
         fail(errno);
@@ -92,10 +92,10 @@ void WholeFolder::commit()
     }
 #ifdef RENAME_EXCHANGE
     if (::renameat2(folder, unfinished_.c_str(), folder, name_.c_str(), RENAME_EXCHANGE) == 0)
-        return remove_unfinished(); // which is now the old folder
+        return remove_unfinished(); // now the old folder
     if (errno != EINVAL && errno != ENOSYS) fail(errno);
 #endif
-    // The file system cannot exchange names: between the two renames no folder is in place.
+    // The file system cannot exchange names, so between the two renames there is no folder at the path.
     const std::string before = unfinished_ + "-before";
     if (::renameat(folder, name_.c_str(), folder, before.c_str()) != 0) fail(errno);
     if (::renameat(folder, unfinished_.c_str(), folder, name_.c_str()) != 0) {
@@ -118,7 +118,7 @@ void WholeFolder::remove_unfinished() noexcept
 
 void WholeFolder::fail(int error) const
 {
-    throw BackendError("io.write_failed", "cannot write '{}': {}. Nothing was left behind", path_,
+    throw BackendError("io.write_failed", "cannot write '{}': {}. No partial file was left", path_,
                        std::generic_category().message(error));
 }
 

@@ -13,8 +13,8 @@ namespace lacuna::matching {
 
 namespace {
 
-/// Score of a rotation by 180°, relative to a residual as large as the loop. It is small, so that it only
-/// decides between fits of about the same residual; a higher value prefers less rotation to a better fit.
+/// Weight of a rotation by 180° in the score, relative to a residual as large as the loop. It only decides
+/// between fits of about the same residual.
 constexpr double kTurnWeight = 0.1;
 /// Golden-section steps: converges to a millionth of a sample distance.
 constexpr int kSections = 30;
@@ -34,8 +34,8 @@ bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target,
     return true;
 }
 
-/// How far the normals of two aligned loops are reversed relative to the line between them, 0…1; 0 in a plain
-/// sweep.
+/// Share by which the normals of two aligned loops point against the line between the loops, 0…1; 0 in a
+/// plain sweep.
 double overturned(const LoopShape& source, const LoopShape& target, bool backward)
 {
     const Vec3 way = (target.centroid - source.centroid).stableNormalized();

@@ -19,8 +19,8 @@ namespace {
 /// Corners further apart than this share of the longer adjacent side are not paired: another corner is then
 /// closer.
 constexpr double kFarCorner = 0.5;
-/// Vertices closer than this share of the adjacent side are paired instead of splitting off a short edge. A
-/// lower value leaves shorter edges; a higher one twists void edges more.
+/// Vertices closer than this share of the adjacent side are paired instead of splitting off a short edge: a
+/// compromise between the length of the shortest edges and the twist of void edges.
 constexpr double kNear = 0.25;
 
 double share(double x)

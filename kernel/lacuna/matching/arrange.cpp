@@ -24,9 +24,10 @@ double misfit(const Problem& problem, std::size_t s, std::size_t t, const geomet
     return (fit(problem.source[s].centroid) - problem.target[t].centroid).norm() / reach;
 }
 
-/// Cost of sending loop s to loop t after the source is moved by `fit`.
-/// @param scale  of loop sizes: the ratio of the anchor loops' lengths. The scale of the fit is smaller the
-///               worse the fit, so the size of another loop would then decide the anchor's alignment.
+/// Cost of pairing loop s with loop t after the source is moved by `fit`.
+/// @param scale  expected ratio of loop sizes, from the lengths of the anchor loops. The scale of the fit
+///               would not do: it shrinks with the quality of the fit, so the size of another loop would
+///               decide the anchor's alignment.
 double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
                  double scale, double reach)
 {

@@ -12,11 +12,11 @@ using namespace topology;
 
 namespace {
 
-/// Smallest turn of a loop at a corner, where a node must be [degrees]. A lower value takes facets of coarse
-/// curves for corners; a higher one leaves obtuse corners without a node.
+/// Smallest turn of a loop at a corner, where a node must lie [degrees]: above the turn between facets of
+/// coarse curves, below that of obtuse corners.
 constexpr double kCornerAngle = 15;
-/// A corner turns by this factor more than its adjacent facets. A lower value takes uneven facets of a curve
-/// for corners; a higher one misses corners next to coarse curves.
+/// Factor by which the turn at a corner exceeds that of the adjacent facets: above the unevenness of the
+/// facets of one curve.
 constexpr double kOverSmooth = 1.5;
 
 double turn(const Vec3& in, const Vec3& out)

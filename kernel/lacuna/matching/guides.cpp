@@ -27,8 +27,8 @@ using namespace topology;
 
 namespace {
 
-/// Samples of a section between two side lines, and of a closed section without any. An affine fit needs four
-/// points; more average out the facets and cost time.
+/// Sample points of a section between two side lines, and of a closed section without any. An affine fit
+/// needs four; twice as many average out the facets.
 constexpr int kSamplesBetween = 8;
 constexpr int kSamplesRound = 48;
 
@@ -336,9 +336,8 @@ Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 
 /// Number of points that `complete()` adds to an open section.
 constexpr std::size_t kAdded = 2;
-/// Open walls are extrapolated to the rest of their loop if they reach off their own chord by this share of
-/// the loop's reach: an error of the fit is then about doubled at most. A lower value extrapolates larger
-/// errors; a higher one uses fewer walls.
+/// Open walls are extrapolated to the rest of their loop if they extend from their own chord by at least this
+/// share of the loop's extent: extrapolation then at most about doubles the error of the fit.
 constexpr double kReach = 0.5;
 
 /// Whether open walls reach far enough off their chord to extrapolate the rest of their loop.

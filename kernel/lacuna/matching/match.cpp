@@ -21,14 +21,16 @@ using namespace topology;
 
 namespace {
 
-/// Below this confidence the second best alignment is reported too: its residual is then at most a third
-/// larger than the best. A higher value reports more alternatives that are unlikely to be meant.
+/// Confidence below which the second best alignment is reported too: its residual is then at most a third
+/// larger than the best.
 constexpr double kUnsure = 0.25;
-/// Below this confidence, equal numbers of given sides outweigh a fit up to 2.5 times as good that rotates as
-/// much or more. Ring sectors whose outer end is eight times as far out as the inner need a value this high.
+/// Confidence below which an alignment with equal numbers of given sides is preferred to one that fits up to
+/// 2.5 times as well but rotates as much or more. Ring sectors whose outer end is eight times as far out as
+/// the inner one need this.
 constexpr double kUnsureBesideSides = 0.6;
-/// The same confidence against a fit that rotates less, and the difference in rotation that is ignored, as a
-/// share of half a turn. Both are small, so that a plain prism is not twisted to suit its target mesh.
+/// Confidence below which it is preferred even to one that rotates less; and the difference in rotation that
+/// is ignored, as a share of half a turn. Both are small, so that a plain prism is not twisted to suit its
+/// target mesh.
 constexpr double kTie = 0.1, kAsMuch = 0.05;
 
 /// Confidence that the best score is right: 1 − best / second best.
@@ -109,14 +111,13 @@ private:
             const auto [from, to] = fixed_vertices(s);
             if (from.empty())
                 throw NotClosed("matching.vertices_contradict",
-                                "no alignment of {} with {} keeps the vertex pairs fixed by the walls or the "
-                                "recipe",
+                                "no alignment of {} with {} keeps the vertex pairs fixed by the walls or by "
+                                "match{{ vertices = … }}",
                                 source_loop(s), target_loop(t));
-            throw NotClosed(
-                "matching.vertices_contradict",
-                "no alignment of {} with {} keeps the pairs of vertices that walls or recipe fix: "
-                "{} to {}",
-                source_loop(s), target_loop(t), from, to);
+            throw NotClosed("matching.vertices_contradict",
+                            "no alignment of {} with {} keeps the vertex pairs fixed by the walls or by "
+                            "match{{ vertices = … }}: {} to {}",
+                            source_loop(s), target_loop(t), from, to);
         }
         const Alignment& best = chosen_[s] = found.front();
         // A loop reversed by the user does not give the direction of the other loops.
@@ -161,8 +162,8 @@ private:
         if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
-    /// Shift a loop paired by length to the best fit of all the others, unless its samples are given nodes.
-    /// Other loops that can still shift count by their centroids, weighted like a loop.
+    /// Shift a loop that is paired by length to the best common fit with all others, unless its samples are
+    /// given nodes. Other loops that can still shift count by their centroids, with the weight of a loop.
     void slide(std::size_t s)
     {
         const std::size_t t = target(s);
@@ -201,7 +202,8 @@ private:
         if (!keeps_order(low_loop, high_loop, chosen_[s].backward, hard)) {
             const auto [from, to] = fixed_vertices(s);
             throw NotClosed("matching.vertices_contradict",
-                            "the pairs of vertices that walls or recipe fix on {} cross: {} to {}",
+                            "vertex pairs on {} that are fixed by the walls or by match{{ vertices = … }} "
+                            "cross: {} to {}",
                             source_loop(s), from, to);
         }
         const ArcPairs pairs = pair_by_arc(low_loop, high_loop, chosen_[s].offset, chosen_[s].backward, hard,
@@ -268,7 +270,7 @@ private:
     const Problem& problem_;
     Match& match_;
     std::vector<Alignment> chosen_;
-    PointPairs known_; ///< of the loops aligned so far
+    PointPairs known_; ///< corresponding points of the loops aligned so far
     std::optional<bool> backward_;
 };
 
@@ -326,8 +328,10 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     choose_how(problem);
     const std::vector<Arrangement> pairings = arrange(problem);
     if (pairings.empty()) {
-        throw NotClosed("matching.no_pairs",
-                        "no pairing of the loops keeps the pairs fixed by walls and recipe");
+        throw NotClosed(
+            Message("matching.no_pairs",
+                    "no pairing of the loops keeps the pairs fixed by the walls or by match{{ … }}")
+                .remedy("give fewer pairs"));
     }
     result.loops.resize(problem.source.size());
     for (std::size_t s = 0; s < result.loops.size(); ++s)
@@ -337,11 +341,11 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
         result.confidence = sureness(pairings[0].score, pairings[1].score);
         if (result.confidence < kUnsure) {
             result.notes.push_back(
-                Message("matching.other_loops",
-                        "the source loops were paired, in order, with target loops {}, and {} fits about as "
-                        "well",
-                        numbers(pairings[0].target), numbers(pairings[1].target))
-                    .remedy("choose with match{{ loops = … }}"));
+                Message(
+                    "matching.other_loops",
+                    "the source loops were paired, in order, with target loops {}, but {} fits about as well",
+                    numbers(pairings[0].target), numbers(pairings[1].target))
+                    .remedy("to choose, use match{{ loops = … }}"));
         }
     }
     LoopAligner(problem, result).run(pairings.front());

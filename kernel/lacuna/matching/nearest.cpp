@@ -18,8 +18,8 @@ using namespace topology;
 
 namespace {
 
-/// Step 7: distances within this many standard deviations of the mean are no outliers, and at least this
-/// share must be none. Both are the paper's.
+/// Step 7: distances within this many standard deviations of the mean are not outliers, and at least this
+/// share of all distances must lie there. Both values are the paper's.
 constexpr double kDeviations = 2;
 constexpr double kShare = 0.5;
 
@@ -27,9 +27,9 @@ constexpr double kShare = 0.5;
 struct Ends {
     std::vector<VertexId> vertex;
     std::vector<Vec3> at;
-    std::vector<std::size_t> loop;  ///< of each vertex
+    std::vector<std::size_t> loop;  ///< for each vertex
     std::vector<std::size_t> first; ///< first vertex of each loop, then the total
-    std::vector<Vec3> area;         ///< of each loop
+    std::vector<Vec3> area;         ///< for each loop
 
     [[nodiscard]] std::size_t count(std::size_t l) const { return first[l + 1] - first[l]; }
 };
@@ -124,8 +124,8 @@ private:
         return best;
     }
 
-    /// Steps 4 and 5: the nearest target vertex of each source vertex. Where that is not one-to-one, the
-    /// nearest source vertex of each target vertex that has no partner or several.
+    /// Steps 4 and 5: find the nearest target vertex of each source vertex. If that is not one-to-one, find
+    /// the nearest source vertex of each target vertex that has several partners or none.
     void match_vertices()
     {
         std::vector<int> met(target_.vertex.size(), 0);
@@ -185,7 +185,7 @@ private:
             }
             if (source_.count(l) != target_.count(loop_[l])) {
                 throw NotClosed("matching.edge_counts",
-                                "method \"nearest\": {} has {} edges and {} has {}; it needs as many on both",
+                                "method \"nearest\": {} has {} edges and {} has {}; it needs equal numbers",
                                 source_loop(l), found(source_.count(l)), target_loop(loop_[l]),
                                 found(target_.count(loop_[l])));
             }

@@ -30,7 +30,7 @@ void force(Problem& problem, int s, int t, const Argument& because)
 {
     int& now = problem.forced[static_cast<std::size_t>(s)];
     if (now >= 0 && now != t) {
-        throw NotClosed("matching.loops_contradict", "{} is paired with {} and, by {}, with {}",
+        throw NotClosed("matching.loops_contradict", "{} is paired with {} and, by {}, also with {}",
                         source_loop(s), target_loop(now), because, target_loop(t));
     }
     now = t;
@@ -90,8 +90,9 @@ void read_options(Problem& problem)
     const Model& model = problem.volume.model;
     for (const int s : problem.options.flip) {
         if (s >= 0 && s < static_cast<int>(problem.source.size())) continue;
-        throw InvalidInput("matching.unknown_loop", "flip names {}: the loops are numbered from 1 to {}",
-                           source_loop(s), needed(problem.source.size()));
+        throw InvalidInput("matching.unknown_loop",
+                           "flip names loop {}, but the loops are numbered from 1 to {}", source_loop(s),
+                           needed(problem.source.size()));
     }
     for (const auto& [s, t] : problem.options.loops) {
         if (s < 0 || t < 0 || s >= static_cast<int>(problem.source.size()) ||
@@ -106,7 +107,7 @@ void read_options(Problem& problem)
             throw NotClosed(Message("matching.loops_contradict", "{} and {} are both paired with {}",
                                     source_loop(std::min(s, other)), source_loop(std::max(s, other)),
                                     target_loop(t))
-                                .remedy("give each its own in match{{ loops = … }}"));
+                                .remedy("pair each with a different loop in match{{ loops = … }}"));
         }
     }
     for (const auto& [s, t] : problem.options.vertices) {

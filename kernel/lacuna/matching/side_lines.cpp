@@ -22,8 +22,8 @@ using namespace topology;
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Below this climb an edge is at more than 60° to the steepest direction and belongs to no side line. A
-/// lower value takes inclined edges between storeys for side lines; a higher one drops slanted side lines.
+/// Minimum climb of an edge on a side line, the sine of its angle to a level line: edges at more than 60° to
+/// the steepest direction separate the storeys of a stack.
 constexpr double kLevel = 0.5;
 
 std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& faces)
@@ -205,8 +205,8 @@ std::vector<double> climbs(const OpenVolume& volume, const std::set<EdgeId>& edg
 
 Rises rises(const OpenVolume& volume, const RunContext& context)
 {
-    // Heights with nine digits give the climb to six digits. If a climb is closer than this to the threshold,
-    // a thousand times that error, all are computed again with full precision.
+    // Heights with nine digits give the climb with six digits. If a climb differs from the threshold by less
+    // than this, a thousand times that error, all heights are computed again with full precision.
     constexpr double kDoubt = 1e-3;
     const Model& model = volume.model;
     const std::set<EdgeId> between = edges_between(volume);

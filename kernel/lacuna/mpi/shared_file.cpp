@@ -54,7 +54,7 @@ private:
     [[noreturn]] void fail(std::string_view why, const char* remedy) const
     {
         throw BackendError(
-            Message("io.write_failed", "cannot write '{}': {}. Nothing was left behind", name_, why)
+            Message("io.write_failed", "cannot write '{}': {}. No partial file was left", name_, why)
                 .remedy("{}", remedy));
     }
 

@@ -16,20 +16,19 @@ namespace {
 
 using namespace paving;
 
-/// Share of a row's height by which the node where the row ends may miss it. Nodes are placed along curves
-/// but heights are measured square to the side, so zero would reject valid input; a larger share accepts more
-/// uneven rows.
+/// Share of a row's height by which the node where the row ends may miss it. Nodes are placed along curves,
+/// but heights are measured square to the side, so the two differ slightly.
 constexpr double kOffHeight = 0.05;
 
 /// A loop while rows are placed along it.
 struct Front {
     Cycle nodes;
-    std::vector<int> table; ///< of the side from each node to the next
+    std::vector<int> table; ///< table of the side from each node to the next
 };
 
-/// Consecutive sides of one table, between places of a front where rows begin and end.
+/// Consecutive sides with the same table: a piece of a front between two ends of rows.
 struct Run {
-    /// Position in the front and number of sides; as many as the front has: a closed run.
+    /// Position in the front and number of sides. A run of all the front's sides is closed.
     std::size_t first = 0, sides = 0;
     bool closed = false;
 };
@@ -154,15 +153,16 @@ private:
         std::vector<Index> nodes;
         ///< their own
         std::vector<double> lean; ///< offset of each row's end node along the run [length]
-        double block = 0;         ///< length from the end within which rows of the adjacent side cross these
-        bool own = false;         ///< whether the rows end on a side of their own
+        /// Length from the end over which the rows of the adjacent side cross these rows.
+        double block = 0;
+        bool own = false; ///< whether the rows end on a side of their own
     };
 
     /// The run's nodes, with inward normals scaled so that a node has the row's height above both sides.
     struct Base {
         std::vector<Index> nodes;
         std::vector<Vec2> normal, along;
-        std::vector<double> at; ///< running length
+        std::vector<double> at; ///< arc length at each node
     };
 
     [[nodiscard]] Base base_of(const Front& front, const Run& run) const
@@ -209,7 +209,8 @@ private:
         Vec2 way = normal;
         if (turn == RowTurn::outer && beyond >= 0) {
             const Vec2 line = (at - partial_.at(front.nodes[(place + (last ? 1 : n - 1)) % n])).normalized();
-            constexpr double kUpright = 0.5; // of the sine of its angle to the side; else square: a choice
+            // Least sine between the line and the side; below, the new side is square. Not measured.
+            constexpr double kUpright = 0.5;
             if (line.dot(normal) >= kUpright) way = line;
         }
         for (std::size_t r = 0; r < heights.size(); ++r) {
@@ -247,7 +248,7 @@ private:
     /// decreasing so slowly that nodes keep their order.
     static double share_of(const RunEnd& end, double distance, double length)
     {
-        constexpr double kSlowly = 3; // of the lean: nodes come no closer than a third; a choice
+        constexpr double kSlowly = 3; // the lean decreases over this multiple of itself; not measured
         const double most = std::ranges::max(end.lean |
                                              std::views::transform([](double x) { return std::abs(x); }));
         if (distance <= end.block) return 1;
@@ -303,8 +304,8 @@ private:
         return true;
     }
 
-    /// Mark a node where rows end on a side of their own. The angle that they leave tells how the front
-    /// turns.
+    /// Mark a node where rows end on a side of their own. The remaining angle decides how the front turns
+    /// there.
     void mark_cut(Index node)
     {
         if (partial_.is_fixed(node)) is_cut_[index(node)] = true;
@@ -373,9 +374,9 @@ private:
     PartialMesh partial_;
     std::vector<Cycle> given_;
     std::vector<RowTurn> turn_;
-    std::vector<bool> is_cut_; ///< boundary nodes where the ends of rows have taken a part of the angle
+    std::vector<bool> is_cut_; ///< boundary nodes where the ends of rows take up a part of the angle
     std::vector<Front> fronts_;
-    std::vector<Index> foot_; ///< of each added node
+    std::vector<Index> foot_; ///< for each added node
     std::optional<RowsFinding> finding_;
 };
 
@@ -390,7 +391,7 @@ RowsFilling fill_with_rows(const PlanarRegion& region, const BoundaryRows& rows,
     const auto [inside, own] = layer.core(region.size);
     try {
         check(inside);
-    } catch (const InvalidInput&) { // rows that meet what lies opposite leave no region
+    } catch (const InvalidInput&) { // rows that meet the opposite boundary leave no region
         return {{}, layer.least_room()};
     }
     const PlanarQuads filling = core(inside, context);

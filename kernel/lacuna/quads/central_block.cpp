@@ -11,16 +11,16 @@ namespace lacuna::quads {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// A block's first and last quads turn by this from the line between the block's corners. The corners then
-/// have 132°, which leaves 114° on either side, close to the 120° of three equal quads. A larger bulge
-/// flattens the block's own corners.
+/// Angle between a block's first or last quad side and the line between the block's corners. The block's
+/// corners then have 132°, which leaves 114° for each of the two quads outside, close to the 120° of three
+/// equal quads. A larger bulge flattens the block's own corners.
 constexpr double kBulge = 21 * kPi / 180;
 /// Distances of the block's corners and of the middles of its sides, as shares of the distance to the
-/// boundary. Larger values leave less room for the quads around the block, smaller ones make the quads around
-/// it larger than those inside.
+/// boundary. With a half, the quads around the block get about the size of those inside.
 constexpr double kCornerReach = 0.5, kSideReach = 0.5;
 
-/// Distance from the centre to the boundary in a direction, within an eighth of a turn on either side.
+/// Distance from the centre to the boundary in a direction: the least within an eighth of a turn on either
+/// side.
 double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
 {
     double least = std::numeric_limits<double>::infinity();
@@ -93,7 +93,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
     }
     block.around.loops.push_back(std::move(hole));
 
-    const auto at = [&](int x, int y) { // on the rim: the place along it, else -1
+    const auto at = [&](int x, int y) { // on the block's rim: the position along it, else -1
         if (y == 0) return x;
         if (x == sides) return sides + y;
         if (y == sides) return 3 * sides - x;

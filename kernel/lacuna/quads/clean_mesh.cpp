@@ -12,12 +12,12 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// A boundary point keeps its number of quads if that differs from its angle in right angles by less than
-/// this. Above 0.5, so that both numbers are accepted half way between two; a larger value tolerates more
-/// distorted corners.
+/// A boundary point keeps its number of quads if that differs from its angle, in right angles, by less than
+/// this. The bound exceeds 0.5 so that half way between two numbers either is accepted; larger values leave
+/// more distorted corners.
 constexpr double kFits = 0.65;
-/// Loss of a quad whose area is off by a factor e, per squared logarithm of e, and the logarithm used for a
-/// folded quad. A larger kSizeLoss favours sizes over shapes.
+/// Weight of size against shape: the loss of a quad whose area is off by a factor e, quadratic in the
+/// logarithm of the factor; and the logarithm used for a folded quad.
 constexpr double kSizeLoss = 0.1, kFarOff = 10;
 
 } // namespace

@@ -5,8 +5,8 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// Limit of points that are visited in the search for irregular ones. A larger value pairs irregular points
-/// over longer distances and takes more time.
+/// Limit of points visited in the search for irregular ones around a seed; it bounds the distance over which
+/// irregular points are paired.
 constexpr std::size_t kLookedAt = 900;
 
 } // namespace

@@ -19,9 +19,9 @@ namespace {
 
 /// Limits of the search before a patch is given up.
 struct SearchLimits {
-    std::size_t growths;  ///< irregular points to which a patch is grown
-    std::size_t largest;  ///< largest patch, in quads
-    std::size_t fillings; ///< tried for each patch
+    std::size_t growths;  ///< limit of irregular points to which a patch is grown
+    std::size_t largest;  ///< limit of the quads in a patch
+    std::size_t fillings; ///< limit of fillings tried for each patch
     int sweeps;           ///< smoothing sweeps over a filling before its second judgement
     double hopeless;      ///< a filling is then rejected if its loss exceeds the allowed loss by this factor
 };
@@ -35,7 +35,7 @@ constexpr std::array<SearchLimits, 3> kStages{
 /// quads, more than three times as many remove no more irregular nodes. The thorough one allows for larger
 /// meshes.
 constexpr long kLeastBudget = 50'000, kQuickBudget = 15'000;
-/// Rings of quads around a patch that are smoothed with it. More rings fit fillings better and cost time.
+/// Rings of quads around a patch that are smoothed with it: enough room for a filling to adapt.
 constexpr int kRings = 2;
 
 class Cleaner {

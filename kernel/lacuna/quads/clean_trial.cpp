@@ -12,11 +12,11 @@ namespace {
 /// irregular points below 1,000 quads and two fifths fewer from 20,000 on, while the mean falls by 0.0003 at
 /// most; at 2.5 it falls by 0.002.
 constexpr double kLossForgiven = 1.2;
-/// The first sweeps over a filling leave at least this share of its loss, except for one in a hundred of
-/// 6,000 fillings from six domains.
+/// Share of a filling's loss that remains after the first smoothing sweeps, at least, in 99 of 100 of 6,000
+/// fillings from six domains. A filling whose loss is above the limit even at this share is rejected early.
 constexpr double kLeft = 0.6;
-/// Sweeps over a filling and its surroundings, and rounds over its poor quads. More of them accept slightly
-/// more fillings and cost time.
+/// Number of smoothing sweeps over a filling and its surroundings, and of rounds over its poor quads, before
+/// the last judgement.
 constexpr int kSweeps = 6, kRepairs = 4;
 
 } // namespace

@@ -13,9 +13,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Limit of runs with an odd number of sides. From each of them leads a row of quads that are twice as wide
-/// as others until they are smoothed, so a larger limit coarsens more regions at the cost of more stretched
-/// rows.
+/// Limit of runs with an odd number of sides. A row of quads of double width leads from each of them until
+/// smoothing, so a larger limit coarsens more regions at the cost of more stretched rows.
 constexpr std::size_t kMostOdd = 8;
 
 void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
@@ -58,7 +57,7 @@ std::size_t longest_run(const std::vector<std::size_t>& corners)
     return longest;
 }
 
-/// @param of_longest  number of whole sides of run `longest`; other odd runs have one each.
+/// @param of_longest  number of whole sides of run `longest`; each other odd run has one.
 void add_runs(CoarseRegion& made, const PlanarRegion& region, const std::vector<Index>& loop,
               const std::vector<std::size_t>& corners, std::size_t longest, std::size_t of_longest)
 {
@@ -71,7 +70,7 @@ void add_runs(CoarseRegion& made, const PlanarRegion& region, const std::vector<
 
 /// A row of quads from one boundary side to another.
 struct Row {
-    Index from = -1, to = -1; ///< these sides
+    Index from = -1, to = -1; ///< the boundary sides at its ends
     std::size_t quads = std::numeric_limits<std::size_t>::max();
 };
 
@@ -94,7 +93,7 @@ Index follow_row(const std::vector<Quad>& quads, const std::vector<Index>& oppos
 /// Rows between whole sides; each whole side is the end of one row.
 struct Pairing {
     std::vector<Row> rows;
-    std::size_t quads = std::numeric_limits<std::size_t>::max(); ///< of all rows
+    std::size_t quads = std::numeric_limits<std::size_t>::max(); ///< number of quads of all rows
 };
 
 /// Find the pairing with the fewest quads.
@@ -103,7 +102,8 @@ struct Pairing {
 void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pairing& now, Pairing& best)
 {
     const std::size_t runs = left.size();
-    std::size_t r = runs; // from the last run on: those of the outer loop, which may have many, come first
+    // Runs in reverse, because the outer loop's runs, which may have many whole sides, come last.
+    std::size_t r = runs;
     while (r > 0 && left[r - 1] == 0) --r;
     if (r == 0) {
         if (now.quads < best.quads) best = now;

@@ -21,7 +21,7 @@ PlanarRegion divided(const PlanarRegion& region, std::span<const int> segment, s
     for (const std::vector<Index>& loop : region.loops) {
         const std::size_t n = loop.size();
         const auto own = [&](std::size_t i) { return segment[index(loop[i % n])]; };
-        // Start at the start of a segment; if the loop is one segment, that is its first node.
+        // Start at the start of a segment; if the loop is a single segment, start at its first node.
         std::size_t start = 0;
         while (start < n && own(start) == own(start + n - 1)) ++start;
         if (start == n) start = 0;
@@ -42,9 +42,8 @@ PlanarRegion divided(const PlanarRegion& region, std::span<const int> segment, s
 std::optional<double> score_of_counts(const PlanarRegion& region, std::span<const int> segment,
                                       std::span<const int> counts, double asked)
 {
-    // Penalty for the number of quads: kWorth for a quarter more or fewer than asked, growing with the square
-    // of the deviation. That is more than mean scaled Jacobians usually differ by, so a larger kWorth lets
-    // the number of quads decide alone.
+    // Penalty for the number of quads: kWorth at a deviation of a quarter from the number asked, and
+    // quadratic in the deviation. Mean scaled Jacobians usually differ by less than kWorth.
     constexpr double kWorth = 0.2;
     PlanarRegion made = divided(region, segment, counts);
     const std::vector<PlanarQuads> meshes = fill_patterns(made);

@@ -8,8 +8,8 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kRight = kPi / 2;
-/// Upper bounds on the errors of a cost bound and of an angle due to the polynomial of `angle_of()` and
-/// single precision: an angle is off by up to 1e-4, and so are four terms that change by 2.5 per radian.
+/// Errors from the polynomial of `angle_of()` and from single precision: an angle is off by at most 1e-4; a
+/// cost bound has four terms that change by up to 2.5 per radian.
 constexpr float kSlack = 4e-3F, kAngleSlack = 1e-3F;
 
 // The following code has no branches, so that compilers vectorise the loop over lines.
@@ -41,7 +41,7 @@ inline float whole_turn(float angle)
 
 struct Fit {
     float quads;    ///< suitable number of quads for an angle
-    float off;      ///< squared deviation of the angle from theirs, in half right angles
+    float off;      ///< squared deviation of each resulting angle from a right angle, in half right angles
     float in_doubt; ///< 1 if rounding errors may change the number
 };
 

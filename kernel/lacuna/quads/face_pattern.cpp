@@ -157,7 +157,7 @@ struct FacePattern {
 /// quad improves: the smoother's own untangling takes far longer for rows that overlap.
 void spread_folds(PlanarQuads& mesh, std::size_t fixed)
 {
-    constexpr int kSweeps = 20; // a choice, not a measurement
+    constexpr int kSweeps = 20; // limit of sweeps; not measured
     const double before = least_scaled_jacobian(mesh.points, mesh.quads);
     if (before > 0) return;
     std::vector<Vec2> points = mesh.points, sum(points.size());
@@ -448,7 +448,7 @@ public:
     }
 
 private:
-    /// With lines around a hole.
+    /// Try lines around a hole.
     void try_round(std::size_t about)
     {
         const PatternFiller like = fill({about, 1});
@@ -459,15 +459,15 @@ private:
         }
     }
 
-    /// With straight lines.
+    /// Try straight lines.
     void try_straight(TurnStyle style)
     {
-        constexpr std::size_t kMost = 3; // meshes made where one is good; a choice
+        constexpr std::size_t kMost = 3; // meshes made after a good one; not measured
         const std::size_t before = made_.size();
         for (const int rows : rows_to_try(fitting_rows(style))) {
             if (is_fine_ || (is_square_ && made_.size() >= before + kMost)) return;
             const PatternFiller filler = fill({0, rows, 0, 0, style});
-            if (filler.turns() == 0) return; // more rows change nothing
+            if (filler.turns() == 0) return; // the number of rows has no effect without soft turns
         }
     }
 
@@ -483,7 +483,7 @@ private:
         return most;
     }
 
-    /// With a grid at each of a few corners.
+    /// Try a grid at each of a few corners.
     void try_corners()
     {
         const std::vector<std::size_t> corners = lone_corners(region_);
@@ -531,10 +531,10 @@ private:
     const RunContext& context_;
     const paving::BoundarySizes sizes_;
     std::vector<PlanarQuads> made_;
-    std::vector<char> fits_; ///< whether each mesh has the number of quads asked for, if that decides
+    std::vector<char> fits_; ///< for each mesh, whether it has the number of quads asked for, if that matters
     const bool has_half_ends_;
     bool is_square_ = false; ///< whether some mesh has nearly square quads
-    bool is_fine_ = false;   ///< and good rows too
+    bool is_fine_ = false;   ///< whether some mesh also has good rows
 };
 
 } // namespace

@@ -52,7 +52,7 @@ std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<dou
     return count;
 }
 
-/// Find a corner that is no point, or occurs twice in a quad.
+/// Find a corner that is not a point's number, or occurs twice in a quad.
 std::string find_bad_corner(const PlanarQuads& mesh)
 {
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
@@ -112,7 +112,7 @@ double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad>
 double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads,
                              const RunContext& context)
 {
-    constexpr std::size_t kBlock = 4096; // a choice
+    constexpr std::size_t kBlock = 4096; // quads per block of parallel work; not measured
     return parallel_min(context, quads.size(), kBlock, 1, [&](std::size_t begin, std::size_t end) {
         return least_scaled_jacobian(points, quads.subspan(begin, end - begin));
     });

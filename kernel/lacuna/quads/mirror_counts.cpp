@@ -30,7 +30,7 @@ std::optional<Counts> counts_of_part(const PlanarRegion& part, std::span<const i
 /// A region with additional nodes where mirror axes cross sides whose numbers are not given.
 struct Halved {
     PlanarRegion region;
-    std::vector<int> segment;   ///< of the side from each node to the next
+    std::vector<int> segment;   ///< segment of the side from each node to the next
     std::vector<Index> next;    ///< successor of each node in its loop
     std::vector<double> weight; ///< length of that side in sides of the region: 1 or ½
     [[nodiscard]] int segment_at(Index p) const { return segment[index(p)]; }
@@ -81,7 +81,7 @@ std::size_t image_of(const Halved& halved, const MirrorPart& part, const Symmetr
 
 /// The segments of a part: pieces of axes and of the segments of the whole region.
 struct PartSegments {
-    std::vector<int> own; ///< of the side from each node of the part to the next
+    std::vector<int> own; ///< segment of the side from each node of the part to the next
     std::vector<BoundarySegment> all;
     std::vector<Index> starts; ///< first side of each segment, by the whole region's node; -1: an axis
 };

@@ -19,14 +19,14 @@
 namespace lacuna::quads {
 namespace {
 
-/// Limit of sides that are tried, and the quality of the worst cell that ends the search: the quality that
-/// the `ImproveOptions` of a sweep count as good enough.
+/// Limit of sides tried, and the quality of the worst cell that ends the search: that of `ImproveOptions`
+/// from which a cell of the sweep is good enough.
 constexpr std::size_t kMostSides = 4;
-/// How many quads of a row are tried as the triangle. More of them find a better place, further inside, and
-/// take more time.
+/// Number of quads of a row, from the boundary on, that are tried as the triangle: how far inside the
+/// triangle may lie.
 constexpr std::size_t kMostSteps = 8;
 /// Rings of neighbours around the closed row whose nodes move, and rounds of moving them; fewer if the mesh
-/// is smoothed later. More of them improve the worst cell slightly and take more time.
+/// is smoothed later. Further ones improve the worst cell only slightly.
 constexpr int kRings = 3;
 constexpr int kRounds = 30, kFewRounds = 3;
 
@@ -125,7 +125,7 @@ private:
     bool move(Index n)
     {
         constexpr int kDirections = 8;
-        // Shares of the mean side; smaller last steps refine little.
+        // Steps as shares of the mean side; a smaller last step gains little.
         constexpr std::array kSteps{0.2, 0.05, 0.0125};
         constexpr double kGain = 1e-3; // a smaller gain is not worth a move
         Vec2 mean = Vec2::Zero();
@@ -383,11 +383,11 @@ void tell_triangles(PlanarQuads& mesh, std::size_t count)
 
 [[noreturn]] void refuse_rows(std::size_t sides)
 {
-    throw NotSweepable(
-        "surface.odd_region",
-        "a region with {} boundary sides was to be filled with quads and few triangles, and no "
-        "row of quads leads inward from its longest sides",
-        sides);
+    throw NotSweepable(Message("surface.odd_region",
+                               "a region with {} boundary sides needs one triangle besides quads, but no row "
+                               "of quads leads inward from its longest sides",
+                               sides)
+                           .remedy("change the number of sides by one with 'intervals'"));
 }
 
 std::size_t sides_of(const PlanarRegion& region)

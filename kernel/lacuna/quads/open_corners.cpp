@@ -38,8 +38,8 @@ std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer
         room = std::min(room, corner_sine(cross(side, centre - outer[k]), side.norm()));
     }
     if (!(room > 0)) return std::nullopt;
-    // Share of the circle that touches the nearest side; larger makes flat outer quads, smaller a tiny inner
-    // one.
+    // Radius of the inner quad, as a share of the circle that touches the nearest side: a compromise between
+    // flat outer quads and a tiny inner one.
     constexpr double kOfRoom = 0.4;
     std::array<Vec2, 4> inner;
     for (std::size_t k = 0; k < 4; ++k) inner[k] = centre + kOfRoom * room * (outer[k] - centre).normalized();

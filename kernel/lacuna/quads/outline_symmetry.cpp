@@ -37,7 +37,7 @@ public:
     std::vector<Symmetry> run() const
     {
         std::vector<Symmetry> found = all();
-        // More rotations cost time and make no better mesh.
+        // Limit of rotations. Further ones would not improve the mesh.
         constexpr std::size_t kMostTurns = 64;
         const auto turns = 1 + static_cast<std::size_t>(std::ranges::count_if(
                                    found, [](const Symmetry& s) { return !s.map.mirrors; }));
@@ -129,12 +129,13 @@ private:
 /// A mirror axis and the angle of its direction, 0…π.
 struct Axis {
     double angle = 0;
-    /// Twice the number of loops that it maps onto themselves, plus one if it passes through the first node.
+    /// Twice the number of loops that the reflection maps onto themselves, plus one if the axis passes
+    /// through the first node.
     int worth = 0;
     std::size_t symmetry = 0;
 };
 
-/// Samples of the size along a line; more follow a varying size better and take longer.
+/// Number of samples of the size along a line, which is divided by their integral.
 constexpr int kSteps = 64;
 
 /// Cumulative integral of 1 / size along a line, up to each sample.
@@ -348,7 +349,7 @@ bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
 /// Whether an axis passes through a corner and would leave a half that is sharp or obtuse.
 bool halves_corner(const PlanarRegion& region, const Symmetry& mirror)
 {
-    // [right angles]; a hole of eight sides has 22.5°. A larger value accepts more axes with worse corners..
+    // [right angles]; the axes of a hole with eight sides deviate by 22.5°.
     constexpr double kMostOff = 25.0 / 90;
     for (const std::vector<Index>& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -392,7 +393,8 @@ bool lies_in(const PlanarRegion& region, const Vec2& p)
 std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, bool has_centre)
 {
     constexpr double kPi = std::numbers::pi;
-    // More images cost symmetric places for irregular nodes and make no better quads.
+    // Limit of images around a centre outside the region. With many narrow parts, irregular nodes would have
+    // few places.
     constexpr std::size_t kMostAxes = 8;
     if (!has_centre && axes.size() > 1) {
         std::size_t every = (axes.size() + kMostAxes - 1) / kMostAxes;

@@ -34,7 +34,7 @@ double own_turn(const PatternLoop& loop, std::size_t i)
 /// Whether the quads of a turn at a node would have angles of 54° to 126° there, a sine of 0.8.
 bool may_turn(const PatternLoop& loop, std::size_t i, int turn)
 {
-    constexpr double kOffSquare = 0.4; // larger closes more loops but leaves worse corners
+    constexpr double kOffSquare = 0.4; // allowed deviation of each angle, in right angles: 54° to 126°
     if (turn < -2 || turn > 1 || loop.movable[i]) return false;
     return std::abs((2 - own_turn(loop, i)) / (2 - turn) - 1) < kOffSquare;
 }

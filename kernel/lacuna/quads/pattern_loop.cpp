@@ -69,8 +69,8 @@ bool is_soft(double own, int turn, TurnStyle style)
     return turn != 0 && std::abs(own - turn) > limit;
 }
 
-/// Cost of a soft turn if few are wanted: half that of a side across the grid. A higher value gives fewer
-/// irregular nodes and worse angles.
+/// Cost of a soft turn if few are wanted, relative to a side that runs across the grid (1): the exchange rate
+/// between irregular nodes and angles. Heuristic.
 constexpr double kSoftTurn = 0.5;
 
 /// The headings of least cost, given that of the first side.
@@ -246,8 +246,8 @@ bool has_doubtful_turns(const PlanarRegion& region)
 
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop)
 {
-    // Corners of up to 112° count as ends: two quads would have a sine of 0.83 there. A higher value excludes
-    // more loops from ring grids.
+    // Turn from which a corner counts as an end of the boundary, which no ring grid may pass straight [right
+    // angles]: angles up to 112°, where two quads would have a sine of 0.83.
     constexpr double kEnd = 0.75;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         if (loop.movable[i]) return false;

@@ -157,7 +157,7 @@ int fitting_rows(const PatternLoop& loop)
 
 std::vector<int> rows_to_try(int fitting)
 {
-    constexpr int kAlways = 3; // numbers of rows always tried; more take time
+    constexpr int kAlways = 3; // numbers of rows that are always tried
     std::vector<int> rows;
     for (int r = 1; r <= kAlways; ++r) rows.push_back(r);
     for (const int r : {fitting / 2, 2 * fitting / 3, fitting}) {

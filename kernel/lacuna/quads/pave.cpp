@@ -53,34 +53,33 @@ Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, c
 void check(const PlanarRegion& region)
 {
     std::size_t sides = 0;
-    if (region.loops.empty())
-        throw InvalidInput("surface.pave_loops", "a region to be filled has no outline");
+    if (region.loops.empty()) throw InvalidInput("surface.pave_loops", "the region has no outline");
     std::vector<bool> seen(region.points.size(), false);
     for (std::size_t l = 0; l < region.loops.size(); ++l) {
         const auto& loop = region.loops[l];
         const NamedEntity name{"loop", static_cast<long long>(l) + 1};
         if (loop.size() < 3) {
-            throw InvalidInput(Message("surface.pave_loops", "{} of a region to be filled has {} nodes", name,
-                                       found(loop.size()))
-                                   .remedy("give it {} or more", needed(3)));
+            throw InvalidInput(
+                Message("surface.pave_loops", "{} of the region has {} nodes", name, found(loop.size()))
+                    .remedy("give it {} or more", needed(3)));
         }
         sides += loop.size();
         for (const Index p : loop) {
             if (p < 0 || index(p) >= seen.size())
-                throw InvalidInput("surface.pave_loops", "{} of a region to be filled names {} of {}", name,
+                throw InvalidInput("surface.pave_loops",
+                                   "{} of the region names {}, but the region has {} nodes", name,
                                    NamedEntity{"node", static_cast<long long>(p) + 1}, needed(seen.size()));
             if (seen[index(p)])
                 throw InvalidInput("surface.pave_loops",
-                                   "{} of a region to be filled comes to {} a second time; loops may not "
-                                   "touch",
-                                   name, NamedEntity{"node", static_cast<long long>(p) + 1});
+                                   "{} of the region passes {} twice; loops must not touch themselves", name,
+                                   NamedEntity{"node", static_cast<long long>(p) + 1});
             seen[index(p)] = true;
         }
     }
     if (const auto crossing = geometry::find_crossing(region.points, region.loops)) {
         const auto node = index(region.loops[crossing->loop_a][crossing->segment_a]);
         const auto loop = [](std::size_t l) { return NamedEntity{"loop", static_cast<long long>(l) + 1}; };
-        throw InvalidInput("surface.pave_loops", "{} and {} of a region to be filled cross or touch near {}",
+        throw InvalidInput("surface.pave_loops", "{} and {} of the region cross or touch near {}",
                            loop(crossing->loop_a), loop(crossing->loop_b),
                            position_text(region.points[node]));
     }
@@ -92,19 +91,18 @@ void check(const PlanarRegion& region)
             (outer || geometry::lies_inside(outline, region.points[index(loop.front())])))
             continue;
         if (outer)
-            throw InvalidInput("surface.pave_loops",
-                               "the outer loop of a region to be filled runs clockwise; the first loop goes "
-                               "round the others, with the region on its left");
+            throw InvalidInput("surface.pave_loops", "the region's outer loop runs clockwise; the first loop "
+                                                     "must surround the others and run counter-clockwise");
         throw InvalidInput("surface.pave_loops",
-                           "{} of a region to be filled is no hole in {}: holes lie inside it and run "
-                           "clockwise",
+                           "{} of the region is not a hole in {}: holes must lie inside it and run clockwise",
                            NamedEntity{"loop", static_cast<long long>(l) + 1}, NamedEntity{"loop", 1});
     }
     if (sides % 2 != 0) {
-        throw InvalidInput(Message("surface.pave_parity",
-                                   "a region with {} boundary sides cannot be filled with quads alone",
-                                   found(sides))
-                               .remedy("give one of its edges one side more"));
+        throw InvalidInput(
+            Message("surface.pave_parity",
+                    "a region with an odd number of boundary sides ({}) cannot be filled with quads alone",
+                    found(sides))
+                .remedy("give one of its edges one side more"));
     }
 }
 
@@ -113,7 +111,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
     check(region);
     if (options.exact_rows < 0 || (options.exact_rows > 0 && !region.row_height)) {
         throw InvalidInput(Message("surface.pave_rows",
-                                   "{} rows of their own height are asked for, of a region {} a row height",
+                                   "{} rows of exact height are requested for a region {} a row height",
                                    found(options.exact_rows), region.row_height ? "with" : "without")
                                .remedy("give a height and 0 rows or more"));
     }
@@ -122,9 +120,11 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
     chooser.run();
     Attempt best = chooser.take_best();
     if (best.worst <= 0) {
-        throw NotSweepable("surface.pave",
-                           "no valid quads were found for a region of {} boundary nodes: near {} they fold",
-                           region.points.size(), position_text(best.where));
+        throw NotSweepable(
+            Message("surface.pave",
+                    "no valid quads were found for a region of {} boundary nodes: they fold near {}",
+                    region.points.size(), position_text(best.where))
+                .remedy("use a smaller size"));
     }
     // Between sides that nearly touch, or in spikes, all quads are flat.
     if (best.worst <= chooser.flat()) {

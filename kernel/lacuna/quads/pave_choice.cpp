@@ -27,8 +27,8 @@ namespace {
 /// measured on the named outlines.
 constexpr std::size_t kSmall = 4000;
 /// Limits of the total number of quads made with the rows of weights: about eight meshes of a region of
-/// kSmall. If the worst quad stays poor, the outline is more likely the cause than the cuts, so the limit is
-/// lower. Higher limits take more time for a small gain.
+/// kSmall. The limit is lower if the worst quad stays poor, because then the outline rather than the cuts is
+/// the cause.
 constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
 
 /// The first seven rows that `choose_weights choose 1 240` prints (`benchmarks/pave/`): chosen greedily from
@@ -59,12 +59,11 @@ constexpr std::array<CutWeights, 3> kFewWeights{{
      .most_patch = 0.7},
 }};
 
-/// A score, close to the maximum of 3.325, at which no further weights are tried. A lower value saves time
-/// and may miss a better mesh.
+/// Score at which no further weights are tried: so close to the maximum of 3.325 that little can be gained.
 constexpr double kGoodEnough = 3.3;
-/// A mesh is kept without further trials if its worst quad and its shares of right sizes and right rows reach
-/// these bounds, and its irregular nodes hardly exceed the topological minimum. Looser bounds save time and
-/// may miss a better mesh.
+/// A mesh is kept without further trials if its worst quad (scaled Jacobian) and its shares of right sizes
+/// and right rows reach these bounds, and its irregular nodes number at most kNearLeast times the topological
+/// minimum plus kFewMore.
 constexpr double kFineWorst = 0.82, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
 bool is_near_least(const PlaneQuality& quality, int least)
@@ -111,7 +110,7 @@ std::uint64_t name_of(const PlanarQuads& mesh)
 
 /// An attempt before it is finished.
 struct Begun {
-    std::size_t irregular; ///< nodes
+    std::size_t irregular; ///< number of irregular nodes
     Attempt attempt;
 };
 
@@ -129,7 +128,7 @@ Attempt grid_attempt(std::optional<PlanarQuads> mesh, const AttemptSetting& sett
 
 /// Lower bounds for accepting a mesh.
 struct Limits {
-    double least, mean; ///< scaled Jacobian
+    double least, mean; ///< least and mean scaled Jacobian
     double of_size;     ///< share of sides with the size asked
 };
 
@@ -155,7 +154,7 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_
 /// @param few    the quads are so few that the given sides determine their sizes.
 bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const SizeField& asked, bool few)
 {
-    // Lower accepts symmetric meshes more often.
+    // Lower bounds of least and mean scaled Jacobian and of the share of right sizes; not measured.
     constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0};
     const Limits& limits = few ? kGoodFew : kGood;
     if (attempt.worst < limits.least || !find_fault(attempt.mesh, region).empty()) return false;
@@ -168,7 +167,7 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const Size
 /// Whether quads of a coarser mesh, cut in four, are so good that no further attempt is needed.
 bool is_good_cut(const Attempt& attempt, const PlanarRegion& region)
 {
-    constexpr Limits kGood{0.65, 0.97, 0.95}; // higher repeats the paving at full size more often
+    constexpr Limits kGood{0.65, 0.97, 0.95}; // a stricter bound repeats the paving at full size more often
     return attempt.worst >= kGood.least && find_fault(attempt.mesh, region).empty() &&
            reaches(kGood, attempt, region) && has_quads_asked(attempt.mesh, region.size);
 }

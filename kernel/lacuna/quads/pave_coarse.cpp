@@ -16,11 +16,10 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Coarse regions with at least this many quads are coarsened again. A lower value saves time and leaves less
-/// regular sizes.
+/// Number of quads from which a coarse region is coarsened again: it bounds the time of paving the coarsest
+/// region.
 constexpr double kManyStill = 8000;
-/// Limit of sides that may be divided for that. Each leaves a triangle, with a few irregular nodes, so a
-/// higher limit coarsens more regions at the cost of more of them.
+/// Limit of sides that may be divided for that. Each leaves a triangle with a few irregular nodes.
 constexpr std::size_t kMostDivided = 8;
 
 /// The sides to divide so that every run from corner to corner, and every loop without corners, has an even
@@ -71,7 +70,7 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
     const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
     const auto in_four = [&](const PlanarRegion& divided, const RunContext& its_context) {
         std::optional<Paved> made = pave_in_four(divided, sizes_with_boundary(divided).ring, its_context);
-        if (!made) throw NotSweepable("surface.pave", "no quads of a coarser region");
+        if (!made) throw NotSweepable("surface.pave", "internal error: the coarser region has no quads");
         report = std::move(made->report);
         return std::move(made->mesh);
     };

@@ -11,8 +11,7 @@ namespace {
 
 using geometry::orient2d;
 
-/// A line at less than 15° to the outline makes a sliver. A larger angle excludes more lines, a smaller one
-/// allows sharper quads.
+/// Smallest angle between a line and the outline, 15°: a sharper quad would be a sliver.
 constexpr double kLeastAngle = kRightAngle / 6;
 
 /// Squared distance of an angle from the nearest multiple of a right angle, in half right angles.
@@ -88,8 +87,8 @@ public:
     {
         places_ = candidates();
         line_up();
-        // A line nearly as long as the outline that it cuts off is seldom good, so it is tried only if there
-        // is no other. A lower bound saves time and may miss the best line.
+        // Limit of a line's length relative to the outline that it cuts off. A longer line is seldom good, so
+        // it is tried only if there is no other.
         constexpr double kShort = 0.85;
         auto cut = find_among(kShort);
         return cut ? cut : find_among(kInfinity);
@@ -170,8 +169,9 @@ private:
 
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
-        constexpr std::size_t kSpread = 32;   ///< nodes tried evenly along the outline; more cost time
-        constexpr std::size_t kFeatures = 64; ///< and nodes where it turns inward; more cost time
+        constexpr std::size_t kSpread = 32; ///< nodes tried evenly along the outline
+        /// And nodes where the outline turns inward; both limit the time.
+        constexpr std::size_t kFeatures = 64;
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
             if (angles_[i] > kReversalAbove * kDegree) bent.push_back(i);
@@ -311,7 +311,7 @@ private:
     const std::vector<double>& angles_;
     std::size_t n_;
     std::vector<double> arc_;     ///< along the loop, up to each node
-    std::vector<double> heading_; ///< of the side that leaves each node [radians]
+    std::vector<double> heading_; ///< direction of the side that leaves each node [radians]
     std::vector<double> pace_;    ///< 1 / size at each node
     std::vector<std::size_t> corners_;
     std::vector<std::size_t> places_; ///< nodes between which lines are tried
@@ -322,7 +322,7 @@ private:
 /// Bridges start at every n-th node of a loop.
 std::size_t stride_of(std::size_t n)
 {
-    constexpr std::size_t kMost = 48; // nodes of a loop tried; more cost time
+    constexpr std::size_t kMost = 48; // limit of the nodes of a loop that are tried
     return std::max<std::size_t>(1, n / kMost);
 }
 

@@ -17,7 +17,7 @@ struct Sampled {
     double edges = 0; ///< number of mesh edges of the whole side
 };
 
-/// Sample cells along a side of a patch; more estimate better and take longer.
+/// Number of sample cells along a side of a patch, by which its quality is estimated.
 constexpr std::size_t kSamples = 6;
 
 /// The quality of a block of a patch: the least sine of its worst sample cell, reduced if cells miss the size
@@ -53,7 +53,7 @@ double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& sid
             }
         }
     }
-    // A size that is off by a factor of two everywhere halves the quality.
+    // Sizes that are off by a factor of two everywhere halve the quality.
     return worst > 0 ? worst / (1 + stray / weight) : worst;
 }
 
@@ -139,7 +139,7 @@ PatchFit fit_round(const PartialMesh& partial, const Cycle& cycle, const std::ve
     PatchFit best;
     best.quality = -1;
     if (n < 8 || n % 2 != 0) return best;
-    constexpr std::size_t kTurns = 24; // first corners tried; more cost time
+    constexpr std::size_t kTurns = 24; // limit of first corners that are tried
     const std::size_t step = std::max<std::size_t>(1, half / kTurns);
     for (std::size_t start = 0; start < half; start += step) {
         for (const double share : {0.5, 0.4, 0.3, 0.2}) {
@@ -157,7 +157,8 @@ PatchFit fit_round(const PartialMesh& partial, const Cycle& cycle, const std::ve
         }
     }
     // The grid's corners lie on a round outline, so its corner cells are skewed.
-    constexpr double kBend = 0.8; // factor for the quality; lower prefers cuts to patches without corners
+    // Factor on the quality: a patch without corners must be that much better than a cut.
+    constexpr double kBend = 0.8;
     best.quality *= best.quality > 0 ? kBend : 1;
     return best;
 }
@@ -179,7 +180,7 @@ PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::ve
         std::partial_sort(order.begin(), order.begin() + 5, order.end(), [&](std::size_t a, std::size_t b) {
             return std::pair(angles[a], a) < std::pair(angles[b], b);
         });
-        // The next node is at least 10° wider; larger accepts fewer fourth corners.
+        // Difference of angle by which a fourth corner must stand out against the next candidate, 10°.
         constexpr double kClear = kRightAngle / 9;
         if (angles[order[3]] + kClear < angles[order[4]]) {
             std::vector<std::size_t> four(order.begin(), order.begin() + 4);

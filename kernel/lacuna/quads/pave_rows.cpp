@@ -184,7 +184,7 @@ std::optional<Cycle> lay_one(PartialMesh& partial, const Cycle& cycle, const Gap
                              const SizeField& height, RowKind kind)
 {
     if (kind != RowKind::buffer) return RowTrial(partial, cycle, kind).lay(gaps, height);
-    constexpr int kFlatter = 5; // tries, each half as high, down to a sixteenth
+    constexpr int kFlatter = 5; // attempts, each with half the height of the previous, down to a sixteenth
     for (double part = 1; part > std::ldexp(1.0, -kFlatter); part /= 2) {
         auto inner = RowTrial(partial, cycle, kind).lay(gaps, [&](const Vec2& p) {
             return part * height(p);

@@ -109,7 +109,7 @@ private:
     Vec2 low_;
     double cell_ = 1;
     int nx_ = 0, ny_ = 0;
-    std::vector<double> most_, least_; ///< of each cell
+    std::vector<double> most_, least_; ///< for each cell
 };
 
 } // namespace

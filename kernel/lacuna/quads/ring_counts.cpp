@@ -28,7 +28,8 @@ std::size_t longest_hole(const PlanarRegion& region)
     return longest;
 }
 
-/// Number of a loop's sides that are not of the size asked; each costs as much as one missing side.
+/// Number of a loop's sides whose length is outside the accepted range; each costs as much as one missing
+/// side.
 double out_of_size(const CountedLoop& loop)
 {
     int sum = 0;
@@ -126,7 +127,7 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
 struct RingLoops {
     std::array<CountedLoop, 2> ends; ///< the outer loop and the hole
     std::array<int, 2> along{};      ///< their numbers of sides along the ring, rounded
-    std::vector<CountedLoop> others; ///< of the other holes, closed
+    std::vector<CountedLoop> others; ///< loops of the other holes, closed
 };
 
 /// @return empty if a loop fits no grid around a hole.
@@ -167,7 +168,7 @@ std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, con
     std::optional<std::vector<CountedLoop>> best;
     if (symmetric > 2) {
         // A loop of many corners has one side per corner, and the other loop as many, for a symmetric mesh.
-        constexpr CountRange kMany{kRing.least, 4}; // a larger ratio accepts more stretched rows
+        constexpr CountRange kMany{kRing.least, 4}; // up to four times as many sides as asked
         const auto corners = static_cast<int>(
             std::ranges::count_if(ends[0].runs, [](const CountedRun& run) { return run.quarter == 0; }));
         if (corners % symmetric == 0 && corners > 2 * symmetric - 1)

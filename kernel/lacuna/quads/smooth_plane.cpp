@@ -22,11 +22,11 @@ constexpr double kStill = 0.02;
 /// takes a tenth of the sweeps (measured: 1.5 and 1.7 need more, 1.9 overshoots between poor quads).
 constexpr double kOverstep = 1.85;
 
-/// Whether a side is far shorter than any between two fixed points: its ends all but met, which sines do not
-/// show.
+/// Whether some side is far shorter than every side between two fixed points. The ends of such a needle
+/// nearly coincide, which the sines do not show.
 bool has_needles(std::span<const Vec2> points, std::span<const Quad> quads, std::size_t fixed)
 {
-    constexpr double kOfShortest = 0.05; // a lower share detects only more extreme needles
+    constexpr double kOfShortest = 0.05; // share of the shortest fixed side below which a side is a needle
     double given = kInfinity, shortest = kInfinity;
     for (const Quad& quad : quads) {
         for (std::size_t k = 0; k < 4; ++k) {
@@ -38,8 +38,8 @@ bool has_needles(std::span<const Vec2> points, std::span<const Quad> quads, std:
     return given < kInfinity && shortest < kOfShortest * kOfShortest * given;
 }
 
-/// So many points are swept in blocks of so many: numbers near each other are near each other in most meshes.
-/// Choices, not measurements.
+/// From kMany points on, points are swept in blocks of kBlock consecutive numbers, because in most meshes
+/// close numbers mean close points. Not measured.
 constexpr std::size_t kMany = 20'000, kBlock = 4096;
 
 class Smoother {
@@ -57,9 +57,10 @@ public:
         if (points.size() >= kMany) part_in_blocks();
     }
 
-    /// One step for every point that is awake. Of many points those inside blocks are moved first, block
-    /// beside block, which no number of threads changes; then those between blocks.
-    /// @return how many moved by more than next to nothing.
+    /// One step for every point that is awake. In large meshes the points inside blocks move first, with
+    /// blocks in parallel, then the points between blocks; so the result is the same for any number of
+    /// threads.
+    /// @return number of points that moved by more than `kStill`.
     std::size_t sweep(double floor, double overstep, const RunContext& context)
     {
         if (inside_.empty()) return sweep_range({fixed_, points_.size(), 0, floor, overstep});
@@ -74,8 +75,8 @@ public:
                                sweep_range({fixed_, points_.size(), 0, floor, overstep}));
     }
 
-    /// Move the points of poor quads to where the least sine around is largest; later only those with a
-    /// neighbour that moved. @return whether any moved.
+    /// Move the points of poor quads to where the least sine around them is largest. From the second call on,
+    /// only points with a neighbour that moved. @return whether any point moved
     bool raise(double floor, const RunContext& context)
     {
         if (restless_.empty()) {
@@ -120,14 +121,14 @@ public:
     }
 
 private:
-    /// Points that are swept, and how.
+    /// Points to sweep: an interval of numbers and a filter.
     struct Range {
         std::size_t first, last;
-        char inside; ///< 1: those inside a block; 0: the others, or all where there are no blocks
+        char inside; ///< 1: points inside a block; 0: the others, or all points if there are no blocks
         double floor, overstep;
     };
 
-    /// Find the points whose neighbours are all fixed or in their own block of points.
+    /// Find the points whose neighbours are all fixed or in the point's own block.
     void part_in_blocks()
     {
         inside_.assign(points_.size(), 0);
@@ -143,7 +144,7 @@ private:
         }
     }
 
-    /// With the widest vectors the machine has; they change no bit.
+    /// Compiled for the widest vectors of the machine; results are the same bit for bit.
     std::size_t sweep_range(const Range& range)
     {
 #if defined(LACUNA_WIDER_VECTORS)
@@ -170,13 +171,14 @@ private:
             const Vec2 step(-(here.yy * here.slope.x() - here.xy * here.slope.y()) / det,
                             -(here.xx * here.slope.y() - here.xy * here.slope.x()) / det);
             const double side = here.sides / static_cast<double>(2 * star.size());
-            constexpr int kTries = 4; // of steps, each shorter than the last; a choice
+            constexpr int kTries = 4; // step lengths tried, each shorter than the previous one. Not measured
             double length = overstep;
             for (int tries = 0; tries < kTries; ++tries, length = (length > 1 ? 1 : length / 2)) {
                 const Vec2 to = points_[p] + length * step;
                 const double least = floor * floor;
                 double energy = lanes.energy(to, areas_.weight, least);
-                if (energy > here.value && least > 0) { // where the sine is less already, it may stay so
+                // If the sine is below `least` already, it may stay so.
+                if (energy > here.value && least > 0) {
                     const double sine = least_sine(points_, star, points_[p]);
                     if (sine < floor) energy = lanes.energy(to, areas_.weight, sine * sine);
                 }
@@ -209,12 +211,12 @@ private:
     /// Move a point to where the least sine around it is largest. @return whether it increased
     bool raise_at(std::size_t p)
     {
-        // Steps of the shortest edge; choices, not measurements.
+        // First and last step as shares of the shortest side, and the least gain of sine. Not measured.
         constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
         const auto star = stars_[p];
         if (star.empty()) return false;
-        // Right angles alone would draw points together: sides keep this share of the mean, or are as short
-        // as they are.
+        // The sine alone would let points collapse onto each other, so sides keep a share of the mean length,
+        // or their present length if that is shorter.
         const double reach = shortest_side(points_, star, points_[p]);
         double sum = 0;
         for (const Spoke& spoke : star) sum += (points_[index(spoke.next)] - points_[p]).norm();
@@ -235,10 +237,11 @@ private:
     std::size_t fixed_;
     const SmoothPlaneOptions& options_;
     Stars stars_;
-    std::vector<char> awake_;        ///< points to be swept
-    std::vector<char> restless_;     ///< points to be raised where quads are poor
-    std::vector<char> inside_;       ///< of its block; empty where there are no blocks
-    std::vector<double> least_side_; ///< of each point, that raising keeps [length]
+    std::vector<char> awake_;    ///< points to sweep
+    std::vector<char> restless_; ///< points to raise if their quads are poor
+    /// For each point, whether it is inside its block; empty if there are no blocks.
+    std::vector<char> inside_;
+    std::vector<double> least_side_; ///< for each point, the shortest side that raising must keep [length]
     TargetAreas areas_;
 };
 
@@ -255,7 +258,7 @@ void smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::s
     }
     Smoother smoother(points, quads, fixed, options);
     smoother.ask_sizes(context);
-    // Points that all but met part again only where sines may fall meanwhile.
+    // Points that nearly coincide can only separate if sines may fall meanwhile.
     const double floor = has_needles(points, quads, fixed) ? 0 : std::max(0.0, least);
     for (int i = 0; i < options.sweeps; ++i) {
         check_cancelled(context);

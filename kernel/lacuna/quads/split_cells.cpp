@@ -14,8 +14,8 @@ namespace lacuna::quads {
 namespace {
 
 /// The inner edges that stay whole: the T-join of `split_cells()`. Breadth-first trees grow from all odd
-/// cells at once. Where two meet, their groups are joined, the nearest first; in the tree of groups every
-/// branch with an odd number of odd cells is joined to the cell above it.
+/// cells at once. Where two trees meet, their groups are linked, the shortest link first. In the resulting
+/// tree of groups, every branch with an odd number of odd cells is joined to its parent.
 class WholeEdges {
 public:
     explicit WholeEdges(const MixedMesh& mesh)
@@ -29,7 +29,7 @@ public:
         join();
     }
 
-    /// Side i of cell c has the number 4c + i; on the boundary all are whole.
+    /// Side i of cell c has the number 4c + i. Boundary sides are always whole.
     [[nodiscard]] bool is_whole(Index side) const
     {
         return opposite_[index(side)] < 0 || whole_[index(side)] != 0;
@@ -40,7 +40,7 @@ public:
 private:
     struct Meeting {
         int steps;
-        Index one, two; ///< neighbours of different groups
+        Index one, two; ///< adjacent cells of different groups
     };
 
     /// Call `visit(side, neighbour)` for every side of a cell; the neighbour is -1 on the boundary.
@@ -103,10 +103,11 @@ private:
         }
     }
 
-    /// From the leaves of a tree of groups to its root: an odd branch is joined to the group above it.
+    /// From the leaves of a tree of groups to its root: join each odd branch to its parent.
     void send_up(Index top, const std::vector<std::vector<Meeting>>& tree, std::vector<bool>& seen)
     {
-        std::vector<std::pair<Index, Meeting>> order{{top, {0, -1, -1}}}; // a root and the way up from it
+        // Cells from the root on, each with its link towards the root.
+        std::vector<std::pair<Index, Meeting>> order{{top, {0, -1, -1}}};
         std::unordered_map<Index, int> odd{{top, 1}};
         seen[index(top)] = true;
         for (std::size_t i = 0; i < order.size(); ++i) {
@@ -142,9 +143,10 @@ private:
     }
 
     std::vector<Index> opposite_;
-    std::vector<Index> root_, from_; ///< the odd cell a cell was reached from, and the cell before it
+    /// The odd cell from which each cell was reached, and the cell before it.
+    std::vector<Index> root_, from_;
     std::vector<int> steps_;
-    std::vector<char> whole_; ///< of each side
+    std::vector<char> whole_; ///< for each side
 };
 
 class Splitter {
@@ -170,7 +172,7 @@ private:
         return static_cast<Index>(made_.points.size()) - 1;
     }
 
-    /// The node that halves a side; its neighbour gets the same.
+    /// The node at the middle of a side, shared with the neighbouring cell.
     Index middle(Index side, Index a, Index b)
     {
         Index& own = middle_[index(side)];
@@ -185,7 +187,7 @@ private:
         std::array<Index, 4> corner{}, half{-1, -1, -1, -1};
         std::size_t whole = 0;
         for (std::size_t k = 0; k < n; ++k) {
-            // The third side of a triangle runs from its last corner, which is there twice.
+            // A triangle stores its last corner twice, so its third side has the number 3.
             const Index side = 4 * c + static_cast<Index>(n == 3 && k == 2 ? 3 : k);
             corner[k] = cell[k];
             if (whole_.is_whole(side))
@@ -212,8 +214,9 @@ private:
             made_.cells.push_back({corner[k], half[k], centre, half[(k + n - 1) % n]});
     }
 
-    /// Two whole sides: with the middle of the third it is a quad with a flat corner. That gets a smaller
-    /// quad on rays from the centre of the triangle's incircle, and four around it.
+    /// A triangle with two whole sides. With the middle of the third side it is a quad with a straight
+    /// corner. A smaller quad, on rays from the incircle's centre, is placed inside, and four quads around
+    /// it.
     void split_triangle(const std::array<Index, 4>& corner, const std::array<Index, 4>& half)
     {
         std::size_t k = 0;
@@ -232,8 +235,8 @@ private:
             made_.cells.push_back({outer[i], outer[(i + 1) % 4], inner[(i + 1) % 4], inner[i]});
     }
 
-    /// Two whole sides: two quads where they are opposite. Else three around a point on the diagonal from the
-    /// corner of the halved sides to that of the whole ones.
+    /// A quad with two whole sides: two quads if these are opposite, otherwise three quads around a point on
+    /// the diagonal from the corner between the halved sides to the corner between the whole ones.
     void split_quad(const std::array<Index, 4>& corner, const std::array<Index, 4>& half)
     {
         std::size_t k = 0;
@@ -245,10 +248,10 @@ private:
             return;
         }
         if (half[(k + 1) % 4] < 0) k = (k + 3) % 4;
-        // Sides k and k + 1 are halved: their corner is d, the opposite one b.
+        // Sides k and k + 1 are halved: d is the corner between them, b the opposite one.
         const Index c = corner[k], d = corner[(k + 1) % 4], a = corner[(k + 2) % 4], b = corner[(k + 3) % 4];
         const Index m = half[k], n = half[(k + 1) % 4];
-        // Where the line through both middles crosses the diagonal, as a share of the way from b to d.
+        // Where the line through both middles crosses the diagonal, as a share of the length from b to d.
         const Vec2 line = at(n) - at(m), diagonal = at(d) - at(b);
         const double most = cross(at(m) - at(b), line) / cross(diagonal, line);
         const Index x = add(at(b) + most / 1.5 * diagonal);
@@ -260,7 +263,7 @@ private:
     const MixedMesh& mesh_;
     WholeEdges whole_;
     MixedMesh made_;
-    std::vector<Index> middle_; ///< of each side; -1: none yet
+    std::vector<Index> middle_; ///< for each side; -1: not made yet
 };
 
 } // namespace

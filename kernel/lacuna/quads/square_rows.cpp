@@ -14,7 +14,7 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// A boundary side, the two nodes above it, and what is wanted of its quad.
+/// A boundary side, the two nodes above it, and the target shape of its quad.
 ///
 ///     d ---- c
 ///     |      |
@@ -22,13 +22,13 @@ namespace {
 struct RowSide {
     Index a, b, c, d;
     Vec2 along;         ///< unit length, from a to b
-    Lanes cosine, sine; ///< of the angle wanted at each corner
-    double height;      ///< wanted [length]
+    Lanes cosine, sine; ///< cosine and sine of the target angle at each corner
+    double height;      ///< target height [length]
 };
 
 class RowSquarer {
 public:
-    /// @param sizes  whether sides are brought to the size asked as well.
+    /// @param sizes  whether to improve the lengths of sides as well.
     RowSquarer(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries,
                bool sizes)
         : mesh_(mesh),
@@ -45,7 +45,7 @@ public:
         floor_ = std::max(kGood, least_scaled_jacobian(mesh.points, mesh.quads));
     }
 
-    /// Move nodes once each. @return how far one went at most, of the mean length of its sides
+    /// Move each node once. @return the largest move, relative to the mean length of the node's sides
     double round()
     {
         double most = 0;
@@ -60,17 +60,17 @@ public:
     }
 
 private:
-    // What a row may cost its neighbours, what is kept of kRowOffRight and kRowOffHeight, what quads in
-    // general weigh beside rows, and the cost at which a row is half given up. Of a few values those that
-    // brought most rows on 70 outlines of the held family (benchmarks/pave/) and left quads between sharp
-    // corners as good as they were.
+    // In order: the scaled Jacobian below which a neighbouring quad may not fall, the shares of kRowOffRight
+    // and kRowOffHeight that the search aims for, the weight of the quads' own energy, and the cost at which
+    // a row counts half. Chosen from a few values each: these give most good rows on 70 outlines of the held
+    // family (benchmarks/pave/) without worse quads between sharp corners.
     static constexpr double kGood = 0.7;
     static constexpr double kOffRight = 0.3, kOffHeight = 0.24, kShape = 0.002, kGivenUp = 0.5;
     static constexpr double kShorter = kShortestOfSize + 0.02, kLonger = kLongestOfSize - 0.05;
 
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
 
-    /// Call for a node and for those that it is mapped to.
+    /// Call for a node and for each of its images.
     template <class Use>
     void for_images(Index p, const Use& use) const
     {
@@ -78,11 +78,12 @@ private:
         for (const Symmetry& symmetry : symmetries_) use(symmetry.to[index(p)]);
     }
 
-    /// Find out where the node at hand may go, and which symmetries map it to a node around it.
+    /// Find the directions in which the current node may move, and the symmetries that map it to a node
+    /// around it.
     void set_images(Index p, std::span<const Spoke> star)
     {
         near_.clear();
-        const Symmetry* own = nullptr; // leaves the node where it is
+        const Symmetry* own = nullptr; // a symmetry that maps the node to itself
         bool is_centre = false;
         for (const Symmetry& symmetry : symmetries_) {
             const Index image = symmetry.to[index(p)];
@@ -106,7 +107,7 @@ private:
         ways_ = is_centre ? std::span<const Vec2>() : std::span<const Vec2>(axis_);
     }
 
-    /// Move the node at hand, and its images around it.
+    /// Move the current node and its images around it.
     void place(Index p, const Vec2& x)
     {
         mesh_.points[index(p)] = x;
@@ -139,7 +140,7 @@ private:
             row.along = (at(row.b) - at(row.a)) / length;
             row.height = length;
             if (region.size) {
-                // Given sides of another size decide how high their quads may be.
+                // Where given sides have another length than asked, their length determines the row height.
                 const double asked = region.size((at(row.a) + at(row.b)) / 2);
                 row.height = std::clamp(asked, length / kLongestOfSize, length / kShortestOfSize);
             }
@@ -153,8 +154,8 @@ private:
         }
     }
 
-    /// The square of how far each corner is off what is wanted beyond a limit, as a sine; of 1 where it is
-    /// off by more than a right angle.
+    /// For each corner, the squared sine of the angle by which it exceeds its limit; 1 if it deviates by more
+    /// than a right angle.
     LACUNA_INLINE void beyond_right(const RowSide& row, Lanes& beyond) const
     {
         const Vec2 &a = at(row.a), &b = at(row.b), &c = at(row.c), &d = at(row.d);
@@ -177,16 +178,17 @@ private:
         Lanes right;
         beyond_right(row, right);
         for (std::size_t k = 0; k < 4; ++k) cost += right[k];
-        for (const Index p : {row.c, row.d}) { // the ends of the side above
+        for (const Index p : {row.c, row.d}) { // the ends of the upper side
             const double off = std::abs(cross(row.along, at(p) - at(row.a)) / row.height - 1);
             if (off > kOffHeight) cost += (off - kOffHeight) * (off - kOffHeight);
         }
         if (cost == 0) return 0;
-        // Bounded: no row is spoilt to bring another, which stays off, a little nearer.
+        // The cost is bounded, so that no good row is sacrificed to improve a row that stays bad.
         return cost * kGivenUp / (cost + kGivenUp);
     }
 
-    /// Whether a node stayed where it was and nothing around it has moved since: it would stay again.
+    /// Whether a node did not move in its last search and nothing around it has moved since: a new search
+    /// would find the same.
     [[nodiscard]] bool is_settled(Index p) const
     {
         const std::size_t when = searched_[index(p)];
@@ -196,7 +198,7 @@ private:
                });
     }
 
-    /// What a node's sides cost by their lengths.
+    /// Cost of the lengths of a node's sides.
     [[nodiscard]] double cost_of_sizes(Index p) const
     {
         if (asked_.empty()) return 0;
@@ -210,8 +212,8 @@ private:
         return cost;
     }
 
-    /// The nodes of row quads beyond their limits, and of all quads around those; and those with sides of
-    /// another size. The first of nodes that are images of each other.
+    /// The nodes of row quads that exceed their limits, of all quads around these, and of sides of another
+    /// size. Of nodes that are images of each other, only the first.
     [[nodiscard]] std::vector<Index> nodes_to_move() const
     {
         std::vector<char> moves(mesh_.points.size(), 0);
@@ -238,8 +240,8 @@ private:
         return nodes;
     }
 
-    /// What the quads around the node at hand cost, where that is below a bound; else some number from there
-    /// up. With the widest vectors the machine has; they change no bit.
+    /// Cost of the quads around the current node if it is below a bound; otherwise some number not below the
+    /// bound. Compiled for the widest vectors of the machine; results are the same bit for bit.
     [[nodiscard]] double cost_above(Index p, double bound) const
     {
 #if defined(LACUNA_WIDER_VECTORS)
@@ -266,10 +268,10 @@ private:
     }
 #endif
 
-    /// @return how far it went, of the mean length of its sides.
+    /// @return length of the move, relative to the mean length of the node's sides.
     double move(Index p)
     {
-        // Steps of the mean side; choices, not measurements.
+        // First and last step, as shares of the mean side. Not measured.
         constexpr double kFirst = 0.08, kLast = 0.009;
         const auto star = stars_[index(p)];
         double side = 0;
@@ -301,23 +303,25 @@ private:
 
     PlanarQuads& mesh_;
     std::span<const Symmetry> symmetries_;
-    std::vector<const Symmetry*> near_; ///< of the node at hand, see `set_images()`
-    std::vector<Vec2> kept_;            ///< where those stand
-    std::span<const Vec2> ways_;        ///< directions that it may go
+    /// Symmetries that map the current node to a node around it, see `set_images()`.
+    std::vector<const Symmetry*> near_;
+    std::vector<Vec2> kept_;     ///< positions of these nodes
+    std::span<const Vec2> ways_; ///< directions in which it may move
     std::array<Vec2, 2> axis_;
     std::size_t fixed_;
     Stars stars_;
-    StarLanes lanes_; ///< the star of the node at hand
+    StarLanes lanes_; ///< the star of the current node
     std::vector<RowSide> rows_;
     std::vector<std::vector<Index>> of_node_; ///< the rows of each node above the boundary
-    std::vector<double> asked_;               ///< size at each node, where sizes count
+    std::vector<double> asked_;               ///< size at each node, if sizes count
     std::size_t searches_ = 0;
-    std::vector<std::size_t> moved_, searched_; ///< the last search by which each node moved, or stayed
+    /// Number of the last search in which each node moved, or stayed.
+    std::vector<std::size_t> moved_, searched_;
     double floor_ = kGood;
 };
 
-/// Value of a mesh: shares above the promised one count a quarter, so that they are not bought with poor
-/// quads.
+/// Value of a mesh for comparison. The part of a share above the promised one counts a quarter, so that it
+/// does not outweigh poor quads.
 double worth_of(const PlaneQuality& quality)
 {
     constexpr double kBeyond = 0.25;
@@ -332,11 +336,10 @@ double worth_of(const PlaneQuality& quality)
 void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries, bool sizes,
              PlaneQuality& quality)
 {
-    // Allowed loss of mean quality, and limit of rounds, because neighbours make room for each other. Higher
-    // values improve more rows, at the cost of other quads and of time.
+    // Accepted loss of mean scaled Jacobian for better rows.
     constexpr double kLess = 0.01;
-    constexpr int kRounds = 12, kIdle = 3; // idle rounds: without gain
-    constexpr double kStill = 0.03;        // of a side: smaller moves gain nothing more
+    constexpr int kRounds = 12, kIdle = 3; // limit of rounds, and of rounds without gain
+    constexpr double kStill = 0.03;        // share of a side: smaller moves count as none
     const PlaneQuality before = quality;
     const double rounding = symmetries.empty() ? 0 : kFileAccuracy;
     const auto keeps = [](double was, double is) { return is >= kPromisedShare || was < kPromisedShare; };

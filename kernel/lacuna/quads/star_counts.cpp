@@ -13,8 +13,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// Costs of numbers that may not be, and of such with which there are not as many quads as promised, a
-/// quarter more or less: more than sides cost in the range that is promised for them.
+/// Cost of numbers that are not allowed, and of numbers that miss the promised number of quads (within a
+/// quarter). The latter exceeds any cost of sides within their range.
 constexpr double kNever = std::numeric_limits<double>::infinity(), kOffAsked = 1e6;
 
 /// The segments between the corners of a patch; empty if a side bends or is not one segment.
@@ -32,10 +32,10 @@ std::vector<std::size_t> sides_of_patch(const CountTask& task)
     return sides;
 }
 
-/// Whether no grid of a patch would be much narrower than another with the wanted sides.
+/// Whether no grid of the patch would be much narrower than another if the sides had the wanted numbers.
 bool is_balanced(const CountTask& task, const std::vector<std::size_t>& sides)
 {
-    constexpr double kBalanced = 0.5; // a lower share accepts narrower grids
+    constexpr double kBalanced = 0.5; // least width of a grid relative to the widest. Not measured
     const std::size_t n = sides.size();
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -62,7 +62,7 @@ public:
 
     [[nodiscard]] double operator()(const std::vector<int>& counts, const CountRange& range) const
     {
-        constexpr double kQuads = 0.25; // what they are worth, as in `straight_counts()`
+        constexpr double kQuads = 0.25; // weight of the number of quads, as in `straight_counts()`
         double cost = 0;
         SideCounts side;
         for (const std::size_t s : sides_) {

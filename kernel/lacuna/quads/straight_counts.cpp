@@ -16,8 +16,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// Below this number of quads a grid is made with several numbers and the best is used. More would take too
-/// long.
+/// Below this number of quads, a grid is made for several solutions and the best is used. For more quads that
+/// takes too long.
 constexpr double kFewForTrial = 200;
 
 bool may_be_tried(const CountTask& task, const StraightOptions& options)
@@ -48,13 +48,13 @@ std::optional<HeadedLoops> head_loops(const PlanarRegion& region, TurnStyle styl
     return headed;
 }
 
-/// A loop with the numbers of sides it has now, in a straight grid.
+/// A loop with its current numbers of sides, in a straight grid.
 struct LoopGrid {
     std::vector<Vec2> points;
     GridLoop grid;
-    std::size_t laid = 0; ///< quads of the rows between the loop and the grid
+    std::size_t laid = 0; ///< number of quads in the rows between the loop and the grid
 
-    /// Quads that the loop adds to a region's: those within it, less than none of a hole.
+    /// Number of quads that the loop contributes: those inside the outer loop; for a hole, minus those in it.
     [[nodiscard]] double quads() const
     {
         double twice = 0;
@@ -120,7 +120,7 @@ bool have_place(const std::vector<LoopGrid>& grids)
 /// Whether some quads between two loops would be much flatter than asked.
 bool are_close(const CountTask& task)
 {
-    constexpr double kNarrow = 0.5; // of the size asked: a choice, not a measurement
+    constexpr double kNarrow = 0.5; // share of the size asked. Not measured
     const double narrow = kNarrow * mean_size(task);
     const PlanarRegion& region = task.region;
     for (std::size_t l = 1; l < region.loops.size(); ++l) {
@@ -131,8 +131,8 @@ bool are_close(const CountTask& task)
     return false;
 }
 
-/// Give holes an even number of columns where their middle lies on a line of the outer loop's grid, and an
-/// odd one where it lies between two; so for rows. A hole in the middle of a plate then stays there.
+/// Give a hole an even number of columns if its centre lies on a line of the outer loop's grid, and an odd
+/// number if it lies between two lines; likewise for rows. So a hole in the middle of a plate stays there.
 void centre_holes(const CountTask& task, std::vector<CountedLoop>& loops, const LoopGrid& outer)
 {
     for (std::size_t l = 1; l < loops.size(); ++l) {
@@ -147,10 +147,10 @@ void centre_holes(const CountTask& task, std::vector<CountedLoop>& loops, const 
     }
 }
 
-/// Loops that close with a number of rows before soft turns and a share of the sides wanted.
+/// Loops that close, for a number of rows before soft turns and a factor on the wanted sides.
 struct ClosedLoops {
     std::vector<CountedLoop> loops;
-    std::vector<LoopGrid> grids; ///< of those that have one
+    std::vector<LoopGrid> grids; ///< grids of the loops that have one
     double cost = 0, quads = 0;
     int soft = 0;
 };
@@ -192,27 +192,30 @@ std::vector<int> run_counts(const ClosedLoops& closed)
     return counts;
 }
 
-/// Numbers for one kind of ends, over the rows before soft turns, and over numbers of sides that are rounded
-/// from a few shares of those wanted, for rows add quads and columns take sides.
-/// @return those looked at, with what each costs; of a part none that is sure to cost more than another.
+/// Solutions for one style of ends, for several numbers of rows before soft turns and several factors on the
+/// wanted sides (rows add quads, and columns use up sides).
+/// @return the solutions and their costs; for a part, only those that may still be the cheapest.
 std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, TurnStyle style)
 {
-    // What quads are worth, and rows, whose number is to be that of `fitting_rows()`; chosen on 40 of the
-    // held family (benchmarks/pave/).
+    // Weights of the number of quads, and of the number of rows, which should be `fitting_rows()`. Chosen on
+    // 40 outlines of the held family (benchmarks/pave/).
     constexpr double kQuads = 0.25, kRows = 1;
-    constexpr double kUnlike = 10; // of segments that mirror each other: hardly ever; a choice
-    // kOff is the cost of a number of quads that breaks the promise. Choices.
+    constexpr double kUnlike = 10; // cost of unequal mirrored segments: nearly excludes them. Not measured
+    // kOff: cost of a number of quads outside the promised range; kNearAsked: relative deviation from the
+    // number of quads asked that counts as none; kMany: quads above which holes are not checked. Not
+    // measured.
     constexpr double kOff = 2, kNearAsked = 0.1, kMany = 2000;
-    constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5}; // choices
-    constexpr std::size_t kNear = 4; // of those, for the range that is promised
+    // Factors on the wanted sides; not measured.
+    constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5};
+    constexpr std::size_t kNear = 4; // of these factors, those tried within the promised range
     const double asked = quads_asked(task);
     const auto headed = head_loops(task.region, style);
     if (!headed || (options.few && are_close(task))) return {};
     const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
     std::vector<Counts> all;
-    double least = kInfinity; // cost of those
-    // What is no part has no axes that take up the difference of more rows, and without turns these change
-    // nothing.
+    double least = kInfinity; // the lowest cost so far
+    // Only a part has axes that can take up the difference that more rows make, and without soft turns the
+    // number of rows has no effect.
     const std::vector<int> all_rows = options.is_part && headed->turns ? rows_to_try(headed->fitting)
                                                                        : std::vector<int>{1};
     const bool wide = options.range.most > kSegment.most;
@@ -224,7 +227,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             if (!closed) continue;
             if (!known.insert(run_counts(*closed)).second) continue;
             Counts counts{counts_of(task, closed->loops), closed->cost};
-            // A symmetric region is not filled otherwise than its images.
+            // A symmetric region must be filled symmetrically.
             if (!options.is_part && !are_alike(counts.sides, pairs)) continue;
             double of_part = 0;
             if (options.is_part) {
@@ -236,11 +239,12 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             }
             add_grids(task, *headed, rows, *closed);
             const bool has_grids = closed->grids.size() == closed->loops.size();
-            const double quads = has_grids ? closed->quads : asked; // not known
+            const double quads = has_grids ? closed->quads : asked; // unknown if a loop has no grid
             counts.cost += kQuads * (quads - asked) * (quads - asked) / asked + of_part;
             const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
             if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOff;
-            // Few lines leave holes no place, and for many looking takes long.
+            // Check that holes have a place in the grid: with few lines they may not; with many the check is
+            // slow.
             const bool looks = options.is_part ? options.few : asked < kMany;
             const bool has_place = !looks || (has_grids && have_place(closed->grids));
             if (!has_place) counts.cost += kOff;
@@ -250,7 +254,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
                 if (closed->loops.size() > 1 && !closed->grids.empty()) {
                     centre_holes(task, closed->loops, closed->grids.front());
                     all.back().sides = counts_of(task, closed->loops);
-                    // Which of both is better is tried.
+                    // `best_filled()` decides between both.
                     if (may_be_tried(task, options)) all.push_back(std::move(counts));
                 }
             }
@@ -262,11 +266,12 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
 
 bool is_cheaper(const Counts& a, const Counts& b) { return a.cost < b.cost; }
 
-/// Of several counts those that a grid fills best by measure, the cheapest first, until one is good.
-/// Nothing where none is filled, or there is no choice.
+/// The solution that a grid fills with the best measured quality. They are tried from the cheapest on until
+/// one is good. Empty if no grid is valid or there is only one solution.
 std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all)
 {
-    // A score of quads as they should be, and grids made at most: for the time. Choices.
+    // A score at which the search ends, and the maximum number of grids made, to limit the time. Not
+    // measured.
     constexpr double kGood = 3.1;
     constexpr std::size_t kMost = 4;
     std::ranges::stable_sort(all, is_cheaper);
@@ -288,7 +293,7 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
 
 std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
 {
-    // What soft ends are worth; chosen as what quads are.
+    // Bonus for soft ends; chosen like kQuads.
     constexpr double kSoft = 2;
     std::vector<Counts> all = counts_looked_at(task, options, TurnStyle::soft);
     const auto add = [&](TurnStyle style) {

@@ -30,7 +30,7 @@ std::size_t corner_count(const GridLoop& loop)
 
 int grid_quads(double angle)
 {
-    constexpr double kOff = kRightAngle * 4 / 9; // 40°: it leaves a sine of 0.77 at a corner; a choice
+    constexpr double kOff = kRightAngle * 4 / 9; // 40°, which leaves a sine of 0.77 at a corner. Not measured
     const int quads = quads_in(angle);
     // Any angle that is nearest to a straight one is a side: outlines of few nodes bend by up to 45° at each.
     if (quads == 2) return 2;
@@ -60,8 +60,8 @@ std::optional<PlanarQuads> submap(const PlanarRegion& region, const RunContext& 
     grid.add_cells(mesh);
     const auto size = paving::sizes_with_boundary(region).usual;
     smooth_plane(mesh.points, mesh.quads, fixed, {.size = size, .repairs = 0}, context);
-    // Poor quads are repaired one by one where they are few: a grid that is poor all over stays so.
-    // Share of the quads; higher tries to repair worse grids, which takes time.
+    // Poor quads are improved one by one only if they are at most this share of all quads: a grid that is
+    // poor everywhere does not become good.
     constexpr double kFewPoor = 0.1;
     const SmoothPlaneOptions repairs{.size = size, .sweeps = 0, .untangle = false};
     const auto poor = std::ranges::count_if(mesh.quads, [&](const Quad& quad) {

@@ -98,9 +98,9 @@ SubmapGrid::SubmapGrid(const std::vector<GridLoop>& loops, int period) : period_
             }
         }
     }
-    constexpr std::int64_t kMost = 1 << 24; // across; what is wider was placed by a slip
+    constexpr std::int64_t kMost = 1 << 24; // lines across; a wider grid comes from a misplaced hole
     for (std::size_t k = 0; k < 2; ++k) {
-        if (std::int64_t{high[k]} - low_[k] > kMost) return; // nothing fits a grid without cells
+        if (std::int64_t{high[k]} - low_[k] > kMost) return; // no cells, so no loop fits
     }
     if (period_ > 0) low_[0] = 0;
     width_ = period_ > 0 ? period_ : high[0] - low_[0] + 1;
@@ -132,14 +132,14 @@ std::optional<std::size_t> SubmapGrid::cell_at(int x, int y, std::size_t k) cons
 
 bool SubmapGrid::find_cells(const std::vector<GridLoop>& loops)
 {
-    // The winding number of each cell, summed up its column over the sides that run along it.
+    // The winding number of each cell: the sum over its column of the changes at the sides that run along it.
     std::vector<int> change(in_.size(), 0);
     for (const GridLoop& loop : loops) {
         for (std::size_t i = 0, n = loop.positions.size(); i < n; ++i) {
             const GridPosition &a = loop.positions[i], &b = loop.positions[(i + 1) % n];
             if (a[1] != b[1]) continue;
-            // The region lies on the left of a side, so it ends at one that runs back. On a loop about the
-            // period the last step goes from the highest coordinate to 0, or from 0 to the highest.
+            // The region lies to the left of a side. On a loop around a periodic grid, the last step leads
+            // from the highest coordinate to 0, or from 0 to the highest.
             const bool forward = slot(b) == index(a[0] - low_[0] + 1, a[1] - low_[1]);
             if (forward)
                 ++change[slot(a)];
@@ -169,7 +169,8 @@ bool SubmapGrid::give_corners(const GridLoop& loop, std::size_t i)
         if (to[1] != at[1]) return to[1] > at[1] ? 1 : 3;
         return slot(to) == index(at[0] - low_[0] + 1, at[1] - low_[1]) ? 0 : 2;
     };
-    // The region lies between the side out and the side back, all round where they are one.
+    // The region lies between the side that leaves the node and the side that arrives; all around if both are
+    // the same.
     const std::size_t out = direction(next), back = direction(last);
     const std::size_t quads = back == out ? 4 : (back + 4 - out) % 4;
     for (std::size_t q = 0; q < quads; ++q) {
@@ -236,8 +237,8 @@ void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
 {
     std::vector<double> weight(points.size(), 0);
     std::vector<Vec2> sum(points.size(), Vec2::Zero());
-    // A node has corners of cells ahead of it on the line, and of those behind it: across a slit another node
-    // has them.
+    // A node belongs to cells ahead of it on the line and to cells behind it; across a slit these have
+    // different nodes.
     const auto along = [&](int lines, int length, const auto& node, const Sides& far, const Sides& near) {
         const auto ahead = [&](int l, int i) { return node(l, i, far); };
         const auto behind = [&](int l, int i) { return node(l, i, near); };
@@ -259,7 +260,7 @@ void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
             }
         }
     };
-    // A row about the period would be cut short across what it goes round.
+    // In a periodic grid a row would end at the seam, so only columns are used.
     if (period_ == 0) {
         along(height_, width_, [&](int y, int x, const Sides& side) { return node_at(x, y, side); }, {0, 3},
               {1, 2});

@@ -16,7 +16,7 @@ class SymmetryFinder {
 public:
     SymmetryFinder(const PlanarQuads& mesh, const PlanarRegion& region) : mesh_(mesh), region_(region) {}
 
-    /// All symmetries of the mesh but the identity.
+    /// All symmetries of the mesh except the identity.
     std::vector<Symmetry> run()
     {
         std::vector<Symmetry> found, outline = outline_symmetries(region_);
@@ -27,7 +27,7 @@ public:
             if (opposite_[side] >= 0) continue;
             const std::size_t start = index(mesh_.quads[side / 4][side % 4]);
             if (opposite_[side] != mesh::kRimSide || start >= rim_.size())
-                return found; // no mesh of the region
+                return found; // not a mesh of the region
             rim_[start] = static_cast<Index>(side);
         }
         if (std::ranges::find(rim_, -1) != rim_.end()) return found;
@@ -41,18 +41,19 @@ public:
     }
 
 private:
-    /// A side and that it is mapped to.
+    /// A side and its image.
     struct SidePair {
         Index own, image;
     };
 
-    /// Whether a symmetry is one of those found followed by the first of them. Then it need not be searched
-    /// for, and rings have hundreds.
+    /// Whether a symmetry is a known one followed by the first of them. Then its images need no search, which
+    /// saves time for rings with hundreds of symmetries.
     [[nodiscard]] bool is_product(Symmetry& symmetry, const std::vector<Symmetry>& found) const
     {
         const auto& loop = region_.loops[0];
         const auto product = std::ranges::find_if(found, [&](const Symmetry& other) {
-            return std::all_of(loop.begin(), loop.begin() + 2, [&](Index p) { // one side tells all
+            // One side determines the symmetry.
+            return std::all_of(loop.begin(), loop.begin() + 2, [&](Index p) {
                 return found[0].to[index(other.to[index(p)])] == symmetry.to[index(p)];
             });
         });
@@ -62,7 +63,7 @@ private:
         return true;
     }
 
-    /// Where the row of quads that starts at each side on the boundary ends on it.
+    /// Find the boundary side at which the row of quads from each boundary side ends.
     void find_row_ends()
     {
         row_end_.assign(opposite_.size(), -1);
@@ -72,8 +73,8 @@ private:
         }
     }
 
-    /// Whether rows of quads end where those of their images do: most that is no symmetry is found out by the
-    /// first row.
+    /// Whether rows of quads end where the rows of their images end. Most candidates that are no symmetry
+    /// fail at the first row.
     [[nodiscard]] bool maps_rows(const Symmetry& symmetry) const
     {
         const auto image = [&](Index side) {
@@ -84,7 +85,7 @@ private:
             rim_, [&](Index side) { return image(row_end_[index(side)]) == row_end_[index(image(side))]; });
     }
 
-    /// Follow the quads from the boundary inward. @return false where one has no image
+    /// Map the quads from the boundary inward. @return false if a quad has no image
     [[nodiscard]] bool maps_quads(Symmetry& symmetry) const
     {
         std::vector<char> seen(mesh_.quads.size(), 0);
@@ -111,10 +112,10 @@ private:
         return true;
     }
 
-    /// The side of the same quad so many sides on.
+    /// The side `by` sides further around the same quad.
     static Index beyond(Index side, Index by) { return (side & ~3) + ((side + by) & 3); }
 
-    /// Map the corners of a quad with a side of it. @return false where one is mapped otherwise already
+    /// Map the corners of the quad of a side. @return false if one already has another image
     bool maps_corners(Symmetry& symmetry, const SidePair& side) const
     {
         for (Index i = 0; i < 4; ++i) {
@@ -130,9 +131,9 @@ private:
 
     const PlanarQuads& mesh_;
     const PlanarRegion& region_;
-    std::vector<Index> opposite_; ///< of each side, 4 × quad + place
-    std::vector<Index> rim_;      ///< the side on the boundary that starts at each node of it
-    std::vector<Index> row_end_;  ///< of each side on the boundary, that across all quads
+    std::vector<Index> opposite_; ///< for each side, numbered 4 × quad + place
+    std::vector<Index> rim_;      ///< the boundary side that starts at each boundary node
+    std::vector<Index> row_end_;  ///< for each boundary side, the boundary side at the other end of its row
 };
 
 } // namespace
@@ -158,9 +159,9 @@ std::size_t symmetrise(PlanarQuads& mesh, std::size_t fixed, std::span<const Sym
             sum += symmetry.map.back(mesh.points[index(symmetry.to[p])]);
         made.points[p] = share * sum;
     }
-    // Means of nodes that smoothing left nearly where their images are do not make quads worse, but may
-    // where it stopped early.
-    constexpr double kWorse = 0.01; // a choice, not a measurement
+    // After complete smoothing, nodes are close to the means of their images, so moving them there costs no
+    // quality. It may if smoothing stopped early; then the mesh is left unchanged.
+    constexpr double kWorse = 0.01; // loss of least scaled Jacobian that is accepted; not measured
     const double before = least_scaled_jacobian(mesh.points, mesh.quads);
     if (least_scaled_jacobian(made.points, made.quads) < before - kWorse) return 1;
     mesh = std::move(made);

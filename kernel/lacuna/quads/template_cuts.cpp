@@ -11,11 +11,10 @@ namespace lacuna::quads {
 
 namespace {
 
-/// Cuts that slant more than this are excluded: 0 is square to the outline, 1 along it. A higher limit gives
-/// more candidates with worse angles.
+/// Cuts that slant more than this are excluded: 0 is square to the outline, 1 along it.
 constexpr double kMostSlant = 0.7;
 
-/// Twice what `spoke_feet()` finds for side i: every second side's length, added and subtracted in turn.
+/// Twice the foot that `spoke_feet()` finds for side i: the alternating sum of every second side's length.
 int twice_foot(const SideCounts& counts, std::size_t i)
 {
     const std::size_t n = counts.count;
@@ -36,17 +35,17 @@ bool needs_no_cut(const SideCounts& counts)
     return (counts.count == 3 || counts.count == 5) && spoke_feet(counts, false, foot);
 }
 
-/// Numbers of edges, both ends included.
+/// A range of numbers of edges, both ends included.
 struct EdgeRange {
     int low, high;
 };
 
-/// The numbers of edges a cut between two sides of a patch may have, so that both parts are filled without
-/// another cut.
+/// The numbers of edges that a cut between two sides of a patch may have so that both parts can be filled
+/// without another cut.
 ///
-/// The cut starts `a` edges along the first side and ends `b` edges along the second. What `spoke_feet()`
-/// asks of either part is linear in a, b and the cut's edges, each with a factor of 1 or -1: a lower or upper
-/// bound on the cut's edges.
+/// The cut starts `a` edges along the first side and ends `b` edges along the second. The conditions of
+/// `spoke_feet()` on either part are linear in a, b and the number of the cut's edges, with factors 1 or -1,
+/// so each is a lower or an upper bound on that number.
 class EdgeBounds {
 public:
     EdgeBounds(const SideCounts& counts, std::size_t side, std::size_t between)
@@ -61,7 +60,7 @@ public:
         add(second, n - between, 0);
     }
 
-    /// The tightest bounds for one a, of those that fall with b and of those that rise.
+    /// The tightest bounds for one a: of those that decrease with b, and of those that increase.
     struct Tightest {
         std::array<int, 2> low, high;
 
@@ -129,7 +128,7 @@ public:
         }
     }
 
-    /// Add the cuts between two positions with numbers of edges that fit.
+    /// Add the cuts between two positions that have an accepted number of edges.
     template <class Fits>
     void add(std::size_t from, std::size_t to, EdgeRange edges, const Fits& fits,
              std::vector<TemplateCut>& found) const
@@ -140,7 +139,7 @@ public:
         edges.high = std::min(edges.high, static_cast<int>(fitting * kLongestOfSize) + 1);
         if ((to + loop_.size() - from + index(edges.low)) % 2 != 0) ++edges.low; // parts have even outlines
         if (edges.low > edges.high || !(length > 0)) return;
-        // How far from square the cut meets the sides, 0 to 1.
+        // Deviation from a right angle at which the cut meets a side, 0 to 1.
         const auto slant_at = [&](std::size_t i) {
             return std::abs(along_[i].side.dot(across / length)) / along_[i].length;
         };
@@ -157,22 +156,22 @@ private:
         double length;
     };
     std::span<const Vec2> loop_;
-    std::vector<Along> along_; ///< from the position before to the one after
+    std::vector<Along> along_; ///< direction from the previous position to the next one
     double spacing_ = 0;
 };
 
-/// Whether one pair of irregular nodes fills a patch of four sides, or none.
+/// Whether a patch of four sides can be filled with at most one pair of irregular nodes.
 bool needs_one_pair(const SideCounts& counts)
 {
     const auto& side = counts.side;
     return std::abs(side[0] - side[2]) == std::abs(side[1] - side[3]) && can_fill(counts);
 }
 
-/// The cuts of a patch of three or five sides that leave one part with as many sides and one irregular node,
-/// and one of four sides with a pair of them.
+/// The cuts of a patch of three or five sides that leave one part with the same number of sides and one
+/// irregular node, and one part of four sides with a pair of irregular nodes.
 std::vector<TemplateCut> find_odd_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners)
 {
-    constexpr int kTried = 16; // places tried along a side; more cost time
+    constexpr int kTried = 16; // positions tried along a side, to limit the time
     const std::size_t n = corners.size(), between = n / 2;
     const SideCounts counts = side_counts(loop.size(), corners);
     const CutRanker ranker(loop);
@@ -238,7 +237,7 @@ bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMos
 bool can_fill(const SideCounts& counts)
 {
     if (counts.count != 4) return needs_no_cut(counts);
-    // How many columns turn, each way, must leave a row and a column beside each irregular node.
+    // The numbers of columns that turn each way must leave a row and a column beside each irregular node.
     const int more = std::abs(counts.side[0] - counts.side[2]),
               less = std::abs(counts.side[1] - counts.side[3]);
     const int across = std::min(counts.side[0], counts.side[2]),
@@ -265,9 +264,9 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
         return found;
     }
     const CutRanker ranker(loop);
-    // One or three corners lie between the two sides cut: a part of four sides would only be a strip.
+    // One or three corners lie between the two sides: with two, a part of four sides would only be a strip.
     const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
-    // Sides that face each other make each pair once.
+    // With opposite sides, each pair would occur twice.
     const std::size_t pairs = 2 * between == n ? n / 2 : n;
     for (std::size_t side = 0; side < pairs; ++side) {
         const std::size_t other = (side + between) % n;
@@ -282,7 +281,7 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
             }
         }
     }
-    // Sides that face each other have half as many cuts, so half as many are kept.
+    // There are half as many pairs of opposite sides, so half as many cuts are kept.
     keep_best(found, pairs < n ? (most + 1) / 2 : most);
     return found;
 }

@@ -54,7 +54,7 @@ public:
         }
     }
 
-    /// The best pairs first.
+    /// Pair the best pairs first.
     void greedy()
     {
         std::vector<std::tuple<double, Index, Index>> pairs;
@@ -115,13 +115,13 @@ private:
 
     void augment_from(Index start)
     {
-        // Triangles reached over an even number of steps, with the one before each.
+        // Triangles reached by an even number of steps, each with its predecessor.
         std::unordered_map<Index, Index> before{{start, -1}};
         std::vector<Index> queue{start};
         for (std::size_t i = 0; i < queue.size(); ++i) {
             const Index here = queue[i];
             for (const auto& [quality, other] : neighbours_[index(here)]) {
-                // Reached both ways: an odd cycle.
+                // Reached from both sides: an odd cycle.
                 if (before.contains(other)) continue;
                 const Index next = mate(other);
                 if (next < 0) {
@@ -154,7 +154,7 @@ private:
 
 PlanarQuads quads_of_triangles(const PlanarRegion& region)
 {
-    // Two equilateral triangles have less area than the square of their side; and most cells are halved.
+    // Two equilateral triangles have less area than a square on their side, and splitting halves most edges.
     const double kBySize = 2 * std::sqrt(2 / std::sqrt(3.0));
     MixedMesh mesh;
     try {

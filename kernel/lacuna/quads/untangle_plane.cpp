@@ -15,23 +15,23 @@ namespace lacuna::quads {
 
 namespace {
 
-/// Weight of the area term against the shape term, as Garanzha et al. have it.
+/// Weight of the area term relative to the shape term, from Garanzha et al.
 constexpr double kAreaShare = 1.0 / 128;
-/// Smallest regularisation. A lower value comes closer to a true barrier but is worse conditioned.
+/// Smallest ε. A lower value approaches a true barrier but is worse conditioned.
 constexpr double kLeastEpsilon = 1e-3;
-/// Steps that L-BFGS remembers, and steps in a round with one ε. Choices, not measurements.
+/// Number of steps that L-BFGS remembers, and number of steps per round of constant ε. Not measured.
 constexpr std::size_t kMemory = 8;
 constexpr int kSteps = 100;
-/// Limit of rounds, and of rounds without gain before the search is given up. Higher limits open more folds
-/// and take longer.
+/// Limits of the number of rounds, and of rounds without gain before the search stops. Not measured; they
+/// bound the time for folds that cannot be opened.
 constexpr int kRounds = 30, kIdleRounds = 3;
-/// Least relative gain of a step, and of the least determinant in a round. Lower values continue longer for
-/// little.
+/// Least relative gain of the energy in a step, and of the least determinant in a round; below, the search
+/// stops. Not measured.
 constexpr double kLeastGain = 1e-5, kLeastRise = 1e-4;
-/// Rings of quads that move with the folded ones: first, and if that was not enough. More rings take longer.
+/// Rings of quads that move with the folded ones: in the first attempt and, if that fails, in the second.
 constexpr std::array<int, 2> kRings{3, 10};
 
-/// A quad and the length its corners are measured against.
+/// A quad and the length relative to which its corners are measured.
 struct ReferenceQuad {
     Quad corners;
     double inverse; ///< 1 / reference length
@@ -41,7 +41,7 @@ struct ReferenceQuad {
 struct FoldedPart {
     std::vector<ReferenceQuad> cells;
     std::vector<Index> moving;   ///< points
-    std::vector<Index> variable; ///< of each point; -1: stays
+    std::vector<Index> variable; ///< for each point; -1: stays
 };
 
 /// Least determinant of the corners of a quad that can change; those of three fixed points are left out.
@@ -104,7 +104,7 @@ public:
 
     double epsilon = 1;
 
-    /// With the widest vectors the machine has; they change no bit.
+    /// Compiled for the widest vectors of the machine; results are the same bit for bit.
     double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
 #if defined(LACUNA_WIDER_VECTORS)
@@ -113,7 +113,7 @@ public:
         return sum_up(x, gradient);
     }
 
-    /// Least determinant over all corners that move, in units of the references.
+    /// Least determinant over all corners that move, relative to the squared reference lengths.
     [[nodiscard]] double least_determinant(const Eigen::VectorXd& x) const
     {
         double least = std::numeric_limits<double>::infinity();
@@ -139,7 +139,7 @@ private:
         return v >= 0 ? Vec2(x.segment<2>(2 * v)) : points_[index(p)];
     }
 
-    /// The corners of a cell are worked out side by side.
+    /// The corners of a cell are evaluated side by side, one per lane.
     LACUNA_INLINE double sum_up(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
         gradient.setZero(x.size());
@@ -163,7 +163,7 @@ private:
             const Lanes d = ax * by - ay * bx, squared = least + d * d;
             const Lanes root{std::sqrt(squared[0]), std::sqrt(squared[1]), std::sqrt(squared[2]),
                              std::sqrt(squared[3])};
-            // The barrier χ, and its slope over itself: χ' = χ / root.
+            // The barrier χ, and its relative slope: χ' = χ / root.
             const Lanes over = 2 / (d + root), steep = 1 / root;
             const Lanes shape = (ax * ax + ay * ay + bx * bx + by * by) * over, area = (1 + d * d) * over;
             sum += sum_of((1 - kAreaShare) * shape + kAreaShare * area);

@@ -31,7 +31,7 @@ std::vector<Slab> slabs_of(const HexMesh& mesh)
     return slabs;
 }
 
-/// Compute the slabs of this process one by one, and call `visit(slab, its cells as a mesh)`.
+/// Compute the slabs of this process one by one; for each, call `visit(slab, its cells as a mesh)`.
 template <class Visit>
 void each_slab(const LayeredMesh& layered, std::span<const Slab> slabs, const Team* team,
                const RunContext& context, const Visit& visit)
@@ -225,7 +225,7 @@ private:
     const LayeredMesh& layered_;
     const std::vector<Slab>& slabs_;
     std::vector<SlabPlace> boxes_;
-    Eigen::AlignedBox3d bounds_; ///< of all nodes
+    Eigen::AlignedBox3d bounds_; ///< bounding box of all nodes
     double tolerance_;
     const RunContext& context_;
     std::vector<std::vector<std::size_t>> beside_; ///< non-neighbours whose boxes overlap

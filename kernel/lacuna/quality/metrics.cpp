@@ -215,8 +215,8 @@ std::vector<MetricSummary> measure_all(const Cells& cells, std::span<const Metri
 /// Rounded as in `Quality::of_cells`.
 double in_single_precision(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// Fast path for the scaled Jacobian, which every written mesh has, without the data of other metrics. Values
-/// of the columns [begin, end), stored by cell number.
+/// Scaled Jacobians of the columns [begin, end), stored by cell number. Every written mesh has them, so this
+/// fast path omits the data of other metrics.
 template <class Cells>
 void put_scaled_jacobians(const Cells& cells, std::size_t begin, std::size_t end, double* out)
 {

@@ -49,7 +49,7 @@ struct Quality {
     double mean_scaled_jacobian = 1;
     std::size_t inverted = 0;                ///< cells with a Jacobian <= 0 at a corner
     std::size_t uncertified = 0;             ///< cells whose Jacobian is not proved positive everywhere
-    std::array<std::size_t, 20> histogram{}; ///< of the scaled Jacobian, twenty equal bins over [-1, 1]
+    std::array<std::size_t, 20> histogram{}; ///< counts by scaled Jacobian, in twenty equal bins over [-1, 1]
     std::vector<WorstCell> worst;            ///< at most ten, worst first, one for each column of a sweep
     double volume = 0;                       ///< sum over the cells [model length³]
     /// The scaled Jacobian of every cell, if requested from `measure()`; else null.

@@ -289,7 +289,7 @@ private:
     std::set<VertexId> ends_;
     AlikeEnds result_;
     std::vector<Walk> walks_;
-    std::vector<FaceId> face_; ///< of each walk
+    std::vector<FaceId> face_; ///< for each walk
     std::map<EdgeUse, std::pair<std::size_t, std::size_t>> at_use_;
     std::map<std::pair<VertexId, FaceId>, std::pair<std::size_t, std::size_t>> place_;
     std::map<EdgeId, std::size_t> at_rim_; ///< walk of each edge of a rim without inner edges

@@ -138,7 +138,7 @@ void check_room(const Model& model, const BoundaryLayer& layer)
     if (!(height <= model.diagonal))
         throw NotSweepable(Message("surface.layers_room",
                                    "sweep: option 'boundary_layers' asks for {} rows from {:.3g} with growth "
-                                   "{:.3g}; they are {:.3g} high, and the volume is {:.3g} across",
+                                   "{:.3g}, {:.3g} high in total, but the volume is only {:.3g} across",
                                    layer.count, layer.first, layer.growth, found(height),
                                    needed(model.diagonal))
                                .remedy("use fewer or thinner rows"));
@@ -146,7 +146,7 @@ void check_room(const Model& model, const BoundaryLayer& layer)
     if (!(thinnest > model.tolerance))
         throw NotSweepable(Message("surface.layers_room",
                                    "sweep: option 'boundary_layers' asks for {} rows from {:.3g} with growth "
-                                   "{:.3g}; the thinnest is {:.3g}, within the model's tolerance of {:.3g}",
+                                   "{:.3g}, the thinnest {:.3g}, below the model's tolerance of {:.3g}",
                                    layer.count, layer.first, layer.growth, found(thinnest),
                                    needed(model.tolerance))
                                .remedy("use fewer or thicker rows"));
@@ -212,7 +212,8 @@ LayerTables layer_tables(const OpenVolume& volume, std::span<const BoundaryLayer
     for (const BoundaryLayer& layer : layers) {
         for (const FaceId face : faces_named(volume, layer.walls, "boundary_layers")) {
             if (tables.of.try_emplace(face, static_cast<int>(tables.heights.size())).second) continue;
-            throw InvalidInput("surface.two_layers", "sweep: option 'boundary_layers' gives {} two tables",
+            throw InvalidInput("surface.two_layers",
+                               "sweep: option 'boundary_layers' contains {} in two tables; name it in one",
                                entity_of(volume.model, face));
         }
         check_room(volume.model, layer);

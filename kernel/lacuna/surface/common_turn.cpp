@@ -141,7 +141,7 @@ private:
 
     std::span<const LinkingSurface> links_;
     std::vector<LinkingMap> maps_;
-    std::vector<std::vector<std::vector<Vec3>>> rings_; ///< of each linking surface and row
+    std::vector<std::vector<std::vector<Vec3>>> rings_; ///< for each linking surface and row
 };
 
 } // namespace

@@ -15,8 +15,8 @@ using namespace topology;
 
 namespace {
 
-/// The default size is at least the diagonal of the rims' box over this, whatever the facets. Heuristic: a
-/// square gets 14 sides per edge, a circle 44.
+/// The default size is at least the diagonal of the rims' box divided by this, even if the facets are finer.
+/// Heuristic: a square gets 14 sides per edge, a circle 44.
 constexpr double kMostAlong = 20;
 
 } // namespace

@@ -109,15 +109,16 @@ void check_even(const SeedTask& task, const FaceGrids& grids, const std::set<Fac
                 asked.push_back(entity_of(task.model, edge));
         }
         if (asked.empty())
-            throw NotSweepable("surface.odd_loop",
-                               "the loops of {} have an odd total of sides, and no edge of the face can take "
-                               "another side",
-                               entity_of(task.model, face));
+            throw NotSweepable(Message("surface.odd_loop",
+                                       "the loops of {} have an odd total of sides, and no edge of the face "
+                                       "can take another side",
+                                       entity_of(task.model, face))
+                                   .remedy("give fewer edges a fixed number of sides"));
         throw NotSweepable(Message("surface.sides_asked",
                                    "intervals: the loops of {} have an odd total of {} sides, which quads "
                                    "cannot fill, and no edge can take another side",
                                    entity_of(task.model, face), found(sides_of(task.model, seeds, face)))
-                               .remedy("change by one the sides of {}", asked));
+                               .remedy("change the number on {} by one", asked));
     }
 }
 

@@ -59,7 +59,7 @@ public:
 
 private:
     geometry::Plane plane_;
-    Eigen::AlignedBox2d box_; ///< of the rim
+    Eigen::AlignedBox2d box_; ///< bounding box of the rim
 };
 
 /// Relative decrease of the energy at which flattening stops. The size is corrected for the remaining

@@ -51,7 +51,8 @@ struct FacetSide {
     Index point = -1; ///< index of the midpoint once it is added
 };
 
-/// How a facet is split: 0, 1 and 2 are its corners; 3, 4 and 5 the midpoints of the sides from each corner.
+/// Corners of the facets into which a facet is split: 0, 1 and 2 are its corners; 3, 4 and 5 the midpoints of
+/// the sides that start at these.
 std::vector<std::array<std::size_t, 3>> parts(const std::array<bool, 3>& halved)
 {
     const auto count = std::ranges::count(halved, true);
@@ -248,8 +249,8 @@ private:
     const SizeField& size_;
     double off_;
     std::vector<FacetSide> sides_;
-    std::vector<std::array<std::size_t, 3>> side_of_;       ///< of each facet, by the corner it runs from
-    std::unordered_map<std::uint64_t, std::size_t> number_; ///< of each side
+    std::vector<std::array<std::size_t, 3>> side_of_;       ///< for each facet, by the corner it runs from
+    std::unordered_map<std::uint64_t, std::size_t> number_; ///< for each side
     std::unordered_map<std::uint64_t, Vec3> settled_;       ///< midpoints of accurate sides
 };
 

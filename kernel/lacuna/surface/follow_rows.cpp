@@ -13,7 +13,7 @@ namespace {
 
 /// The known rows of the walls; each is a section of the volume.
 struct Rows {
-    std::vector<std::vector<Vec3>> points; ///< of each row, the points of all known columns
+    std::vector<std::vector<Vec3>> points; ///< for each row, the points of all known columns
     std::vector<Vec3> areas;               ///< Newell vectors of each row's linking surfaces
 };
 

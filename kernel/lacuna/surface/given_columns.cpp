@@ -27,11 +27,11 @@ namespace {
 
 [[noreturn]] void refuse_rows(const NamedEntity& wall, int rows, const NamedEntity& other, int other_rows)
 {
-    throw NotSweepable(Message("surface.wall_rows",
-                               "{} came with {} rows of quads between source and target, and {} with {}",
-                               wall, found(rows), other, found(other_rows))
-                           .remedy("all walls of a sweep need the same number of rows: remesh one, or load "
-                                   "with keep_mesh = false"));
+    throw NotSweepable(
+        Message("surface.wall_rows",
+                "{} was given with {} rows of quads between source and target, and {} with {}", wall,
+                found(rows), other, found(other_rows))
+            .remedy("all walls of a sweep need the same number: remesh one, or load with keep_mesh = false"));
 }
 
 /// The quads of a linking surface's walls, traversed from rim to rim.
@@ -190,10 +190,11 @@ private:
         if (!std::equal(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(both), there.begin())) {
             std::set<FaceId> walls;
             for (const WallQuad& quad : quads_) walls.insert(quad.wall);
-            throw NotSweepable("surface.wall_not_rows",
-                               "the quads that {} came with are not in rows: at the node at {} two columns "
-                               "diverge",
-                               entities_of(model_, walls), place_with_digits(model_.at(points.front()), 6));
+            throw NotSweepable(
+                Message("surface.wall_not_rows",
+                        "the given quads of {} do not form rows: at the node at {} two columns diverge",
+                        entities_of(model_, walls), place_with_digits(model_.at(points.front()), 6))
+                    .remedy("mesh the wall in rows, or load with keep_mesh = false"));
         }
         if (points.size() > there.size()) there = points;
     }
@@ -208,14 +209,13 @@ private:
             const FaceId wall = strip.faces.front();
             const std::size_t first = rows_of.try_emplace(wall, rows).first->second;
             if (first == rows) continue;
-            throw NotSweepable(
-                Message("surface.wall_not_rows",
-                        "the quads that {} came with are not in rows: {} of them lead from the "
-                        "source's rim to the target's in one column, but {} in the column that "
-                        "starts with the quad at {}",
-                        entity_of(model_, wall), found(first), found(rows),
-                        place_of(quads_[strip.quads.front()]))
-                    .remedy("mesh the wall in rows, or load with keep_mesh = false"));
+            throw NotSweepable(Message("surface.wall_not_rows",
+                                       "the given quads of {} do not form rows: one column has {} of them "
+                                       "from the source's rim to the target's, but {} are in the column that "
+                                       "starts with the quad at {}",
+                                       entity_of(model_, wall), found(first), found(rows),
+                                       place_of(quads_[strip.quads.front()]))
+                                   .remedy("mesh the wall in rows, or load with keep_mesh = false"));
         }
         for (const auto& [wall, rows] : rows_of) {
             const auto& [first_wall, first_rows] = *rows_of.begin();
@@ -247,8 +247,8 @@ private:
     [[noreturn]] void refuse_no_rows(const WallQuad& quad) const
     {
         throw NotSweepable(Message("surface.wall_not_rows",
-                                   "the quads that {} came with are not in rows from source to target: the "
-                                   "first quad outside all rows is at {}",
+                                   "the given quads of {} do not form rows from source to target: the first "
+                                   "quad outside all rows is at {}",
                                    entity_of(model_, quad.wall), place_of(quad))
                                .remedy("mesh the wall in rows, or load with keep_mesh = false"));
     }
@@ -439,13 +439,12 @@ void check_stub(const Model& model, const StubColumn& column, std::size_t layers
     for (const GivenStub* stub : {column.low, column.high}) {
         if (stub != nullptr) walls.push_back(entity_of(model, stub->wall));
     }
-    throw NotSweepable(
-        Message("surface.stub_rows",
-                "walls came with {} rows of quads that end between source and target ({}), but "
-                "there are {} layers",
-                rows, walls, found(layers))
-            .remedy("use layers = {}{}, or load with keep_mesh = false", needed(least),
-                    column.is_open ? " or more" : ""));
+    throw NotSweepable(Message("surface.stub_rows",
+                               "walls were given with {} rows of quads that end between source and target "
+                               "({}), but there are {} layers",
+                               rows, walls, found(layers))
+                           .remedy("use layers = {}{}, or load with keep_mesh = false", needed(least),
+                                   column.is_open ? " or more" : ""));
 }
 
 } // namespace
@@ -468,8 +467,8 @@ GivenRows given_columns(const OpenVolume& volume, std::span<const LinkingSurface
             if (first == nullptr || stub.faces.size() < static_cast<std::size_t>(first->rows)) continue;
             throw NotSweepable(
                 Message("surface.wall_rows",
-                        "{} came with {} rows of quads that end before the opposite end, and {} with {} from "
-                        "source to target, which leaves no row for the gap",
+                        "{} was given with {} rows of quads that end before the opposite end, and {} with {} "
+                        "rows from source to target, which leaves no row for the gap",
                         entity_of(volume.model, stub.faces.front()), found(stub.faces.size()),
                         entity_of(volume.model, first_wall(*first)), found(first->rows))
                     .remedy("remesh one of them, or load with keep_mesh = false"));

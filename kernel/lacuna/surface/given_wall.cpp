@@ -76,8 +76,8 @@ private:
     [[noreturn]] void refuse_stub(const GivenStub& stub) const
     {
         throw NotSweepable(Message("surface.wall_rows",
-                                   "{} came with quads on the {}'s rim, but the opposite rim has different "
-                                   "nodes between the same corners",
+                                   "{} was given with quads on the {}'s rim, but the opposite rim has "
+                                   "different nodes between the same corners",
                                    entity_of(model_, stub.wall), stub.from_target ? "target" : "source")
                                .remedy("mesh both rims alike, or load one with keep_mesh = false"));
     }

@@ -35,9 +35,9 @@ namespace {
 /// radii would need a ring of 49,000 sides. Heuristic.
 constexpr double kMostShrunk = 20;
 
-/// A chain in the plane, with its edges on both ends.
+/// A chain in the plane, and the edges of source and target that it represents.
 struct Border {
-    EdgeId source; ///< of the new model
+    EdgeId source; ///< edge of the new model
     std::optional<EdgeImage> image;
 };
 
@@ -96,7 +96,7 @@ private:
         return true;
     }
 
-    /// An end with a long tube inside its rim becomes vanishingly small on the other end.
+    /// An end with a long tube inside its rim becomes vanishingly small when it is mapped to the other end.
     void check_sizes() const
     {
         for (const auto& [edge, image] : result_.images) {
@@ -236,7 +236,8 @@ private:
         return at.barycentric[0] * uv[0] + at.barycentric[1] * uv[1] + at.barycentric[2] * uv[2];
     }
 
-    /// Shift parameters across a seam, where they jump by a period, to the side of those of a nearby place.
+    /// Shift parameters by the period of a seam if needed, so that they are on the same side of it as those
+    /// of a nearby place.
     Vec2 unwrapped(FaceId face, Vec2 uv, const Vec2& near)
     {
         const Vec2 range = seam_jump(face);
@@ -511,9 +512,9 @@ private:
     std::vector<ClosedPair> closed_;
     FlatEnds flat_;
     std::vector<FlatPiece> pieces_;   ///< pieces that only the target has
-    std::vector<Vec2> place_;         ///< of each model point
+    std::vector<Vec2> place_;         ///< for each model point
     std::vector<Border> borders_;     ///< pieces of the source, of the target and of the rim
-    std::vector<PlaneChain> chains_;  ///< of each border
+    std::vector<PlaneChain> chains_;  ///< for each border
     std::map<EdgeId, FaceId> new_on_; ///< source face each new edge lies on
     std::map<FaceId, Vec2> seam_jump_;
     std::set<FaceId> split_; ///< source faces with new edges

@@ -47,7 +47,7 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
     const auto arc_of = [&](const std::vector<Index>& line) {
         return geometry::arc_lengths(places_at(model, line));
     };
-    // The place of a share of a line of the source.
+    // The point at a share of the length of a line on the source.
     const auto place_on = [&](const std::vector<Index>& line, const std::vector<double>& arc, double share) {
         const geometry::PolylinePlace at = geometry::place_at(arc, share * arc.back());
         return Vec2((1 - at.fraction) * source(line[at.segment]) +

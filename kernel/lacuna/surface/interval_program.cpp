@@ -19,15 +19,15 @@ namespace {
 
 /// Cost of violating a floor by one side: larger than any term of the objective. Heuristic.
 constexpr double kBelowFloor = 1e6;
-/// Up to this many free variables, pairs of vectors are tried too: a board of 32 × 32 faces has as many.
-/// Heuristic.
+/// Limit of free variables up to which pairs of vectors are tried too: a board of 32 × 32 faces has as many.
+/// Decides the quality of the counts against the time. Heuristic.
 constexpr std::size_t kByTwos = 64;
-/// Additional cost of sides outside the accepted length range, per wanted side and relative excess.
-/// Heuristic.
+/// Additional cost of sides whose length is outside the accepted range, for each wanted side and by the
+/// relative excess. Heuristic.
 constexpr double kOutOfSize = 2;
 /// Larger coefficients do not occur in interval assignment; the bound keeps products within range.
 constexpr std::int64_t kMostCoefficient = 1 << 20;
-/// Larger sets are not solved: these take 0.1 s. Heuristic.
+/// Limit of the work for one set of equations, about 0.1 s; larger sets are not solved. Heuristic.
 constexpr double kMostWork = 1e8;
 
 double wish_cost(double n, double wanted, double weight)
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    /// Descend from values of the free variables. @return nothing if the result violates a floor
+    /// Start at values of the free variables and descend. @return nothing if the result violates a floor
     std::optional<std::vector<int>> solve_from(const std::vector<std::int64_t>& start)
     {
         if (!start_from(start)) return std::nullopt;

@@ -41,9 +41,10 @@ std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangl
     const Index start = model[use_from(model, link.source.uses().front())].point;
     std::vector<Index> way = geometry::shortest_way(model.points, facets, start, low, high, context);
     if (!way.empty()) return way;
-    throw NotSweepable("surface.wall_broken",
-                       "the facets of {} do not connect the source's rim to the target's",
-                       entity_of(model, link.walls.front()));
+    throw NotSweepable(Message("surface.wall_broken",
+                               "the facets of {} do not connect the source's rim to the target's",
+                               entity_of(model, link.walls.front()))
+                           .remedy("repair or remesh the face"));
 }
 
 /// s of the linking surface with natural conditions on the target rim, which shows how the walls themselves
@@ -234,7 +235,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
 
 void LinkingMap::measure_heights(const Model& model)
 {
-    // Columns up the walls and steps along each; heuristic.
+    // Number of columns along the walls, and of steps along each; heuristic.
     constexpr std::size_t kColumns = 16, kSteps = 64;
     even_.assign(kSteps + 1, 0.0);
     for (std::size_t c = 0; c < kColumns; ++c) {

@@ -253,10 +253,12 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
         throw NotSweepable("surface.wall_pierced",
                            "the walls {} do not form a simple ring between source and target",
                            entities_of(model, part));
-    throw NotSweepable("surface.wall_pierced",
-                       "the walls do not form a simple ring between source and target: {} have openings for "
-                       "other walls",
-                       entities_of(model, pierced));
+    throw NotSweepable(
+        Message(
+            "surface.wall_pierced",
+            "the walls do not form a simple ring between source and target: {} have openings to other walls",
+            entities_of(model, pierced))
+            .remedy("cut the volume there"));
 }
 
 } // namespace

@@ -71,7 +71,7 @@ void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
     const std::size_t quads = f.given_quads.size(), triangles = f.triangles.size() - 2 * quads;
     if (!f.keeps_nodes || quads == 0 || triangles == 0) return;
     const Message mixed("surface.given_triangles",
-                        "{} came with {} quads and {} triangles, which cannot be swept to hexahedra",
+                        "{} was given with {} quads and {} triangles, which cannot be swept to hexahedra",
                         entity_of(task.model, face), quads, found(triangles));
     if (task.style == QuadStyle::automatic)
         throw NotSweepable(Message(mixed).remedy("use wedges = true to keep them all, quads = \"paved\" to "

@@ -30,10 +30,11 @@ namespace {
 
 /// Maximum sag of a side over the local width of the face: two opposite sides then leave half the width [-].
 constexpr double kSagOfWidth = 0.25;
-/// Rim points per side of the requested size: more resolve size changes better and cost time. Not measured.
+/// Rim points per side of the requested size. More points find changes of the size that are shorter than a
+/// side, at a cost in time. Not measured.
 constexpr double kPointsPerSide = 4;
-/// Maximum distance of rim points in units of the size there. Halfway between two points the size is a third
-/// larger. Heuristic.
+/// Maximum distance of neighbouring rim points [multiples of the size there]. Halfway between two points the
+/// size is then at most a third too large. Heuristic.
 constexpr double kApart = 2;
 /// Maximum number of rim points per edge. Heuristic.
 constexpr std::size_t kMostPoints = 4096;
@@ -137,7 +138,7 @@ struct RimPiece {
     EdgeId edge;
     Vec3 start;
     double from = 0;   ///< running length of the edge at its start
-    double length = 0; ///< of the whole edge
+    double length = 0; ///< length of the whole edge
 };
 
 /// The boundary of a face as pieces in a tree, and the size by local width.
@@ -289,7 +290,7 @@ private:
     FaceId face_;
     double mean_width_ = 0;
     geometry::FacetTree tree_;
-    std::vector<RimPiece> pieces_; ///< of each triangle in the tree
+    std::vector<RimPiece> pieces_; ///< for each triangle in the tree
     std::vector<EdgeId> edges_;
     std::unordered_map<std::uint64_t, Index> opposite_; ///< corner of the facet at a side
 };

@@ -40,12 +40,12 @@ void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const 
     if (own.size() < heights.size() || !(low < high)) {
         const bool alone = (at_end ? piece.low : piece.high).empty();
         throw NotSweepable(
-            Message("surface.layers_room",
-                    "the boundary layers of {}, {:.4g} high, end on {} at {}, where there is room for only "
-                    "{:.4g}{}",
-                    entity_of(model, end.wall), needed(heights.back()), entity_of(model, edge),
-                    entity_of(model, end.corner), found(room_on(model, piece, edge, at_end, end)),
-                    alone ? "" : " beside the rows that end at its other end")
+            Message(
+                "surface.layers_room",
+                "the boundary layers of {}, {:.4g} high, end on {} at {}, which has room for only {:.4g}{}",
+                entity_of(model, end.wall), needed(heights.back()), entity_of(model, edge),
+                entity_of(model, end.corner), found(room_on(model, piece, edge, at_end, end)),
+                alone ? "" : " beside the rows that end at its other end")
                 .remedy("use fewer or thinner rows"));
     }
     const double share = (high - low) / (piece.to - piece.from);
@@ -93,27 +93,29 @@ void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiec
     const auto before = askers.find(&piece);
     if (piece.fixed && before == askers.end()) {
         if (piece.count == own.count) return;
-        throw NotSweepable("surface.sides_asked",
-                           "intervals: {} asks for {} sides on {} ({} of them on this part), but the given "
-                           "mesh there has {}",
-                           asked.name, asked.count, entity_of(model, edge), found(own.count),
-                           needed(piece.count));
+        throw NotSweepable(Message("surface.sides_asked",
+                                   "intervals: {} asks for {} sides on {} ({} of them on this part), but the "
+                                   "given mesh there has {}",
+                                   asked.name, asked.count, entity_of(model, edge), found(own.count),
+                                   needed(piece.count))
+                               .remedy("ask for that number"));
     }
     if (piece.fixed) {
         const SidesAsked& other = *before->second;
         if (piece.count != own.count)
-            throw NotSweepable("surface.sides_asked",
-                               "intervals: {} asks for {} sides on {} ({} of them on this part), but {} asks "
-                               "for {} sides ({} on this part)",
-                               asked.name, asked.count, entity_of(model, edge), found(own.count), other.name,
-                               other.count, needed(piece.count));
+            throw NotSweepable(Message("surface.sides_asked",
+                                       "intervals: {} asks for {} sides on {} ({} of them on this part), but "
+                                       "{} asks for {} sides ({} on this part)",
+                                       asked.name, asked.count, entity_of(model, edge), found(own.count),
+                                       other.name, other.count, needed(piece.count))
+                                   .remedy("leave one of them out"));
         for (std::size_t i = 0; i < own.kept.size(); ++i) {
             if (std::abs(own.kept[i] - piece.kept[i]) * piece.length > model.tolerance)
                 throw NotSweepable(
-                    "surface.sides_asked",
-                    "intervals: {} asks for {} sides on {}, and {} asks for {}, with different "
-                    "lengths",
-                    asked.name, asked.count, entity_of(model, edge), other.name, other.count);
+                    Message("surface.sides_asked",
+                            "intervals: {} asks for {} sides on {}, and {} asks for {} of other lengths",
+                            asked.name, asked.count, entity_of(model, edge), other.name, other.count)
+                        .remedy("leave one of them out"));
         }
         return;
     }
@@ -158,9 +160,10 @@ void set_sides(Seeds& seeds, const Model& model, Askers& askers, const SidesAske
         for (const std::size_t i : within) pieces.push_back({&all[i], &part});
     }
     if (static_cast<std::size_t>(asked.count) < pieces.size()) {
-        throw NotSweepable("surface.sides_asked",
-                           "intervals: {} asks for {} sides, but corners of both ends require at least {}",
-                           asked.name, found(asked.count), needed(pieces.size()));
+        throw NotSweepable(
+            "surface.sides_asked",
+            "intervals: {} asks for {} sides, but the corners of both ends require at least {}", asked.name,
+            found(asked.count), needed(pieces.size()));
     }
     std::vector<double> ends{0}; // running lengths
     for (const auto& [piece, part] : pieces) ends.push_back(ends.back() + piece->length);

@@ -270,15 +270,16 @@ private:
         const std::string place = place_with_digits(node.point, 4);
         switch (finding.why) {
         case Why::no_room:
-            throw NotSweepable(Message("surface.layers_room",
-                                       "the boundary layers of {} along {} of {} are {:.4g} high in all, and "
-                                       "{:.4g} near {} is the room to the opposite side, including its rows",
-                                       wall, along, in, needed(finding.asked), found(finding.found), place)
-                                   .remedy("use fewer or thinner rows"));
+            throw NotSweepable(
+                Message("surface.layers_room",
+                        "the boundary layers of {} along {} of {} are {:.4g} high in total, but only {:.4g} "
+                        "are free near {} up to the opposite side, including its own rows",
+                        wall, along, in, needed(finding.asked), found(finding.found), place)
+                    .remedy("use fewer or thinner rows"));
         case Why::sharp_bend:
             throw NotSweepable(Message("surface.layers_bend",
-                                       "the boundary layers of {} along {} of {} fold near {} at the height "
-                                       "{:.4g}; there is room for {:.4g} there",
+                                       "the boundary layers of {} along {} of {} fold near {} at a height of "
+                                       "{:.4g}, where there is only room for {:.4g}",
                                        wall, along, in, place, needed(finding.asked), found(finding.found))
                                    .remedy("use fewer or thinner rows, or a smaller size"));
         case Why::off_height:

@@ -50,7 +50,7 @@ private:
             throw NotSweepable(
                 Message("surface.too_few_layers",
                         "{} and any other edges around the walls lie at {} height(s) between source and "
-                        "target; layers must meet at each height, and layers = {} is too few",
+                        "target, each of which needs a layer boundary; layers = {} is too few",
                         entity_of(model, net_.levels.front().edge), most, found(layers))
                     .remedy("use layers = {} or more", needed(most + 1)));
         }
@@ -127,8 +127,8 @@ private:
         return column_heights(at_layer);
     }
 
-    /// Position of each node in the strip: vertical columns and layers shifted to the plain rings, then moved
-    /// so that nodes coincide with the net's stops.
+    /// Place each node in the strip: first columns are vertical and layers follow the plain rings; then nodes
+    /// move onto the net's stops.
     void lay_grid()
     {
         laid_.place.assign(count_ * (layers_ + 1), Vec2::Zero());
@@ -332,7 +332,7 @@ private:
             if (edge.valid()) refuse_wall_edge(model, edge, "makes layers overlap", "use more layers");
         }
         const auto given = std::ranges::find(begun.given.side, 1) - begun.given.side.begin();
-        throw NotSweepable(Message("surface.wall_rows", "the mesh that {} came with makes layers overlap",
+        throw NotSweepable(Message("surface.wall_rows", "the given mesh of {} makes layers overlap",
                                    entity_of(model, begun.mesh.face[static_cast<std::size_t>(given)]))
                                .remedy("use more layers"));
     }
@@ -398,7 +398,7 @@ private:
     const WallNet& net_;
     const RunContext& context_;
     std::size_t count_, layers_;
-    std::vector<int> level_layer_; ///< of each level of the net
+    std::vector<int> level_layer_; ///< for each level of the net
     StripGrid laid_;
 };
 

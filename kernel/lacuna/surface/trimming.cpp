@@ -17,8 +17,8 @@ using namespace topology;
 
 namespace {
 
-/// Newton iterations on a curve. They start a few percent of a side off and converge quadratically.
-/// Heuristic.
+/// Number of Newton iterations on a curve. They start within a few percent of a side and converge
+/// quadratically. Heuristic.
 constexpr int kRounds = 3;
 /// Step of the finite differences for a curve's derivatives, as a share of a side: a compromise between
 /// truncation and rounding. Heuristic.

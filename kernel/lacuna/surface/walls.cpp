@@ -171,9 +171,9 @@ private:
             if ((mesh_.points[grid_.stops[i]] - at).norm() <= model_.tolerance) continue;
             throw NotSweepable(
                 Message("surface.wall_edge",
-                        "{} turns or ends at {}, where the given nodes of walls or ends leave no column",
+                        "{} turns or ends at {}, where the given nodes of walls or ends allow no column",
                         entity_of(model_, net_.columns[stop.column].edge), entity_of(model_, stop.vertex))
-                    .remedy("load with keep_mesh = false, or merge the two faces beside it"));
+                    .remedy("load with keep_mesh = false, or merge the two adjacent faces"));
         }
     }
 

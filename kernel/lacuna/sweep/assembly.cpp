@@ -62,7 +62,7 @@ struct UnlikeNeighbour : Error {
     using Error::Error;
 };
 
-/// A member could not be swept, either alone or with the meshes of its neighbours.
+/// A member could not be swept, either alone or together with the meshes of its neighbours.
 struct MemberFailed : NotSweepable {
     MemberFailed(std::size_t which, Message why) : NotSweepable(std::move(why)), member(which) {}
     std::size_t member;
@@ -123,24 +123,25 @@ private:
 
     void check_members() const
     {
-        if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs one volume at least");
+        if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs at least one volume");
         if (std::ranges::all_of(members_, [](const AssemblyMember& m) { return m.fixed != nullptr; }))
-            throw InvalidInput("assembly.all_fixed",
-                               "all members of the assembly came with their meshes; it needs one volume at "
-                               "least that is to be swept");
+            throw InvalidInput(
+                "assembly.all_fixed",
+                "all members of the assembly have given meshes; add at least one volume to sweep");
         for (std::size_t m = 0; m < members_.size(); ++m) {
             if (members_[m].region == "volume")
                 throw InvalidInput(
                     Message("assembly.same_name",
-                            "a volume of an assembly is named \"volume\", which is the group of all of them")
+                            "a volume of the assembly is named \"volume\", the group name of all cells")
                         .remedy("give it another name"));
             const SweepOptions &first = members_.front().options, &own = members_[m].options;
             if (own.order != first.order || own.second_order.serendipity != first.second_order.serendipity)
-                throw InvalidInput(Message("assembly.order",
-                                           "{} and {} are one mesh, whose cells are of one order, with or "
-                                           "without 'serendipity'",
-                                           members_.front().region, members_[m].region)
-                                       .remedy("give both the same"));
+                throw InvalidInput(
+                    Message(
+                        "assembly.order",
+                        "{} and {} become one mesh, which needs the same order and 'serendipity' everywhere",
+                        members_.front().region, members_[m].region)
+                        .remedy("give both the same"));
             for (std::size_t n = 0; n < m; ++n) {
                 if (members_[m].region == members_[n].region)
                     throw InvalidInput("assembly.same_name", "two volumes of the assembly are named \"{}\"",
@@ -317,9 +318,9 @@ private:
         return shared;
     }
 
-    /// Faces whose mesh follows from their rims alone are left to the member itself, and the result is
-    /// checked. Other meshes of neighbours are copied to it; all are copied if the member arrived at a
-    /// different mesh.
+    /// Copy the neighbours' meshes on shared faces to the member, then sweep it. A face whose mesh follows
+    /// from its rim alone is left to the member, and the result is compared with the neighbour's; if they
+    /// differ, all meshes are copied.
     void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours,
                    const std::vector<std::size_t>& touching)
     {
@@ -426,7 +427,7 @@ private:
         for (const std::size_t other : from_members) {
             if (own.agrees(*states_[other].middles)) continue;
             throw NotSweepable("assembly.not_shared",
-                               "{} and {} have middle nodes in different places on what they share",
+                               "{} and {} have middle nodes at different positions on their common faces",
                                members_[m].region, members_[other].region);
         }
     }
@@ -467,7 +468,8 @@ private:
                                           quads_of(n.other, n.there), within);
             if (!pairs)
                 throw UnlikeNeighbour("assembly.unlike",
-                                      "{} of {} is meshed unlike its neighbour; that mesh is handed on to it",
+                                      "{} of {} is meshed differently from its neighbour's; the neighbour's "
+                                      "mesh is copied to it",
                                       entity_in(members_[m], n.own), members_[m].region);
             for (const NodePair& pair : *pairs) settled.nodes.emplace_back(pair.own, theirs[pair.other]);
             settled.faces.insert(n.own);
@@ -520,7 +522,7 @@ private:
                 patch.groups = found->second;
     }
 
-    /// Prefix groups of roles with the member's name.
+    /// Put the member's name before the groups of roles.
     static void add_member_name(const std::string& name, mesh::SkinPatch& patch)
     {
         std::vector<std::string> groups;
@@ -557,7 +559,7 @@ private:
             }
             throw NotSweepable(
                 "assembly.not_shared",
-                "{} of {} and {} of {} are one face, and their meshes differ on it: {} quads and {}{}",
+                "{} of {} and {} of {} are one face, but their meshes on it differ: {} quads and {}{}",
                 face_a, region_a, face_b, region_b, found(a.size()), needed(b.size()),
                 part.not_kept.empty() ? "" : "; " + part.not_kept.front());
         }
@@ -565,14 +567,14 @@ private:
 
     std::vector<AssemblyMember> members_;
     std::vector<OpenVolume> imprinted_; ///< the members' volumes, if faces had to be split
-    std::vector<std::string> notes_;    ///< of the report: imprints and near misses
+    std::vector<std::string> notes_;    ///< lines of the report: imprints and near misses
     const RunContext& context_;
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
     std::vector<PartState> states_;          ///< for each part
     std::vector<SharedNodes> pairs_;         ///< for each part, its pairs with earlier parts
-    std::vector<Eigen::AlignedBox3d> boxes_; ///< of each member, at order 2
+    std::vector<Eigen::AlignedBox3d> boxes_; ///< for each member, at order 2
     SweptAssembly result_;
 };
 

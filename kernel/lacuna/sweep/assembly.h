@@ -49,15 +49,16 @@ struct SharedFace {
 struct NearMiss {
     std::size_t a = 0, b = 0;               ///< indices in the list of members, a < b
     FaceId face_a, face_b;                  ///< the two faces; with `edge` one of them bounds it
-    std::optional<EdgeId> edge;             ///< of the member `edge_of`, if it is an edge's
+    std::optional<EdgeId> edge;             ///< the edge of member `edge_of`, if an edge is close
     std::size_t edge_of = 0;                ///< a or b
-    int tag_a = 0, tag_b = 0, edge_tag = 0; ///< of the faces and the edge, as shown to the user
+    int tag_a = 0, tag_b = 0, edge_tag = 0; ///< tags of the faces and the edge, as shown to the user
     double least = 0, width = 0;            ///< smallest and largest distance [model length]
     bool reach_in = false;                  ///< the members overlap by that distance instead
-    double area = 0;                        ///< of the faces within that distance [model length²]
-    double length = 0;                      ///< of the edge within that distance [model length]
-    double tolerance = 0;                   ///< of both models that would join the faces [model length]
-    Message message{"assembly.near_miss", "a near miss"}; ///< the above as a note
+    double area = 0;                        ///< area of the faces within that distance [model length²]
+    double length = 0;                      ///< length of the edge within that distance [model length]
+    /// Tolerance of both models that would join the faces [model length].
+    double tolerance = 0;
+    Message message{"assembly.near_miss", "a near miss"}; ///< the fields above as a note
 };
 
 /// The faces shared by members: the same surface within the tolerance, with any facets; or void faces with
@@ -73,21 +74,22 @@ std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, co
 /// A volume of an assembly that could not be meshed and was left out.
 struct LeftOut {
     std::string region; ///< its name
-    Message message;    ///< of the error
+    Message message;    ///< message of the error
 };
 
 /// Hexahedra of several sweeps with common nodes at shared faces.
 struct SweptAssembly {
     std::vector<Swept> parts;        ///< in the members' order, each with its own numbering
-    std::vector<std::size_t> member; ///< of each part, its index in the list of members
+    std::vector<std::size_t> member; ///< for each part, its index in the list of members
     std::vector<LeftOut> left_out;   ///< members without a part
     /// Of each part's nodes, the number in the whole mesh, from 0. Parts follow each other; a node that an
     /// earlier part has keeps its number.
     std::vector<std::vector<Index>> number;
-    std::vector<mesh::NodeNumbers> numbering; ///< the same; used alone if parts do not hold their nodes
-    std::size_t nodes = 0;                    ///< of the whole mesh
-    std::vector<SharedFace> shared;           ///< faces with common quads; `a` and `b` index `parts`
-    std::vector<NearMiss> near_misses;        ///< `a` and `b` index `parts`
+    /// The same numbers in compact form; used alone if parts do not hold their nodes.
+    std::vector<mesh::NodeNumbers> numbering;
+    std::size_t nodes = 0;             ///< number of nodes of the whole mesh
+    std::vector<SharedFace> shared;    ///< faces with common quads; `a` and `b` index `parts`
+    std::vector<NearMiss> near_misses; ///< `a` and `b` index `parts`
     /// A line for each shared face and each near miss, and the order of meshing.
     std::vector<std::string> report;
 };

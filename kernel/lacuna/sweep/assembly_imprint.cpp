@@ -192,7 +192,7 @@ struct SideOfPair {
     FaceId face;
     bool fixed = false;   ///< the skin of a given mesh, which is not changed
     NamedEntity whole{};  ///< the face before parts were split off
-    std::string region{}; ///< of the member
+    std::string region{}; ///< region of the member
 
     [[nodiscard]] Model& model() const { return volume->model; }
 };

@@ -160,15 +160,15 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
             return near_miss.a == std::min(part, side.part) && near_miss.b == std::max(part, side.part);
         });
         if (miss == assembly.near_misses.end())
-            throw NotSweepable(Message("assembly.hanging_node",
-                                       "{} has a node at {}, where {} has none: they touch along an edge and "
-                                       "share no face there",
-                                       region, place_in_short(p), other)
-                                   .remedy("give them the same size along it"));
+            throw NotSweepable(
+                Message(
+                    "assembly.hanging_node",
+                    "{} has a node at {}, where {} has none: they touch along an edge without a shared face",
+                    region, place_in_short(p), other)
+                    .remedy("give both the same size along it"));
         throw NotSweepable(
             Message("assembly.hanging_node",
-                    "{} has a node at {}, where {} has none: {} are up to {:.2g} off each other and share no "
-                    "nodes",
+                    "{} has a node at {}, where {} has none: {} are up to {:.2g} apart and share no nodes",
                     region, place_in_short(p), other, miss->message.entities(), found(miss->width))
                 .remedy("{}", miss->message.remedy())
                 .attempt(miss->message));

@@ -69,11 +69,11 @@ std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember
         if (std::ranges::find(order, m) == order.end())
             names += (names.empty() ? "" : ", ") + members[m].region;
     }
-    throw NotSweepable(
-        Message("assembly.round",
-                "each of {} lacks a face that the next one has, all round, so none can be meshed first",
-                names)
-            .remedy("give one of them that face too"));
+    throw NotSweepable(Message("assembly.round",
+                               "in a cycle of volumes, each of {} lacks a face that the next one has, so "
+                               "none can be meshed first",
+                               names)
+                           .remedy("give one of them that face too"));
 }
 
 std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,

@@ -286,8 +286,8 @@ private:
     }
     struct SidesOfClass {
         int count = 0;
-        std::string region; ///< of the member with the request
-        Argument name;      ///< of the entity with the request
+        std::string region; ///< region of the member with the request
+        Argument name;      ///< name of the entity with the request
     };
     void ask_class(std::size_t e, const SidesOfClass& sides)
     {
@@ -298,7 +298,7 @@ private:
                                    "intervals: {}: {} asks for {} sides, and {}: {} for {}", sides.region,
                                    sides.name, lacuna::found(sides.count), before.region, before.name,
                                    needed(before.count))
-                               .remedy("volumes that share edges have as many sides there"));
+                               .remedy("volumes that share an edge need the same number there"));
     }
 
     /// Opposite edges of walls have equal numbers because walls have rows and columns; so have those of an
@@ -470,13 +470,12 @@ private:
     {
         const AssemblyMember& own = members_[m];
         const AssemblyMember& other = members_[there.member];
-        throw NotSweepable(
-            Message("assembly.layers_differ",
-                    "boundary layers of {} of {} and of {} of {} are unlike and both end on {} of "
-                    "{}, which is an edge of both",
-                    entity_in(other, there.face), other.region, entity_in(own, face), own.region,
-                    entity_in(own, edges_[e].edge), own.region)
-                .remedy("give both faces one table"));
+        throw NotSweepable(Message("assembly.layers_differ",
+                                   "boundary layers of {} of {} and of {} of {} differ, and both end on {} "
+                                   "of {}, an edge of both",
+                                   entity_in(other, there.face), other.region, entity_in(own, face),
+                                   own.region, entity_in(own, edges_[e].edge), own.region)
+                               .remedy("give both faces the same table"));
     }
 
     /// Number of sides that rows take of an edge, and the remaining length [model length].
@@ -501,13 +500,12 @@ private:
             if (taken < count) continue;
             const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
             const AssemblyMember &own = members_[end.member], &other = members_[edges_[e].member];
-            throw NotSweepable(
-                Message("assembly.layers_rows",
-                        "boundary layers of {} of {} take {} sides of {} of {}, which has {} by "
-                        "the layers or nodes asked for or given",
-                        entity_in(own, end.face), own.region, needed(taken), entity_in(other, edges_[e].edge),
-                        other.region, found(count))
-                    .remedy("ask for fewer rows or more layers"));
+            throw NotSweepable(Message("assembly.layers_rows",
+                                       "boundary layers of {} of {} take {} sides of {} of {}, but only {} "
+                                       "sides are given or requested there",
+                                       entity_in(own, end.face), own.region, needed(taken),
+                                       entity_in(other, edges_[e].edge), other.region, found(count))
+                                   .remedy("ask for fewer rows or more layers"));
         }
     }
 
@@ -521,8 +519,8 @@ private:
             const AssemblyMember &a = members_[found->second], &b = members_[m];
             if (fresh || layers_asked(found->second) == layers_asked(m)) continue;
             throw NotSweepable("assembly.layers",
-                               "{} and {} lie side by side and are swept the same way, so they have as many "
-                               "layers; asked for are {} and {}",
+                               "{} and {} lie side by side and are swept in the same direction, so they need "
+                               "equal layers, but {} and {} are asked for",
                                a.region, b.region, lacuna::found(layers_asked(found->second)),
                                lacuna::found(layers_asked(m)));
         }
@@ -549,8 +547,8 @@ private:
             if (!(sides < std::numeric_limits<Index>::max() / 16.0))
                 throw InvalidInput(
                     Message("sweep.too_many",
-                            "an edge of the assembly would have more sides than can be numbered")
-                        .remedy("ask for a larger 'size'"));
+                            "an edge of the assembly would have more sides than node numbers allow")
+                        .remedy("use a larger 'size'"));
             count_[of] = std::max(1, static_cast<int>(std::lround(sides)));
         }
         for (const auto& [of, m] : asked) {
@@ -675,9 +673,10 @@ private:
         }
         if (all > kMostNodes)
             throw InvalidInput(Message("sweep.too_many",
-                                       "the edges that volumes of the assembly share would have {:.0f} sides",
+                                       "the edges shared by volumes of the assembly would have {:.0f} sides, "
+                                       "more than memory allows",
                                        found(all))
-                                   .remedy("ask for a larger 'size' or fewer 'layers'"));
+                                   .remedy("use a larger 'size' or fewer 'layers'"));
         plan.nodes.resize(members_.size());
         plan.layers.assign(members_.size(), 0);
         std::map<std::size_t, std::vector<Vec3>> nodes;
@@ -770,7 +769,7 @@ private:
     std::span<const SharedFace> shared_;
     const RunContext& context_;
     std::vector<std::size_t> first_; ///< index of each member's first edge
-    std::vector<MemberEdge> edges_;  ///< of all members
+    std::vector<MemberEdge> edges_;  ///< edges of all members
     mutable geometry::UnionFind same_{0}, classes_{0};
     /// The given nodes of an edge that are kept: none, those of a face that is only geometry, those of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
@@ -792,7 +791,7 @@ private:
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
     std::vector<Vec3> corners_;           ///< vertices where edges of several members end
-    mutable std::vector<double> spacing_; ///< of each member's rim
+    mutable std::vector<double> spacing_; ///< for each member's rim
 };
 
 } // namespace

@@ -61,7 +61,8 @@ public:
 private:
     [[noreturn]] void refuse() const
     {
-        throw NotSweepable("surface.not_imprinted", "{} has other points on its rim than its neighbour's",
+        throw NotSweepable("surface.not_imprinted",
+                           "{} has other points on its rim than the neighbour's face",
                            entity_of(to_, whole_.front()));
     }
 
@@ -256,8 +257,10 @@ public:
         bool changed = true;
         for (int round = 0; changed; ++round) {
             if (round == kRounds)
-                throw NotSweepable("sweep.lines_go_round",
-                                   "lines that ends need on what they share add others all the time");
+                throw NotSweepable(Message("sweep.lines_go_round",
+                                           "imprinting the lines of shared ends does not terminate: "
+                                           "each line requires another one")
+                                       .remedy("share these faces as a whole"));
             changed = false;
             for (std::size_t m = 0; m < volumes_.size(); ++m) {
                 check_cancelled(context_);
@@ -408,7 +411,7 @@ private:
     std::span<OpenVolume> volumes_;
     const RunContext& context_;
     std::vector<SharedFace> shared_ = shared_faces(members_, context_);
-    std::vector<std::vector<surface::KnownLine>> known_; ///< of each member, by its source and target
+    std::vector<std::vector<surface::KnownLine>> known_; ///< for each member, by its source and target
     std::vector<std::vector<surface::RimPair>> pairs_;
     std::set<std::size_t> split_;
 };

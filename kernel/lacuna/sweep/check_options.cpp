@@ -79,8 +79,7 @@ void check(const surface::Interval& interval)
         refuse_member("intervals", "a bias", "a finite number above 0", interval.bias);
     if (interval.of == surface::Interval::Of::wall && interval.bias != 1)
         throw InvalidInput(
-            Message("sweep.intervals",
-                    "sweep: option 'intervals': a bias needs a direction, which a wall has none of")
+            Message("sweep.intervals", "sweep: option 'intervals': a wall has no direction for a bias")
                 .remedy("name its edge, or {{ from, to }}"));
 }
 
@@ -92,9 +91,9 @@ void check(const LayerSpec& spec)
     if (spec.count < 0) {
         throw InvalidInput(
             Message("sweep.layers",
-                    "sweep: option 'layers' must be at least {}, or 0 for a count of its own, found {}",
+                    "sweep: option 'layers' must be at least {}, or 0 for an automatic number, found {}",
                     needed(1), found(spec.count))
-                .remedy("set layers to a count or to a list of heights"));
+                .remedy("set layers to a number or to a list of heights"));
     }
     if (!(spec.bias > 0) || !std::isfinite(spec.bias)) refuse("bias", "a finite number above 0", spec.bias);
 }
@@ -119,11 +118,11 @@ void check(const SweepOptions& options, const RunContext& context)
     if (options.order != 1 && options.order != 2) refuse("order", "1 or 2", options.order);
     if (options.second_order.serendipity && options.order != 2)
         throw InvalidInput(
-            Message("sweep.order", "sweep: option 'serendipity' is for cells of order {}", needed(2))
+            Message("sweep.order", "sweep: option 'serendipity' applies to cells of order {} only", needed(2))
                 .remedy("set order = 2"));
     if (options.wedges && options.order == 2)
-        throw InvalidInput(Message("sweep.order", "sweep: wedges have no middle nodes here")
-                               .remedy("give 'wedges' with order = 1"));
+        throw InvalidInput(Message("sweep.order", "sweep: wedges cannot have middle nodes")
+                               .remedy("use 'wedges' with order = 1"));
     if (options.curvature < 0) refuse("curvature", "a whole number of at least 0", options.curvature);
     if (options.gap < 0) refuse("gap", "a whole number of at least 0", options.gap);
     if (!(options.max_deviation >= 0) || !std::isfinite(options.max_deviation))
@@ -132,10 +131,11 @@ void check(const SweepOptions& options, const RunContext& context)
         refuse("volume_share", "a number in [0, 1)", options.volume_share);
     if (options.rows < 0) refuse("rows", "a whole number of at least 0", options.rows);
     if (options.row_height && options.rows == 0)
-        throw InvalidInput("sweep.rows",
-                           "sweep: option 'row_height' needs 'rows', the number of rows it is for");
+        throw InvalidInput(
+            "sweep.rows",
+            "sweep: option 'row_height' needs option 'rows', the number of rows of that height");
     if (options.rows > 0 && options.quads != Quads::automatic && options.quads != Quads::paved) {
-        throw InvalidInput(Message("sweep.rows", "sweep: 'rows' and 'row_height' are the paver's")
+        throw InvalidInput(Message("sweep.rows", "sweep: 'rows' and 'row_height' apply to paving only")
                                .remedy("use them with quads = \"auto\" or \"paved\""));
     }
     for (const surface::BoundaryLayer& layer : options.boundary_layers) check(layer);
@@ -143,7 +143,7 @@ void check(const SweepOptions& options, const RunContext& context)
     if (options.rows > 0 && !options.boundary_layers.empty())
         throw InvalidInput(
             Message("sweep.boundary_layers",
-                    "sweep: 'boundary_layers' and 'rows' both lay rows along the source's loops")
+                    "sweep: 'boundary_layers' and 'rows' both place rows along the source's loops")
                 .remedy("use one of them"));
     if (context.threads < 0 || context.threads > kMostThreads) {
         refuse("threads", formatted("a whole number from 0 (all cores) to {}", kMostThreads),

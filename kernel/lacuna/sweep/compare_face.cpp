@@ -2,8 +2,9 @@
 //
 // Meshes of millions of cells have a hundred thousand quads on their skin, each with four points to compare,
 // so the usual point must cost only a few operations. Quads are stored in rows: the facet below the last
-// point, or one next to it, is below this point (`FacetWalk`), and the quad nearest to one point of a facet
-// is usually nearest to the next. These answers are used only if they are certain; otherwise a tree is
+// point, or a neighbour of it, is usually below the next point too (`FacetWalk`), and the quad nearest to one
+// point of a facet is usually nearest to the next. Such an answer is used only if it is certain; otherwise a
+// tree is searched.
 // searched.
 #include <lacuna/sweep/detail/compare_face.h>
 
@@ -35,9 +36,9 @@ constexpr double kFar = 0.25;
 /// A point of one skin and its distance from the other.
 struct Sample {
     Vec3 point = Vec3::Zero();
-    double area = 0;      ///< that it represents
-    double side = 0;      ///< of the quads there; the allowed distance is proportional to it
-    std::size_t quad = 0; ///< of the patch
+    double area = 0;      ///< area that it represents
+    double side = 0;      ///< length of the quads' sides there, to which the allowed distance is proportional
+    std::size_t quad = 0; ///< index of the quad in the patch
     double distance = 0;
     bool turned = false; ///< has the opposite orientation
 };
@@ -48,7 +49,7 @@ struct Tally {
     double max_distance = -1;
     Vec3 place = Vec3::Zero();
     Sample worst;       ///< the one that exceeds the allowed distance most; a turned one takes precedence
-    double allowed = 0; ///< there
+    double allowed = 0; ///< allowed distance at that sample
 
     void add(const Sample& sample, double most)
     {
@@ -80,8 +81,8 @@ private:
     }
 };
 
-/// Distinguishes nodes on the border of a patch from inner ones: around an inner node, each neighbour is once
-/// the predecessor and once the successor.
+/// For each node of the patch, zero if it is inside: there each neighbour is the predecessor of one side and
+/// the successor of another. Other values show border nodes.
 std::vector<std::int64_t> border_turns(std::span<const Quad> quads, std::size_t node_count)
 {
     std::vector<std::int64_t> turn(node_count, 0);
@@ -329,11 +330,10 @@ private:
                                           double reach = kInfinity) const
     {
         auto hit = face_tree_.closest(point, reach * reach);
-        if (hit.triangle < 0)
-            hit = face_tree_.closest(point); // that height was computed differently, with other rounding
+        if (hit.triangle < 0) hit = face_tree_.closest(point); // the other height has other rounding errors
         facet = index(hit.triangle);
         Vec3 bulge = shape_.bulge_at(facet, hit.barycentric);
-        // Beside the face the exact edge is used; above it only the bulge.
+        // Next to the face, compare with the exact edge; above a facet, add only its bulge.
         if (hit.barycentric.minCoeff() > 0) {
             const Vec3 normal = shape_.normal(facet);
             bulge = bulge.dot(normal) * normal;
@@ -404,7 +404,7 @@ private:
         }));
     }
 
-    /// For each facet, a nearby one with quads above it.
+    /// For each facet, a nearby facet that some quads were projected onto.
     [[nodiscard]] static std::vector<Index> nearest_with_quads(const FacetWalk& walk,
                                                                const mesh::Incidence& over)
     {
@@ -421,14 +421,16 @@ private:
                 front.push_back(next);
             }
         }
-        for (Index& facet : near) facet = facet < 0 ? front.front() : facet; // of another component
+        // Facets of another component get any of them.
+        for (Index& facet : near) facet = facet < 0 ? front.front() : facet;
         return near;
     }
 
     /// The quad nearest to a point among at most `kMost` of a list, taken at even steps.
     [[nodiscard]] std::size_t nearest_of(std::span<const Index> quads, const Vec3& point) const
     {
-        constexpr std::size_t kMost = 16; // more cost time per point, fewer miss the nearest; not measured
+        // Limit of quads that are compared, to bound the time per point; not measured.
+        constexpr std::size_t kMost = 16;
         const std::size_t step = (quads.size() + kMost - 1) / kMost;
         double best = kInfinity;
         Index nearest = quads.front();
@@ -528,7 +530,7 @@ private:
 
     struct QuadTree {
         geometry::FacetTree tree;
-        std::vector<std::size_t> quad; ///< of each triangle
+        std::vector<std::size_t> quad; ///< for each triangle
     };
 
     [[nodiscard]] QuadTree tree_of(const std::vector<std::size_t>& quads) const
@@ -608,7 +610,8 @@ private:
             result_.misfit = Misfit::cut;
     }
 
-    /// If a quad's nodes lie on the face, the face curves between them.
+    /// Tell the two kinds of deviation apart: if a quad's nodes lie on the face, only its curvature between
+    /// them deviates.
     void tell_straight_from_cut()
     {
         constexpr double kOnFace =
@@ -643,7 +646,7 @@ private:
     const RunContext& context_;
 
     std::vector<Vec3> tips_;
-    Vec3 origin_ = Vec3::Zero(), normal_ = Vec3::Zero(); ///< of the plane of a flat face
+    Vec3 origin_ = Vec3::Zero(), normal_ = Vec3::Zero(); ///< origin and normal of the plane of a flat face
     std::vector<Index> facet_of_node_;                   ///< nearest to each node of the patch
     FaceFidelity result_;
     std::size_t worst_ = 0;

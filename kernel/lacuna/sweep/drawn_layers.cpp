@@ -21,23 +21,22 @@ namespace {
 
 /// Steps along the axis: a bend of 90° on a twentieth of it turns by 29° per step.
 constexpr std::size_t kSteps = 64;
-/// A larger turn in one step counts as a corner, which layers cannot resolve [radian]. A lower value ignores
-/// tight bends, a higher one concentrates layers at corners. Not measured.
+/// A turn in one step above this counts as a corner, which layers cannot resolve [radian]: below it are tight
+/// bends, above it corners. Not measured.
 constexpr double kCorner = 40 * kDegree;
 /// Minimum number of side lines whose mean is used as the axis: one line alone is not in the middle.
 constexpr std::size_t kMiddle = 2;
 /// Where the mean of the columns moves by less than this share of their mean length, the columns diverge, as
 /// around the edge of an end, and turns are ignored. A higher value ignores more turns. Not measured.
 constexpr double kSlow = 0.7;
-/// Maximum height ratio of neighbouring layers, and of all layers. Higher values resolve bends better at the
-/// cost of elongated cells. Not measured.
+/// Maximum ratio between the heights of neighbouring layers, and between any two. They limit how elongated
+/// cells become for the sake of bends. Not measured.
 constexpr double kMostBeside = 2, kMostInAll = 4;
 /// Weights of the total turning relative to the length of the axis, increasing: from nearly uniform layers to
 /// most layers in the bends.
 constexpr std::array<double, 6> kPulls{0.25, 0.5, 1, 2, 4, 8};
-/// A stronger concentration must reduce the volume error by at least this share of the volume: a hardly
-/// visible change, and about the change from one number of layers to the next. A higher value keeps layers
-/// uniform more often. Not measured.
+/// A stronger concentration must reduce the volume error by at least this share of the volume: about the
+/// difference between neighbouring numbers of layers. Not measured.
 constexpr double kWorth = 2e-3;
 
 /// The mean of the columns, sampled at even steps.

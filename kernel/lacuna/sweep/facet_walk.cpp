@@ -11,8 +11,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Heights up to this share of the facet's minimum altitude are above this facet and its neighbours only. A
-/// higher value accepts more points without a tree and risks a nearer facet elsewhere. Not measured.
+/// Height, as a share of the facet's minimum altitude, up to which a point is certainly above this facet or a
+/// neighbour; higher points need the tree. Not measured.
 constexpr double kLow = 0.1;
 /// Maximum number of steps of a walk. For points in rows the next facet is one or two steps away; more steps
 /// help only after large jumps, for which a tree is faster. Not measured.

@@ -27,8 +27,8 @@ constexpr double kShareAtTip = 1;
 /// whichever is smaller. Gaps and overlaps of faces in real parts are as large, and no mesh shows them.
 constexpr double kLeastOfModel = 1e-4, kLeastOfFace = 1e-2;
 
-/// Allowed difference between the mesh's volume and the sealed one. Six sides for a turn, the minimum that
-/// the size alone leaves, lose 17 % of a disc, so a lower value refuses these. Not measured.
+/// Allowed difference between the mesh's volume and the sealed one, relative. It must exceed 17 %, the loss
+/// of a disc with six sides for a turn, the minimum that the size alone permits. Not measured.
 constexpr double kMostOfVolume = 0.2;
 
 /// A face that the skin omits.
@@ -204,12 +204,11 @@ void require_volume(const Fidelity& fidelity, int layers)
     const auto worst = std::ranges::max_element(fidelity.faces, {}, &FaceFidelity::max_distance);
     throw NotSweepable(
         Message("sweep.deviation",
-                "the mesh's volume is {:.2g} % {} than the sealed one, and more than {:.2g} % is another "
-                "shape. Its skin is {:.2g} off {} at {}",
+                "the mesh's volume is {:.2g} % {} than the sealed one, above the limit of {:.2g} %. Its skin "
+                "is up to {:.2g} away from {}, at {}",
                 found(100 * std::abs(off)), off < 0 ? "less" : "more", needed(100 * kMostOfVolume),
                 found(worst->max_distance), worst->entity, at_place(worst->place))
-            .remedy("ask for more than {} layers or a smaller 'size', or say by max_deviation how far it may "
-                    "be off",
+            .remedy("use more than {} layers or a smaller 'size', or allow the distance with max_deviation",
                     found(layers)));
 }
 

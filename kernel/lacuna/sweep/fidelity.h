@@ -27,11 +27,11 @@ enum class Misfit {
 
 /// Distance between the mesh's skin and one face of the sealed skin.
 struct FaceFidelity {
-    FaceId face;        ///< of the volume's model
+    FaceId face;        ///< face of the volume's model
     NamedEntity entity; ///< as messages name it
     int tag = 0;        ///< as shown to the user; void faces have tags of their own
     bool made_void = false;
-    std::size_t quads = 0; ///< of the skin
+    std::size_t quads = 0; ///< number of quads of the skin on the face
     /// Maximum of both directions: quads to face, and face to its own quads [model length]. For a face
     /// without quads its width: twice its area over the length of its rim.
     double max_distance = 0;
@@ -42,13 +42,13 @@ struct FaceFidelity {
     double found = 0, allowed = 0; ///< where their ratio is largest [model length]
     Vec3 found_at = Vec3::Zero();
     double side = 0; ///< longest side of a quad there; of `straight`, the deviating side [model length]
-    double source_side = 0;    ///< of `straight`: the corresponding side on the source [model length]
-    bool along_layers = false; ///< of `straight`: that side runs from layer to layer
+    double source_side = 0;    ///< for `straight`: the corresponding side on the source [model length]
+    bool along_layers = false; ///< for `straight`: that side runs from layer to layer
 };
 
 /// The proof of shape: the mesh's skin against the sealed skin.
 struct Fidelity {
-    double volume = 0;                          ///< of the mesh [model length³]
+    double volume = 0;                          ///< volume of the mesh [model length³]
     double sealed_volume = 0;                   ///< inside the sealed skin, with exact faces [model length³]
     double max_distance = 0, mean_distance = 0; ///< over all faces [model length]
     std::vector<FaceFidelity> faces;            ///< in the model's order

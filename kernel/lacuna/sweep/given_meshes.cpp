@@ -46,13 +46,13 @@ GivenMeshes given_meshes(const OpenVolume& volume, std::vector<surface::LinkingS
     given.notes = std::move(rows.notes);
     for (const surface::GivenColumns& columns : given.columns) {
         if (columns.quads && layers > 0 && layers != columns.rows) {
-            throw NotSweepable(
-                Message("sweep.given_rows",
-                        "the walls came with {} rows of quads between source and target, and {} layers were "
-                        "asked for",
-                        needed(columns.rows), found(layers))
-                    .remedy("leave out 'layers'{}",
-                            options.beside.own_mesh ? ", or load with keep_mesh = false" : ""));
+            throw NotSweepable(Message("sweep.given_rows",
+                                       "the walls were given with {} rows of quads between source and "
+                                       "target, but {} layers are requested",
+                                       needed(columns.rows), found(layers))
+                                   .remedy("leave out 'layers'{}", options.beside.own_mesh
+                                                                       ? ", or load with keep_mesh = false"
+                                                                       : ""));
         }
     }
     if (asked.empty() || options.layers.heights.empty()) {

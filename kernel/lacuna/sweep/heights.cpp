@@ -29,7 +29,7 @@ std::vector<double> layer_heights(const LayerSpec& spec)
 {
     check(spec);
     if (spec.heights.empty() && spec.count < 1) {
-        throw InvalidInput("sweep.layers", "heights of layers need a count of at least {}, found {}",
+        throw InvalidInput("sweep.layers", "the heights of layers need at least {} layer, found {}",
                            needed(1), found(spec.count));
     }
     if (!spec.heights.empty()) {
@@ -50,9 +50,9 @@ std::vector<double> layer_heights(const LayerSpec& spec)
                             result, [](double low, double high) { return !(low < high); }) == result.end();
     if (!rising) {
         throw InvalidInput(Message("sweep.bias",
-                                   "sweep: a bias of {} over {} layers leaves layers without height",
+                                   "sweep: with a bias of {} over {} layers, some layers have no height",
                                    found(spec.bias), spec.count)
-                               .remedy("choose one nearer 1"));
+                               .remedy("choose a bias nearer to 1"));
     }
     return result;
 }

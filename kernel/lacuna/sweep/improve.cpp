@@ -16,11 +16,11 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Smallest regularisation, relative to a cell's volume. A lower value makes the energy stiffer, a higher one
-/// leaves cells almost flat. Not measured.
+/// Smallest ε of the barrier, relative to a cell's volume. It bounds how flat cells may stay after
+/// untangling; smaller values make the energy stiff. Not measured.
 constexpr double kLeastEpsilon = 1e-3;
-/// Maximum number of untangling rounds, each with a smaller regularisation, and of rounds without gain. More
-/// rounds trade time for hard cases. Not measured.
+/// Maximum number of untangling rounds, each with a smaller ε, and of rounds without gain. They bound the
+/// time for cells that cannot be unfolded. Not measured.
 constexpr int kUntanglings = 40;
 constexpr int kPatience = 4;
 /// Share of the total shortfall that counts as a gain while untangling.
@@ -31,8 +31,7 @@ constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 constexpr double kShapeShare = 1e-3;
 /// Minimum gain in the least scaled Jacobian, or in the share of the shortfall, that justifies moving nodes.
 constexpr double kWorthIt = 1e-4;
-/// Allowed decrease of the mean scaled Jacobian in exchange for a higher minimum; see the header. A higher
-/// value trades more of the mean.
+/// Decrease of the mean scaled Jacobian that is accepted for a higher minimum; `improve()` promises it.
 constexpr double kMeanGivenUp = 0.01;
 
 class Improver {

@@ -46,9 +46,9 @@ ImproveOptions with_deadline(ImproveOptions options);
 
 /// Skin nodes that may slide, each along the surface its face lies on.
 struct Sliding {
-    std::vector<Index> surface; ///< of each node of the mesh; -1: inside, or fixed. Empty: no node slides
+    std::vector<Index> surface; ///< for each node of the mesh; -1: inside, or fixed. Empty: no node slides
     std::function<void(Index surface, std::span<Vec3> points)> project; ///< onto that surface
-    std::vector<char> held{}; ///< of each node of the mesh: it is fixed, also inside; empty: none
+    std::vector<char> held{}; ///< for each node of the mesh: it is fixed, also inside; empty: none
 };
 
 /// Two sides of a cell that are collinear or inverted because of fixed nodes: no free node can repair them.

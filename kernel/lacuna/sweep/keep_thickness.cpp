@@ -27,7 +27,7 @@ constexpr int kRounds = 8;
 /// A row has converged if its relative thickness error is below this: a tenth of the tolerance.
 constexpr double kMet = kThicknessOff / 10;
 
-/// A column that holds a node at a height: one wall's, or two walls' where rows cross.
+/// Constraint of a node to heights over a wall, or over two walls where rows cross.
 struct Hold {
     std::size_t column;
     double height;
@@ -103,9 +103,9 @@ private:
             if (own >= 0 && own != table)
                 throw NotSweepable(
                     Message("surface.layers_meet",
-                            "the boundary layers of {} and of another face of its end are unlike",
+                            "the boundary layers of {} and of another face of the same end differ",
                             entity_of(model_, face))
-                        .remedy("give both one table"));
+                        .remedy("give both the same table"));
             own = table;
         }
     }
@@ -271,14 +271,12 @@ private:
             if (own == table) faces.push_back(face);
         const std::vector<double>& heights = heights_of(table);
         if (there.off > kThicknessOff) {
-            throw NotSweepable(
-                Message(
-                    "sweep.layers_thickness",
-                    "the boundary layers of {} come out {:.2g} thick instead of {:.2g} near {}: there is no "
-                    "room to move their nodes, or these were given",
-                    entity_of(model_, there.face), found(there.off_found), needed(there.off_asked),
-                    place_in_short(there.where))
-                    .remedy("ask for fewer or thinner rows, or for a smaller size"));
+            throw NotSweepable(Message("sweep.layers_thickness",
+                                       "the boundary layers of {} are {:.2g} thick instead of {:.2g} near "
+                                       "{}: their nodes have no room to move, or are given",
+                                       entity_of(model_, there.face), found(there.off_found),
+                                       needed(there.off_asked), place_in_short(there.where))
+                                   .remedy("use fewer or thinner rows, or a smaller size"));
         }
         lines.push_back(
             formatted("boundary layers of {}: {} {}, the first {:.2g} to {:.2g} thick ({:.2g} asked), "
@@ -402,7 +400,8 @@ private:
         const double a = normal[0].dot(within[0]), b = normal[0].dot(within[1]), c = normal[1].dot(within[0]),
                      d = normal[1].dot(within[1]);
         const double det = a * d - b * c;
-        constexpr double kSameWay = 1e-3; // treats nearly tangent walls as one; not measured
+        // Tangent walls with a smaller angle [radian] count as one; not measured.
+        constexpr double kSameWay = 1e-3;
         if (!(a > 0 && det > kSameWay * a * d)) return;
         at(layer, node) += within[0] * ((d * off[0] - b * off[1]) / det) +
                            within[1] * ((a * off[1] - c * off[0]) / det);

@@ -19,8 +19,7 @@ using namespace topology;
 
 namespace {
 
-/// Maximum corner angle of a quad on either end. A higher value accepts flatter corners, a lower one moves
-/// more nodes inward. Not measured.
+/// Maximum corner angle of a quad on either end; nodes with a larger one are moved inward. Not measured.
 constexpr double kWidest = 150 * kDegree;
 /// The shortfall from the angle that right-angled quads would fill: near 45° one quad fewer fits. A node with
 /// a larger shortfall than the first is moved inward until it is below the second. Not measured.

@@ -18,8 +18,8 @@ namespace {
 /// A worst quad this much below the source's counts as equal. A higher value smooths less often. Not
 /// measured.
 constexpr double kSameQuality = 0.01;
-/// If the worst quad is below this share of the model's worst quad, other images of the source are tried. A
-/// higher value tries them more often, which costs time. Not measured.
+/// Share of the source's worst quad below which the morphed mesh counts as bad, and other starting positions
+/// are tried. Not measured.
 constexpr double kStandsUp = 0.5;
 
 /// The mesh's graph, and its factorisation with the rim fixed.

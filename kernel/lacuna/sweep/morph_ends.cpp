@@ -62,9 +62,8 @@ Part part_of(const mesh::QuadMesh& whole, const std::vector<Quad>& quads,
     for (const Index node : rim) {
         const std::optional<Vec3>& place = places[index(part.node[index(node)])];
         if (!place) {
-            throw NotSweepable("sweep.imprint_torn",
-                               "an edge between faces of the target has nodes on the source that no edge "
-                               "imprinted there leads to it");
+            throw NotSweepable("sweep.imprint_torn", "an edge between faces of the target has nodes to which "
+                                                     "no edge imprinted on the source leads");
         }
         part.columns.points.push_back(*place);
     }

@@ -33,7 +33,7 @@ constexpr double kPart = 0.05;
 /// Vertices of two rims correspond if their distance is at most this factor times that of the rims: corners
 /// of 30° differ by twice the distance of their sides.
 constexpr double kCorner = 4;
-/// Faces are only partly joined if more than this share of the contact is apart.
+/// If more than this share of the contact area is apart, the faces are joined only in part.
 constexpr double kApart = 0.05;
 /// If a face covers part of another, corners are moved onto it within the tolerance, and along its rim within
 /// the tolerance too, so they may be off by √2 times the tolerance.
@@ -150,13 +150,12 @@ private:
     {
         if (is_curved(faces) || overlap.a.within - overlap.a.on <= kApart * overlap.a.within) return;
         const double width = std::max(overlap.gap, overlap.depth);
-        throw InvalidInput(
-            Message("assembly.crack",
-                    "{} of {} and {} of {} are one face for part of what they have over each other and up to "
-                    "{:.2g} apart for the rest, at {}, so the two meshes would open there as a crack",
-                    entity_in(one_, faces.first), one_.region, entity_in(other_, faces.second), other_.region,
-                    found(width), place_in_short(overlap.box.center()))
-                .remedy("give both models tolerance = {:.2g}", needed(joining(faces, width))));
+        throw InvalidInput(Message("assembly.crack",
+                                   "{} of {} and {} of {} coincide in part and are up to {:.2g} apart "
+                                   "elsewhere, at {}, so the two meshes would leave a crack",
+                                   entity_in(one_, faces.first), one_.region, entity_in(other_, faces.second),
+                                   other_.region, found(width), place_in_short(overlap.box.center()))
+                               .remedy("give both models tolerance = {:.2g}", needed(joining(faces, width))));
     }
 
     [[nodiscard]] double joining(const Faces& faces, double width) const

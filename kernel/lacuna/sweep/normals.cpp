@@ -9,8 +9,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Smoothing passes over each layer. More passes make steps smoother, but blur the layer's shape. Not
-/// measured.
+/// Smoothing passes over each layer: a compromise between even steps and the layer's shape. Not measured.
 constexpr int kPasses = 5;
 
 /// Move every node that is not on the rim to the mean of its neighbours.

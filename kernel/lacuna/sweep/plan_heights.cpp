@@ -19,12 +19,12 @@ using namespace topology;
 
 namespace {
 
-/// Sample points of the size along each column. More resolve finer variations at a cost per column. Not
-/// measured.
+/// Number of points along each column at which the size is sampled. It decides how short a variation of the
+/// size is seen. Not measured.
 constexpr int kSamples = 32;
 
-/// Chords that represent a column when its turning is measured. More chords would count local dents as bends
-/// of the sweep, fewer would miss bends. Not measured.
+/// Number of chords that represent a column when its turning is measured: few enough to ignore local dents,
+/// enough to see the bends of a sweep. Not measured.
 constexpr std::size_t kTurnChords = 8;
 
 /// Mean data of the columns between both rims.
@@ -103,7 +103,7 @@ std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int 
     return layer_heights(spec);
 }
 
-/// Sides wanted up to a share of the columns.
+/// Number of sides wanted from the source up to a share of the columns' length.
 double wanted_at(const Columns& columns, double share)
 {
     const double at = share * kSamples;
@@ -111,7 +111,7 @@ double wanted_at(const Columns& columns, double share)
     return columns.wanted[i] + (at - static_cast<double>(i)) * (columns.wanted[i + 1] - columns.wanted[i]);
 }
 
-/// Heights between two shares of the columns that follow the size.
+/// Heights of layers between two shares of the columns' length, spaced by the size.
 std::vector<double> following_heights(const Columns& columns, double from, double to, int least)
 {
     const double low = wanted_at(columns, from), high = wanted_at(columns, to);
@@ -129,7 +129,7 @@ std::vector<double> following_heights(const Columns& columns, double from, doubl
     return heights;
 }
 
-/// Table of an end; empty: none.
+/// Boundary layers of an end as heights; empty: none.
 std::vector<double> end_table(const OpenVolume& volume, const surface::LayerTables& tables, Role end)
 {
     for (const auto& [face, table] : tables.of) {
@@ -138,7 +138,7 @@ std::vector<double> end_table(const OpenVolume& volume, const surface::LayerTabl
     return {};
 }
 
-/// Whether heights that walls give have the rows of the ends already.
+/// Whether the heights that given meshes of walls prescribe already contain the boundary layers of the ends.
 bool has_rows(const std::vector<double>& heights, const std::vector<double>& low,
               const std::vector<double>& high, double length)
 {
@@ -154,28 +154,26 @@ bool has_rows(const std::vector<double>& heights, const std::vector<double>& low
            has(high, [&](std::size_t j) { return 1 - heights[heights.size() - 1 - j]; });
 }
 
-/// The layers between those of the ends, over the whole of what these leave: from 0 to 1.
+/// Layers between the boundary layers of both ends, as heights from 0 to 1 over the remaining length.
 std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions& options, int taken)
 {
     LayerSpec spec = options.layers;
     if (!spec.heights.empty()) {
         throw InvalidInput(
             Message("sweep.layers",
-                    "sweep: option 'layers' gives heights, and boundary layers of an end give others")
-                .remedy("leave out one of them"));
+                    "sweep: option 'layers' gives heights, and so do the boundary layers of an end")
+                .remedy("leave one of them out"));
     }
     if (spec.count == 0) {
-        throw NotSweepable(
-            Message("sweep.layers",
-                    "quads that walls came with give the heights of layers, and boundary layers "
-                    "of an end give others")
-                .remedy("leave the end out of 'boundary_layers'{}",
-                        options.beside.own_mesh ? ", or load with keep_mesh = false" : ""));
+        throw NotSweepable(Message("sweep.layers", "given quads of walls determine the heights of layers, "
+                                                   "and so do the boundary layers of an end")
+                               .remedy("leave the end out of 'boundary_layers'{}",
+                                       options.beside.own_mesh ? ", or load with keep_mesh = false" : ""));
     }
     if (spec.count <= taken) {
         throw InvalidInput(
             Message("sweep.layers",
-                    "sweep: option 'layers' asks for {}, and boundary layers of the ends take {} of them",
+                    "sweep: option 'layers' asks for {}, but the boundary layers of the ends already take {}",
                     found(spec.count), taken)
                 .remedy("ask for {} or more, or leave it out", needed(taken + 1)));
     }
@@ -214,12 +212,11 @@ PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface:
     }
     const double below = low.empty() ? 0 : low.back(), above = high.empty() ? 0 : high.back();
     if (!(below + above < columns.length)) {
-        throw NotSweepable(
-            Message(
-                "sweep.layers_room",
-                "the boundary layers of the ends are {:.2g} high in all, and source and target {:.2g} apart",
-                needed(below + above), found(columns.length))
-                .remedy("ask for fewer or thinner ones"));
+        throw NotSweepable(Message("sweep.layers_room",
+                                   "the boundary layers of the ends are {:.2g} high in total, but source and "
+                                   "target are only {:.2g} apart",
+                                   needed(below + above), found(columns.length))
+                               .remedy("use fewer or thinner ones"));
     }
     const double from = below / columns.length, to = 1 - above / columns.length;
     const int taken = static_cast<int>(low.size() + high.size());

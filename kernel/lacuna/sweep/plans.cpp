@@ -80,8 +80,9 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
     return plans;
 }
 
-/// The factor on the sides for a full turn with which order 2 is repeated: a quad with two sides on a round
-/// rim opens by nearly 180° between them, and half as long sides are laid out anew. Not measured.
+/// Factor on the sides per full turn when the plans are repeated at order 2: a quad with two sides on a round
+/// rim opens by nearly 180° between them, and sides of half the length give another layout there. Not
+/// measured.
 constexpr int kMoreSides = 2;
 
 } // namespace

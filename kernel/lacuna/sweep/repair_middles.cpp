@@ -15,11 +15,10 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Rounds over the invalid cells; each may spoil neighbours that the next repairs. More cost time. Not
+/// Limit of rounds over the invalid cells; each round may spoil neighbours that the next one repairs. Not
 /// measured.
 constexpr int kRounds = 4;
-/// Halvings of the search step, which starts at a tenth of the side. More steps cost time for smaller moves.
-/// Not measured.
+/// Number of step lengths, each half the previous one: from a tenth of the side to 1/80 of it. Not measured.
 constexpr int kSteps = 4;
 constexpr double kFirstStep = 0.1;
 
@@ -192,7 +191,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         "The middle node of a side on {} belongs at {}, {:.2g} off a side of {:.2g}",
         count, cells, own, layer, mesh.layers, face, place_in_short(mesh.node(index(nodes.node[*worst]))),
         found(most), side);
-    // The size that the bend requires was found to help if the straight cell is good.
+    // If the straight cell is good, the bend is the cause, and the size that the bend requires will help.
     if (straight < kPoorCell)
         throw NotSweepable(std::move(refusal).remedy(
             "the cell is poor with straight sides already: its scaled Jacobian is {:.2g}", found(straight)));

@@ -143,7 +143,8 @@ RimFitter::RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, 
     if (points_.rank() < 3) return;
     double rim_reach = 0;
     for (const Vec3& p : rim) rim_reach = std::max(rim_reach, points_.reach(p));
-    // No node may be farther out than twice the rim's farthest point: there the map extrapolates.
+    // The map by the rim alone is used only if no node is farther out than twice the rim's farthest point:
+    // beyond, it extrapolates too far.
     spans_inside_ = std::ranges::all_of(nodes,
                                         [&](const Vec3& p) { return points_.reach(p) <= 2 * rim_reach; });
 }

@@ -13,8 +13,9 @@ using namespace topology;
 
 namespace {
 
-/// Assumed relative error of an arc's height: a parabola differs by a tenth from a circle of seven chords,
-/// and more from unevenly bent curves. A higher value accepts rims farther apart. Not measured.
+/// Assumed relative error of an arc's height, which decides how far apart two rims of one curve may be: a
+/// parabola differs by a tenth from a circle of seven chords, and more from unevenly bent curves. Not
+/// measured.
 constexpr double kArcError = 0.25;
 
 /// Curvature vector at the point between two chords, pointing inward; empty at a corner.

@@ -57,9 +57,9 @@ RowSide rows_over(const SweptParts& parts, const surface::LayerTables& tables, c
         if (side < 0 || mesh::is_triangle(quad)) {
             throw NotSweepable(
                 Message("sweep.layers_rows",
-                        "the quads of the source make {} rows along {}, and its boundary layers have {}",
+                        "the quads of the source form {} rows along {}, but its boundary layers have {}",
                         found(r), entity_of(parts.volume.model, parts.wall_at(b, 0, i)), needed(rows))
-                    .remedy("quads = \"paved\" meshes it anew"));
+                    .remedy("use quads = \"paved\" to remesh it"));
         }
         const std::size_t k = index(side) % 4;
         const bool along = quad[k] == from;

@@ -11,20 +11,20 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Cells of 20 nodes also use numbers for the other seven: the skin is compared with all of them, see
-/// `finer_skin()`.
+/// Check that there are enough node numbers. Cells of 20 nodes use up numbers for 27, because `finer_skin()`
+/// compares the skin with all of them.
 void check_amount(const mesh::HexMesh& mesh)
 {
     const std::size_t row = index(mesh.nodes_per_layer) + mesh.middles.sides.size() + mesh.quads.size();
     const std::size_t all = (2 * index(mesh.layers) + 1) * row;
     if (all <= static_cast<std::size_t>(std::numeric_limits<Index>::max())) return;
     throw InvalidInput(Message("sweep.too_many",
-                               "a mesh of order 2 would take {} numbers of nodes, more than there are",
+                               "a mesh of order 2 would need {} node numbers, more than there are",
                                found(all))
-                           .remedy("ask for a larger 'size' or fewer 'layers'"));
+                           .remedy("use a larger 'size' or fewer 'layers'"));
 }
 
-/// The quality of a mesh whose nodes are generated on demand, and these nodes; empty if cells are not valid.
+/// Generate nodes on demand: the quality of such a mesh, and its nodes; empty if some cell is not valid.
 Elevated leave_to_be_made(const PlacedLayers& layers, const mesh::HexMesh& mesh, const PlacedSkin& skin,
                           const Crew* crew, const RunContext& context)
 {
@@ -92,8 +92,9 @@ Vec3 middle_of_skin_quad(const mesh::SkinNodes& skin, std::size_t i)
     return middle;
 }
 
-/// Finds a node of the finer skin. On a level, corners, side midpoints and quad centres follow each other;
-/// between two levels, upright sides, faces and cells.
+/// Finds the position of a node of the finer skin. On a level, its nodes are numbered corners first, then
+/// side midpoints, then quad centres; between two levels come midpoints of upright sides, then centres of
+/// faces, then of cells.
 class FinerNodes {
 public:
     explicit FinerNodes(const mesh::SkinNodes& skin)

@@ -19,7 +19,7 @@ using GivenCentres = std::function<std::vector<Vec3>(std::span<const std::array<
 struct SecondOrderOptions {
     bool serendipity = false;     ///< hex20 instead of hex27
     GivenMiddles given;           ///< null: none
-    GivenCentres given_centres{}; ///< of hex27; null: none
+    GivenCentres given_centres{}; ///< given centres for hex27; null: none
     bool given_all_over = false;  ///< both are used on the whole skin, not only on faces with a given mesh
 };
 

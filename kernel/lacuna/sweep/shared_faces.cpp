@@ -34,8 +34,8 @@ constexpr double kRimSag = 1.5;
 /// Faces that touch along a rim and curve away from each other are within the facet error for a smaller
 /// share.
 constexpr double kAlongRim = 0.5;
-/// Points within this share of a volume's diagonal from its skin lie on it, because facets of curved faces
-/// differ.
+/// Points count as lying on a volume's skin within this share of its diagonal, because the facets of its
+/// curved faces and of the neighbour's may differ.
 constexpr double kInside = 5e-3;
 /// A face prepared for comparison.
 struct Side {
@@ -64,7 +64,7 @@ std::vector<std::vector<Vec3>> chains_of(const Side& side)
 struct RimOff {
     double distance = 0;
     Vec3 place = Vec3::Zero();
-    double sag = 0; ///< of the other rim
+    double sag = 0; ///< sag of the other rim
 };
 
 RimOff rim_off(const Side& one, const Side& other)
@@ -160,7 +160,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                      whole_other = face_area(other.model(), other.face);
         const double there = overlap->a.on / whole, back = overlap->b.on / whole_other;
         if (there <= kNothing && back <= kNothing) return {};
-        // Faces on both sides of a curve for which they have different chords.
+        // The faces lie on both sides of one curve, which they approximate by different chords.
         if (std::max(there, back) < kMostly) {
             const double under = area_under_arcs(rim_chords(one.model(), one.face),
                                                  rim_chords(other.model(), other.face), tolerance);
@@ -172,12 +172,11 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
         if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
         percent_a = 100 * std::min(there, 1.0);
         percent_b = 100 * std::min(back, 1.0);
-        common.refusal = Message(
-                             "assembly.part_of_face",
-                             "{:.3g} % of {} of {} lies on {} of {}, and {:.3g} % of that on it: a face must "
-                             "be shared as a whole",
-                             found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
-                             .remedy("split it along the other's rim");
+        common.refusal = Message("assembly.part_of_face",
+                                 "{:.3g} % of {} of {} lies on {} of {}, and {:.3g} % of that face on the "
+                                 "first: faces can only be shared as a whole",
+                                 found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
+                             .remedy("split one along the other's rim");
     }
     if (overlap != nullptr && overlap->a.same_way > 0.5 * overlap->a.on) {
         const bool part = common.refusal &&
@@ -185,14 +184,14 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                                    overlap->b.on / face_area(other.model(), other.face)) < kMostly;
         constexpr const char* kCode = "assembly.overlap";
         common.refusal =
-            part ? Message(kCode,
-                           "{:.3g} % of {} of {} lies on {} of {}, and {:.3g} % of that on it, and both "
-                           "volumes lie on the same side of it: volumes of an assembly may touch, not "
-                           "overlap",
-                           found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
+            part ? Message(
+                       kCode,
+                       "{:.3g} % of {} of {} lies on {} of {}, and {:.3g} % of that face on the first, with "
+                       "both volumes on the same side: volumes of an assembly may touch, but not overlap",
+                       found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
                  : Message(kCode,
-                           "{} of {} and {} of {} are one face, and both volumes lie on the same side "
-                           "of it: volumes of an assembly may touch, not overlap",
+                           "{} of {} and {} of {} are one face, with both volumes on the same side: volumes "
+                           "of an assembly may touch, but not overlap",
                            entity_a, a.region, entity_b, b.region);
         return common;
     }
@@ -211,14 +210,13 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
     miss.least = miss.width = common.apart;
     miss.area = area;
     miss.tolerance = tolerance;
-    miss.message =
-        Message("assembly.near_miss",
-                "{} of {} and {} of {} are taken for one face, and their rims are {:.2g} apart, more than "
-                "the tolerance, {:.2g}. Their chords may be off the curve by {:.2g}, so coarse facets "
-                "hide a gap or an overlap of that width",
-                entity_in(a, faces.face_a), a.region, entity_in(b, faces.face_b), b.region,
-                found(common.apart), tolerance, common.sag)
-            .remedy("finer ones tell");
+    miss.message = Message("assembly.near_miss",
+                           "{} of {} and {} of {} are treated as one face: their rims are {:.2g} apart, "
+                           "above the tolerance of {:.2g}, but their chords deviate from the curve by up to "
+                           "{:.2g}, which may hide a gap or an overlap",
+                           entity_in(a, faces.face_a), a.region, entity_in(b, faces.face_b), b.region,
+                           found(common.apart), tolerance, common.sag)
+                       .remedy("use finer facets");
     return miss;
 }
 
@@ -256,7 +254,7 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
         if (tree.closest(p, by * by).triangle >= 0) continue;
         if (std::abs(tree.winding_number(p)) < 0.5) continue;
         throw InvalidInput("assembly.overlap",
-                           "{} reaches into {} at {}: volumes of an assembly may touch, not overlap",
+                           "{} reaches into {} at {}: volumes of an assembly may touch, but not overlap",
                            a.region, b.region, place_in_short(p));
     }
 }

@@ -13,7 +13,7 @@ namespace {
 /// Nodes of some quads, sorted along an oblique line.
 struct NodesOf {
     QuadsAlone alone;
-    std::vector<Vec3> places;                   ///< of each node
+    std::vector<Vec3> places;                   ///< for each node
     std::vector<std::pair<double, Index>> line; ///< position along the line and index of the node, sorted
 
     NodesOf(const mesh::SkinNodes& skin, std::span<const Quad> quads)

@@ -23,9 +23,8 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of source quads that narrow places may cause by default. A ring of three quads across a
-/// width of a 200th of its radius has some 8,000. A lower value leaves more narrow places coarse; a higher
-/// one allows surprisingly large meshes. Not measured.
+/// Maximum number of source quads that narrow places may cause by default; narrower places stay coarse. A
+/// ring of three quads across a width of a 200th of its radius has some 8,000. Not measured.
 constexpr double kMostForWidth = 20000;
 
 /// Maximum number of cells if only the size or only the number of layers is given: more would fill a large
@@ -96,9 +95,9 @@ ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, c
         throw InvalidInput(
             Message(
                 "sweep.too_many",
-                "about {:.2g} quads on the source and {:.0f} layers are more hexahedra than can be numbered",
+                "about {:.2g} quads on the source and {:.0f} layers give more hexahedra than can be numbered",
                 found(quads), found(asked))
-                .remedy("ask for a larger 'size' or fewer 'layers'"));
+                .remedy("use a larger 'size' or fewer 'layers'"));
     if (layers > 0 && options.size) return {quads * layers, 0};
     if (layers == 0) { // the mean width of walls is that of both rims
         double width = 0;
@@ -126,11 +125,10 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)
     if (options.quads == Quads::mapped) {
         return [](const quads::PlanarRegion& region, const RunContext& context) {
             if (auto grid = quads::submap(region, context)) return std::move(*grid);
-            Message refusal(
-                "surface.not_submapped",
-                "a source face of right angles is to be mapped, and the grid its {} boundary nodes "
-                "enclose folds or overlaps",
-                found(region.points.size()));
+            Message refusal("surface.not_submapped",
+                            "a source face of right angles cannot be mapped: the grid within its {} boundary "
+                            "nodes folds or overlaps",
+                            found(region.points.size()));
             try {
                 quads::pave(region, {}, context);
             } catch (const NotSweepable&) {

@@ -19,7 +19,7 @@ namespace {
 constexpr int kRelaxations = 20;
 /// Bound on the rounds of trials; the last round is the first one without gain.
 constexpr int kPolishes = 20;
-/// Directions tried around a node for each step length. More directions cost time per node. Not measured.
+/// Number of directions tried around a node for each step length. Not measured.
 constexpr int kDirections = 8;
 constexpr int kLengths = 3;
 

@@ -56,9 +56,10 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
                   quality.min_scaled_jacobian, quality.mean_scaled_jacobian));
     swept.quality = quality;
     if (quality.min_scaled_jacobian < options.min_scaled_jacobian) {
-        throw NotSweepable("quality.below_limit",
-                           "at order 2 the smallest scaled Jacobian is {}, below the limit of {}",
-                           found(quality.min_scaled_jacobian), needed(options.min_scaled_jacobian));
+        throw NotSweepable(Message("quality.below_limit",
+                                   "at order 2 the smallest scaled Jacobian is {}, below the limit of {}",
+                                   found(quality.min_scaled_jacobian), needed(options.min_scaled_jacobian))
+                               .remedy("use a smaller size, or order = 1"));
     }
     const FinerSkin fine = finer_skin(swept.skin());
     swept.fidelity = compare(shape, fine.mesh, result.faces, kept, quality.volume,
@@ -70,8 +71,8 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
     }
 }
 
-/// The only maker of cells: mesh a volume by a plan, prove the mesh, and compare it with the sealed shape.
-/// @throw NotSweepable  what the plan cannot do, the finding of the proof, or how the shape differs.
+/// Mesh a volume by a plan, prove the mesh, and compare it with the sealed shape. All cells are made here.
+/// @throw NotSweepable  the plan cannot be meshed, the proof fails, or the shape differs.
 Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOptions& asked, KnownLinks& links,
                      const RunContext& context)
 {
@@ -109,13 +110,13 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     return std::move(swept);
 }
 
-/// The most meshes that are tried for a volume.
+/// Maximum number of meshes tried for a volume.
 constexpr std::size_t kMostTried = 6;
-/// The refusal of an end that came with triangles: no plan may mesh it anew unasked.
+/// Error code of an end with given triangles: no plan may remesh it without a request.
 constexpr std::string_view kOwnTriangles = "surface.given_triangles";
 
-/// The one search: meshes plans, best first, as long as the mesh is poor, and keeps the best that is valid and
-/// true to the shape.
+/// The only search: meshes the plans, best first, as long as the mesh is poor, and returns the best mesh that is
+/// valid and has the right shape.
 class Search {
 public:
     Search(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
@@ -124,8 +125,9 @@ public:
     {
     }
 
-    /// The mesh of the best plan; its report states the plan, and how those before it fared.
-    /// @throw NotSweepable  the first refusal, with the others as its attempts.
+    /// The mesh of the best plan. Its report names the plan and the results of the plans before it.
+    /// @throw NotSweepable  no plan works: the error of the first plan, with the errors of the others
+    ///     attached.
     Swept run(const std::vector<Plan>& plans)
     {
         for (std::size_t i = 0; i < std::min(plans.size(), kMostTried); ++i) {
@@ -143,7 +145,7 @@ public:
     }
 
 private:
-    /// Whether turning the loops as one body turns each of them as its own walls do.
+    /// Whether rotating all loops together gives each loop the rotation that its own walls give.
     [[nodiscard]] bool is_like_each(const Plan& plan)
     {
         if (plan.turning == surface::Turning::each) return false;
@@ -162,7 +164,7 @@ private:
             best_ = std::move(swept);
             plan_ = &plan;
         } catch (const NotSweepable& error) {
-            if (error.code() == kOwnTriangles) throw; // all plans are to keep them
+            if (error.code() == kOwnTriangles) throw; // every plan would have to keep these triangles
             const Message why = error.message().about(words);
             tried_.push_back(why.text());
             refusal_ = refusal_ ? refusal_->attempt(why) : error.message();
@@ -175,12 +177,12 @@ private:
     KnownLinks& links_;
     const RunContext& context_;
     std::optional<Swept> best_;
-    const Plan* plan_ = nullptr; ///< of the best
+    const Plan* plan_ = nullptr; ///< the best plan so far
     std::optional<Message> refusal_;
     std::vector<std::string> tried_; ///< a line for each plan
 };
 
-/// The options, including requested intervals on layers.
+/// The options with the requested intervals on layers merged in.
 SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options, KnownLinks& known,
                                   const RunContext& context)
 {
@@ -193,7 +195,7 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
         throw NotSweepable(Message("surface.sides_asked",
                                    "intervals: {} asks for {} layers, and option 'layers' for {}",
                                    layers->name, found(layers->count), found(count))
-                               .remedy("leave out one of them"));
+                               .remedy("leave one of them out"));
     }
     spec.count = layers->count;
     // Edges run from the end at which the sweep starts; layers run from the source named by the user.
@@ -202,7 +204,7 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
     return options;
 }
 
-/// Plan the numbers of a mesh, and search.
+/// Plan the numbers of sides and layers, then search for the best plan.
 Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks& links,
                  const RunContext& context)
 {
@@ -218,12 +220,12 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
                                                  : even_size(surface::default_size(volume).length);
     links.plan = plan_volume(volume, links.of(volume, context), options, size, context);
     options.curvature = links.plan.per_turn;
-    // The volumes of an assembly are counted together.
+    // For an assembly, the caller checks the number of cells of all volumes together.
     if (!asked.beside.settle) check_cells(source_size(volume, options, links, context).expected, context);
     return Search(volume, options, links, context).run(plans(volume, options, links, context));
 }
 
-/// Hexahedra alone or, where they are refused and the fallback asks for it, with wedges.
+/// Mesh with hexahedra only; if that fails and the fallback allows it, with wedges.
 Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     KnownLinks links(volume);
@@ -245,8 +247,8 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
     }
 }
 
-/// Target for the sizes in the note about the volume, to reach 1 %: bends and barrels lost up to 1.6 times
-/// the estimate.
+/// Volume error at which the suggested sizes aim, below the limit of 1 %: on bends and barrels the actual
+/// error was up to 1.6 times the estimate.
 constexpr double kWanted = 0.006;
 
 /// The volume difference, and numbers that would avoid it: the error of straight sides grows with the square

@@ -80,7 +80,7 @@ struct Beside {
     std::set<FaceId> between{};
     /// Faces whose quads a neighbour made: they are kept in any style.
     std::set<FaceId> handed{};
-    /// Whether the volume came with a mesh of its own, as far as is known: it could be loaded without.
+    /// Whether the volume has given meshes of its own, as far as known: it could then be loaded without them.
     bool own_mesh = true;
 };
 
@@ -112,18 +112,18 @@ struct SweepOptions {
     bool wedges = false;
     Fallback fallback = Fallback::none;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
-    surface::SizeField row_height; ///< of those rows; null: the size
+    surface::SizeField row_height; ///< height of these rows; null: the size
     /// Thin rows of cells along walls and ends; each face is in at most one.
     std::vector<surface::BoundaryLayer> boundary_layers;
     std::vector<surface::Interval> intervals; ///< numbers of sides
     quads::PlanarQuadMesher quad_mesher;      ///< the mesher of `Quads::gmsh`
     Interior interior = Interior::automatic;
-    int order = 1;                   ///< of the cells: 1, or 2
-    SecondOrderOptions second_order; ///< of order 2
+    int order = 1;                   ///< order of the cells: 1 or 2
+    SecondOrderOptions second_order; ///< options of order 2
     double min_scaled_jacobian = 0;  ///< lower bound for accepted meshes [0, 1]
     bool improve = true;             ///< move nodes of folded or poor cells
-    ImproveOptions improving;        ///< how far
-    Beside beside;                   ///< of volumes in an assembly, which sets it
+    ImproveOptions improving;        ///< limits of that improvement
+    Beside beside;                   ///< constraints in an assembly, which sets them
     /// Whether nodes of layers may be generated when they are written: `Swept::layers`.
     bool layered = false;
     const Crew* crew = nullptr; ///< processes that help with generated layers; null: none
@@ -145,14 +145,14 @@ struct Swept {
     std::optional<mesh::LayeredNodes> layers;
     std::shared_ptr<const LayerPlan> plan; ///< the plan by which `layers` are placed
     double min_scaled_jacobian = 1;
-    quality::Quality quality;        ///< of the cells, from the proof
+    quality::Quality quality;        ///< quality of the cells, from the proof
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
     std::vector<std::string> report; ///< a line for each stage: seeds, quads, walls, target, layers, shape
     /// The lines of the report on default sizes and layer counts, and on poor cells that result from them.
     /// They are logged as well, once, for an assembly by the caller that sweeps the whole.
     std::vector<std::string> defaults;
-    std::vector<std::string> notes;    ///< on a changed volume, logged likewise but after "note: "
+    std::vector<std::string> notes;    ///< lines on a changed volume; logged likewise, after "note: "
     std::vector<std::string> not_kept; ///< the lines of the report on given meshes that are not kept
 
     [[nodiscard]] mesh::SkinNodes skin() const { return {mesh, layers ? &*layers : nullptr}; }

@@ -41,7 +41,8 @@ constexpr double kLonger = 1.35;
 /// Upper bound of the mean elongation of quads on an end, √(area / projected area): steeper ends, such as
 /// most of a ball, are not paved in one plane.
 constexpr double kSteepest = 2;
-/// An end may close its grid with fewer rim sides than the size asks for, by this factor: 16 instead of 24.
+/// Factor by which an end may have fewer rim sides than the size asks for, so that its grid closes: 16
+/// instead of 24.
 constexpr double kFewer = 1.5;
 /// Factor between the sizes that are tried.
 constexpr double kSmaller = 0.9;
@@ -181,7 +182,7 @@ public:
         }
     }
 
-    /// Relative volume error of a mesh against the walls; negative: the mesh encloses less.
+    /// Relative volume error of a mesh compared with the walls; negative: the mesh encloses less.
     /// @param layers  0: as many as there are rows.
     [[nodiscard]] double off(const Sides& sides, int layers) const
     {
@@ -215,7 +216,7 @@ private:
         std::vector<Segment> segments;
         surface::LinkingNodes nodes;
         std::vector<std::vector<Vec3>> rows;
-        double sign = 1;   ///< of its enclosed volume
+        double sign = 1;   ///< sign of its enclosed volume
         double within = 0; ///< six times the volume within its walls
     };
 
@@ -349,7 +350,7 @@ private:
         walls_ = nullptr;
     }
 
-    /// The share that remains after that of curvature along the sweep.
+    /// The allowed error that remains after subtracting that of curvature along the sweep.
     [[nodiscard]] double left() const { return kAllLost - (rims_->straight() ? 0 : kLostByLayers); }
 
     /// Whether the sides suffice on the rims and, if the walls bend between the rims, on the walls.
@@ -395,7 +396,7 @@ private:
     const surface::SizeField& size_;
     const RunContext& context_;
     surface::RimFacets facets_{volume_, links_};
-    std::vector<std::vector<std::pair<double, double>>> pairs_; ///< of the breaks followed
+    std::vector<std::vector<std::pair<double, double>>> pairs_; ///< breaks that the model follows
     std::vector<char> on_crease_;
     double on_ends_ = 0, ends_ = 0;       ///< lost on ends: without breaks, with current breaks
     std::shared_ptr<Walls> rims_, walls_; ///< straight between the rims, and as given

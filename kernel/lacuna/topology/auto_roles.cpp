@@ -24,13 +24,14 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Costs of a bent end, and of fewer ends than the faces allow. Rules of thumb: a pair of flat ends beats one
-/// end, one end beats none; a bent end loses to any flat one.
+/// Costs of a bent end, and of fewer ends than the faces allow. Rule of thumb: two flat ends are likelier
+/// than one end, one end is likelier than none, and any flat end is likelier than a bent one.
 constexpr double kBent = 1.0;
 constexpr double kOneEnd = 0.05;
 constexpr double kNoEnd = 0.1;
 /// Cost of a connected set of sharp wall edges that does not run from end to end, and of a window in the
-/// walls. Rule of thumb: a stepped bore is an end at two heights rather than a wall that runs in and out.
+/// walls. Rule of thumb: the shoulder of a stepped bore is more likely a part of an end at two heights than a
+/// wall.
 constexpr double kLoose = 0.3;
 /// Cost of walls whose normals point along the sweep, by the mean squared cosine: 0 for the walls of a
 /// straight sweep, a quarter or less for a bend by 90°. Tuned on 277 voids of prisms, tubes, bends and
@@ -47,11 +48,11 @@ constexpr double kBothSteps = 0.05;
 /// Number of faces listed for each role in a message.
 constexpr std::size_t kMostFaces = 12;
 
-/// Number of candidates kept at once, the likeliest; if all of them fail, the next ones are listed anew. Some
-/// 10 MB.
+/// Number of candidates kept at once, the likeliest, about 10 MB. If all of them fail, the next ones are
+/// enumerated.
 constexpr std::size_t kMostKept = std::size_t{1} << 18;
 
-constexpr std::size_t kGap = kNoIndex - 1; ///< in place of the target's rim: the walls lead to a free loop
+constexpr std::size_t kGap = kNoIndex - 1; ///< stands for the target's rim: the walls lead to a free loop
 
 /// The patches that are ends; `kNoIndex` for a missing end.
 struct Reading {
@@ -59,7 +60,7 @@ struct Reading {
     double cost = 0;
     std::size_t step = kNoIndex; ///< index of the candidate if its ends are several patches
 
-    /// Likelier first; of equal ones those without ends, then steps, then by their ends.
+    /// Order of likelihood; ties: first candidates without ends, then with steps, then by their ends.
     friend bool operator<(const Reading& x, const Reading& y)
     {
         if (x.cost != y.cost) return x.cost < y.cost;
@@ -646,13 +647,13 @@ private:
     const Model& model_;
     bool flat_alone_;
     const RunContext& context_;
-    std::vector<double> angle_; ///< of each edge between its faces [degrees]
+    std::vector<double> angle_; ///< for each edge between its faces [degrees]
     std::vector<EdgeId> sharp_; ///< edges between two patches
     PatchMap map_;
     std::vector<SteppedEnds> stepped_; ///< by stepped candidate
     std::vector<EdgeUse> free_;        ///< uses whose edge has no other use
     std::vector<std::size_t> part_of_; ///< by patch in the current candidate; `kNoIndex`: an end
-    std::size_t windows_ = 0;          ///< of the candidate last checked
+    std::size_t windows_ = 0;          ///< number of windows in the candidate last checked
     Marks vertex_seen_, edge_seen_, use_seen_;
     std::vector<Reading> with_steps_;
     bool used_twice_ = false;        ///< faces use an edge twice in one direction

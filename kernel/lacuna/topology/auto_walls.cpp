@@ -183,7 +183,7 @@ private:
     const RunContext& context_;
     std::vector<FaceId> ends_;
     std::vector<std::vector<FaceId>> sheets_;
-    std::vector<std::vector<EdgeId>> edges_; ///< of each sheet, one for each use
+    std::vector<std::vector<EdgeId>> edges_; ///< for each sheet, one for each use
     std::vector<int> count_;                 ///< uses of each edge by the ends and the chosen sheets
     std::vector<bool> chosen_;
     std::vector<Choice> found_;
@@ -250,7 +250,7 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
     Model oriented = model;
     orient_consistently(oriented);
     const Vec3 way = face_area_vector(oriented, end.front()).stableNormalized();
-    const auto faces_as_end = [&](FaceId face) { // and is flat
+    const auto faces_as_end = [&](FaceId face) { // a flat face with the end's normal
         return face_area_vector(oriented, face).dot(way) > (1 - kFlatShare) * face_area(oriented, face);
     };
     if (!std::ranges::all_of(end, faces_as_end)) return result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Searching the closest edge of another part takes one pair of trees per binary digit of the part numbers:
+// The closest edge of another part is found with one pair of trees per binary digit of the part numbers: any
 // two different parts differ in at least one digit.
 #include <lacuna/topology/shared/gaps.h>
 

@@ -26,7 +26,7 @@ constexpr double kOffRim = 0.25;
 
 /// A node on a loop of the face.
 struct RimNode {
-    Index point = -1; ///< of the model
+    Index point = -1; ///< index of a point of the model
     double at = 0;    ///< running length on the loop
 };
 
@@ -409,8 +409,8 @@ private:
         // Two edge ends of the loop itself, or of a closed edge.
         if (off > model_.tolerance && ends_[vertex.index()] > 2) {
             throw InvalidInput("topology.mesh_misses_vertex",
-                               "the mesh for {} has no node at {}, where edges of other faces end; the "
-                               "nearest is {:.3g} away",
+                               "the mesh for {} has no node at {}, where edges of other faces end; its "
+                               "nearest node is {:.3g} away",
                                entity_of(model_, face_), entity_of(model_, vertex), found(off));
         }
         return best;
@@ -473,10 +473,11 @@ private:
         const std::vector<Index>& old = model_[edge].points;
         for (const FaceUse& user : remesher_.users(edge)) {
             if (user.face == face_ || !model_[user.face].keeps_nodes || old.size() == nodes.size()) continue;
-            throw InvalidInput("topology.meshes_differ",
-                               "the mesh for {} has {} nodes on {}, and the mesh of {} has {}",
-                               entity_of(model_, face_), found(nodes.size()), entity_of(model_, edge),
-                               entity_of(model_, user.face), needed(old.size()));
+            throw InvalidInput(Message("topology.meshes_differ",
+                                       "the mesh for {} has {} nodes on {}, but the mesh of {} has {}",
+                                       entity_of(model_, face_), found(nodes.size()), entity_of(model_, edge),
+                                       entity_of(model_, user.face), needed(old.size()))
+                                   .remedy("mesh both alike"));
         }
     }
 
@@ -530,7 +531,7 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
         const std::size_t least = closed ? 4 : 2;
         if (given.nodes.size() < least)
             throw InvalidInput("topology.nodes_off_edge",
-                               "the nodes for {} are too few: {}, and {} are needed", edge,
+                               "there are too few nodes for {}: {}, but {} are needed", edge,
                                found(given.nodes.size()), needed(least));
         std::vector<RimNode> nodes;
         double last = 0;
@@ -540,7 +541,7 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges)
             if (i > 0 && !end) place = nearest_on(model, old, at, given.nodes[i], last);
             if (i > 0 && place.at <= last)
                 throw InvalidInput("topology.nodes_off_edge",
-                                   "the nodes for {} are not in the order of the edge", edge);
+                                   "the nodes for {} are not in order along the edge", edge);
             last = place.at;
             // The ends are the vertices, which move to their nodes.
             const Index point = i == 0 ? old.front()

@@ -224,7 +224,7 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
         own.insert(face.tag);
         facets.insert(facets.end(), face.triangles.begin(), face.triangles.end());
     }
-    std::optional<geometry::FacetTree> tree; // made for the first other shell: most models have none
+    std::optional<geometry::FacetTree> tree; // built for the first other shell only: most models have none
     std::vector<FaceId> found;
     for (const std::vector<FaceId>& shell : closed_shells(model)) {
         check_cancelled(context);

@@ -403,10 +403,11 @@ void orient_consistently(Model& model)
         if (uses.size() <= 2) continue;
         std::vector<NamedEntity> faces;
         for (const FaceUse& use : uses) faces.push_back(entity_of(model, use.face));
-        throw InvalidInput(Message("topology.not_manifold",
-                                   "{} is shared by {} faces ({}); the skin of a volume has {} at each edge",
-                                   entity_of(model, EdgeId(e)), found(uses.size()), faces, needed(2))
-                               .remedy("leave out the others"));
+        throw InvalidInput(
+            Message("topology.not_manifold",
+                    "{} is shared by {} faces ({}), but the skin of a volume has {} at each edge",
+                    entity_of(model, EdgeId(e)), found(uses.size()), faces, needed(2))
+                .remedy("leave out the others"));
     }
 
     std::vector<bool> settled(model.faces.size(), false), flipped(model.faces.size(), false);

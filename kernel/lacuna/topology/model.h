@@ -91,7 +91,7 @@ struct ModelParts {
     std::vector<Vertex> vertices;
     std::vector<Edge> edges;
     std::vector<Face> faces;
-    double diagonal = 0;        ///< of the bounding box [model length]
+    double diagonal = 0;        ///< diagonal of the bounding box [model length]
     double tolerance = 0;       ///< points closer than this coincide [model length]
     std::string source;         ///< the file(s) it was read from, for messages
     std::vector<Message> notes; ///< what loading dropped or left unconnected, one sentence each
@@ -99,8 +99,8 @@ struct ModelParts {
 private:
     friend class Model;
     friend class ModelBuilder;
-    std::vector<FaceUse> uses_;          ///< of all edges, in their order
-    std::vector<std::size_t> first_use_; ///< of each edge, and the end; empty before `finish()`
+    std::vector<FaceUse> uses_;          ///< uses of all edges, in the order of the edges
+    std::vector<std::size_t> first_use_; ///< for each edge, and the end; empty before `finish()`
 };
 
 /// Parts that no longer change, and the faces at each edge. Made by `ModelBuilder::finish()`. A variable can
@@ -176,7 +176,7 @@ public:
     [[nodiscard]] Model finish() &&;
 
 private:
-    Model made_{{std::shared_ptr<const ModelParts>(), this}}; ///< of the parts here
+    Model made_{{std::shared_ptr<const ModelParts>(), this}}; ///< a view of the parts made so far
 };
 
 // --- derived facts --------------------------------------------------------------------------------

@@ -66,8 +66,9 @@ void check_walls_touch(const OpenVolume& volume)
         const NamedEntity wall = entity_of(model, part.front());
         const std::optional<Gap> gap = gap_beside(model, part);
         if (!gap)
-            throw InvalidInput("topology.wall_apart",
-                               "{} is named as a wall but touches neither source nor target", wall);
+            throw InvalidInput(Message("topology.wall_apart",
+                                       "{} is named as a wall but touches neither source nor target", wall)
+                                   .remedy("check its tag, or name the walls between"));
         throw InvalidInput(
             Message("topology.wall_apart",
                     "{} is named as a wall but touches neither source nor target: its {} runs next to {}, at "
@@ -108,7 +109,7 @@ void check_no_shared_edge(const OpenVolume& volume)
             const std::vector<FaceId> from = walls_at(volume, model[use.edge].from, use.edge),
                                       to = walls_at(volume, model[use.edge].to, use.edge);
             Message message("topology.ends_share_edge",
-                            "source {} and target {} share {}, where layers have no height",
+                            "source {} and target {} share {}, where layers would have no height",
                             entity_of(model, owner[use.edge.index()]), entity_of(model, face),
                             entity_of(model, use.edge));
             if (from.empty() || to.empty() || from == to)

@@ -29,7 +29,7 @@ struct Roles {
 /// oriented, outward if that is defined; closing adds its entities to it.
 struct OpenVolume {
     Model model;
-    std::vector<Role> role; ///< of each face of `model`
+    std::vector<Role> role; ///< for each face of `model`
     std::optional<VolumeClass> override_class;
     bool turned_round = false; ///< only a target was given, so source and target were swapped
     bool full_turn = false;    ///< a closed ring of walls only, swept round the whole turn onto its own start

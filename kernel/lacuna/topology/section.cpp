@@ -23,8 +23,8 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Alternating projections of a point onto plane and surface: each at least halves the error if they meet at
-/// more than 45°.
+/// Number of alternating projections of a point onto plane and surface; each at least halves the error if
+/// they meet at more than 45°.
 constexpr int kLaid = 12;
 /// Bisection steps along a curve's parameter: the digits of a double.
 constexpr int kHalvings = 52;

@@ -15,7 +15,7 @@ namespace {
 constexpr int kSamples = 3;         // samples per pixel, in each direction
 constexpr double kMargin = 0.05;    // free margin, relative to the picture
 constexpr double kLeastShare = 0.5; // least part of the height left for the object
-constexpr double kSideWidth = 1.1;  // of lines between cells [pixels]
+constexpr double kSideWidth = 1.1;  // width of lines between cells [pixels]
 constexpr double kSideDark = 0.75;  // darkness of the lines
 constexpr double kNearer = 0.0008;  // lines are moved to the viewer by this part of the depth range
 constexpr double kFront = -2;       // depth in front of everything else

@@ -33,12 +33,12 @@ public:
 
     /// Send a request to the process that holds the model.
     /// @param make  makes the request from the handle of the model.
-    /// @throw BackendError  the process ended during this request; "cad.file_changed": it had ended before
-    ///         and the files have changed. Cancelled.
+    /// @throw BackendError  the process ended during this request; "cad.file_changed": it had ended earlier,
+    ///     and the files have changed since. Cancelled.
     template <class Reply, class Make>
     Reply ask(cad_protocol::Opcode opcode, const Make& make, const Task& task) const
     {
-        constexpr int kTries = 3; // do not restart for ever a process that is killed again and again
+        constexpr int kTries = 3; // limits the restarts of a process that is killed again and again
         for (int i = 0;; ++i) {
             const Held held = now();
             try {

@@ -17,9 +17,9 @@ namespace lacuna::cad {
 /// bytes that are read.
 struct InputFile {
     cad_protocol::LoadFile file;                       ///< its format, and the names of its contents
-    std::vector<cad_protocol::Descriptor> descriptors; ///< of the contents
+    std::vector<cad_protocol::Descriptor> descriptors; ///< descriptors of its contents
     std::vector<std::uint64_t> digests;                ///< hashes of names and contents
-    std::uint64_t bytes = 0;                           ///< of all contents
+    std::uint64_t bytes = 0;                           ///< size of all contents
     std::vector<Message> notes;                        ///< which script commands are skipped
 };
 

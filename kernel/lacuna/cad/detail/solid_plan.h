@@ -26,7 +26,7 @@ SolidSources sources_of(const topology::Model& model, const RunContext& context)
 /// surface, with the edges that these need.
 struct SolidPlan {
     cad_protocol::MakeSolidRequest request; ///< with the points, edges, faces and the diagonal
-    std::size_t planes = 0, fitted = 0;     ///< numbers of void faces made so
+    std::size_t planes = 0, fitted = 0;     ///< number of void faces made as planes, and as fitted surfaces
 };
 /// @param found  which entities of the sources exist in the CAD process.
 /// @throw InvalidInput  a face is curved and has no exact surface; names it.

@@ -37,8 +37,8 @@ using CurveFunction = std::function<std::vector<Vec3>(std::span<const double>)>;
 using SurfaceFunction =
     std::function<std::vector<Vec3>(std::span<const double> u, std::span<const double> v)>;
 
-/// Interpolate a function at as many equidistant parameters as it takes for the spline to be within
-/// `precision` halfway between them, up to a fixed maximum. A straight line gets degree 1.
+/// Interpolate a function at equidistant parameters. Their number is doubled until the spline deviates by at
+/// most `precision` halfway between them, or until a fixed maximum. A straight line gets degree 1.
 SplineCurveData approximate(const CurveFunction& function, double precision);
 SplineSurfaceData approximate(const SurfaceFunction& function, double precision);
 

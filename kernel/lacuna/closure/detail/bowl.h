@@ -14,7 +14,7 @@ struct Bowl {
     topology::OpenVolume volume; ///< with roles: the bottom is the source, the mouth the target
     std::vector<FaceId> parent;  ///< by face: the face of the sealed volume that it is part of
     FaceId mouth;                ///< a face of the target
-    double depth = 0;            ///< of the cutting plane below the mouth [model length]
+    double depth = 0;            ///< depth of the cutting plane below the mouth [model length]
 };
 
 /// Separate the bottom of a hollow from its walls if they blend smoothly, as in a hemisphere, a bore with a

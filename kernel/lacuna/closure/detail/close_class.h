@@ -13,7 +13,7 @@ namespace lacuna::closure {
 struct Way {
     EdgeShape edges = EdgeShape::straight; ///< not automatic
     Cap cap = Cap::flat;                   ///< not automatic
-    bool planes = false; ///< whether a missing end in several planes gets a flat face in each
+    bool planes = false;                   ///< a missing end in several planes gets one flat face per plane
 };
 
 /// Inputs of every closing method.

@@ -13,8 +13,7 @@ namespace lacuna::closure {
 /// Whether the user or the program chose the roles of the faces.
 enum class RolesBy { person, finding };
 
-/// Whether a void face has an ambiguous bend, as reported by `guess_of_bent()`.
-/// @param sealed  includes the entities of `closure`
+/// Whether some void face has a bend that its rim does not determine, as reported by `guess_of_bent()`.
 bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
 
 /// The error about an ambiguous bend in a sealed volume, without a remedy; empty if there is none: code

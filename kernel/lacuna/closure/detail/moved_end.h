@@ -27,8 +27,8 @@ struct MovedEnd : Closed {
 /// then has the given end's shape, and walls are closed between the two. The scale is fitted only if walls
 /// cover a third of the outline, because the taper of a bore is not that of the outline. No part of the rim
 /// may stay in place.
-/// @param known  whether points on the missing end's rim and at mid-height of the missing walls lie on faces
-///               that exist already; if those of one end do, nothing is sealed
+/// @param known  whether points on the missing end's rim and at mid-height of the missing walls lie on
+///               existing faces; if all points for one end do, nothing is sealed
 /// @return  one result per flat face that can be such an end: all other faces are walls connected to it, and
 ///          adjacent walls are missing. If there are many such faces, those with the most adjacent faces are
 ///          tried.

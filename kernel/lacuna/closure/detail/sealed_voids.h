@@ -17,17 +17,18 @@ struct Sealed : SealedVolume {
 
 /// One void, and the role candidates that enclose it.
 struct Void {
-    double cost = 0;                           ///< of its likeliest candidate, plus the cost of bent void
-                                               ///< faces
+    /// Cost of its likeliest candidate, plus the cost of bent void faces.
+    double cost = 0;
     topology::RoleCandidate first;             ///< the candidate it was sealed with
     Sealed sealed;                             ///< the result of sealing with `first`
     std::vector<topology::RoleCandidate> ways; ///< role candidates, the likeliest first
     std::vector<topology::RoleCandidate> bent; ///< other candidates, which would need an ambiguous bend
     bool untold = false;                       ///< whether a void face has an ambiguous bend
     bool fills_flat_loops = false;             ///< only flat free loops were missing
-    FaceId through;                            ///< an end that was moved with its holes without walls
-    bool channel = false;                      ///< whether it was sealed by two congruent ends
-    std::string filled;                        ///< how it was sealed without roles, for the user
+    /// An end that was moved together with its holes without walls.
+    FaceId through;
+    bool channel = false; ///< sealed by two congruent ends
+    std::string filled;   ///< how it was sealed without roles, in words for the user
 };
 
 /// Some faces sealed with given roles; empty if that fails.
@@ -55,8 +56,8 @@ std::vector<Void> voids(const topology::Model& model, const std::vector<topology
 void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
                 const RunContext& context);
 
-/// Add a void closed by flat faces, unless it is known: then the closing with fewer faces is kept. Only the
-/// about likeliest voids remain.
+/// Add a void closed by flat faces. If the same void is known already, the closing with fewer faces is kept.
+/// Afterwards only voids that are about as likely as the best remain.
 void add_filled(std::vector<Void>& found, Void filled);
 
 } // namespace lacuna::closure

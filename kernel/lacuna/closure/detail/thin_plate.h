@@ -16,7 +16,7 @@ namespace lacuna::closure {
 struct ThinPlate {
     std::vector<Vec2> places; ///< divided by `unit`
     double unit = 1;          ///< [model length]
-    Eigen::VectorXd weight;   ///< of each place, then of the terms 1, x and y
+    Eigen::VectorXd weight;   ///< for each place, then of the terms 1, x and y
 
     /// Height at a place of the plane [model length].
     [[nodiscard]] double height(const Vec2& place) const;

@@ -7,7 +7,8 @@
 
 namespace lacuna::closure {
 
-/// The result of an action; empty if it throws InvalidInput or NotClosed, because the faces do not allow it.
+/// The result of an action; empty if the action throws InvalidInput or NotClosed, because the faces do not
+/// permit it.
 template <class Do>
 auto unless_refused(const Do& action) -> std::optional<decltype(action())>
 {

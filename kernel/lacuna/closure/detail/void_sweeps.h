@@ -9,8 +9,8 @@
 
 namespace lacuna::closure {
 
-/// The likeliest sweep directions of a closed skin that can be cut if necessary: those with the fewest
-/// irregular nodes first, then those with the most even cells.
+/// The best sweep directions of a closed skin that can be swept, if necessary after cuts: those with the
+/// fewest irregular nodes first, then those with the most even cells.
 std::vector<topology::RoleCandidate> best_sweeps(const topology::Model& skin, const RunContext& context);
 
 /// Of all candidates, including unlikely ones, the first for which `suits` is true and those about as likely.

@@ -9,8 +9,8 @@
 
 namespace lacuna::closure {
 
-/// A direction runs along a body's axis if the sine between them is below this (6°). A lower value accepts
-/// branches that leave almost along the axis, whose cuts are ill-defined.
+/// A direction runs along a body's axis if the sine between them is below this (6°). The cut at a branch that
+/// leaves at a smaller angle would be ill-defined.
 inline constexpr double kAlongAxis = 0.1;
 
 /// Whether a side branch leaves a wall of the volume: a closed line of concave edges between walls separates

@@ -71,7 +71,7 @@ private:
     [[nodiscard]] double missed_by_all(const topology::Model& model,
                                        const matching::LoopSections& loop) const;
 
-    std::vector<Way> ways_;                         ///< of all walls, then of single loops
+    std::vector<Way> ways_;                         ///< motions by all walls, then by those of single loops
     std::unordered_map<Index, std::size_t> at_rim_; ///< index in `ways_` of points on loops with their own
                                                     ///< motion
     std::vector<double> heights_;

@@ -16,9 +16,9 @@ namespace lacuna::closure {
 
 /// Facts for choosing faces of a model, shared by `model:info()` and the HTML page of a model.
 struct ModelFacts {
-    std::vector<topology::FaceFacts> faces;                 ///< of each face
-    std::vector<std::optional<topology::RoundShape>> round; ///< of each face
-    std::vector<std::optional<topology::ConeShape>> cone;   ///< of each face that is no cylinder or sphere
+    std::vector<topology::FaceFacts> faces;                 ///< for each face
+    std::vector<std::optional<topology::RoundShape>> round; ///< for each face
+    std::vector<std::optional<topology::ConeShape>> cone;   ///< for each face that is no cylinder or sphere
     std::vector<bool> part_closed;                          ///< by connected part: it has no free edge
     std::vector<topology::Gap> gaps;
     std::vector<Cavity> cavities;

@@ -24,7 +24,7 @@ struct VoidFilling {
     std::vector<Triangle> triangles; ///< model points, oriented like the loops
     topology::Geometry geometry = topology::Geometry::newell;
     std::string algorithm; ///< name in the paper: "Algorithm 4" …
-    std::string name{};    ///< of the face
+    std::string name{};    ///< name of the face
 };
 
 /// The four logical sides of a loop that runs once along the source rim and once along the target rim, in

@@ -96,7 +96,7 @@ private:
     std::string bytes_;
 };
 
-/// Reads what a `Writer` wrote. A length is checked against the number of bytes left before it is used.
+/// Reads data written by a `Writer`. A length is checked against the number of bytes left before it is used.
 class Reader {
 public:
     explicit Reader(std::string_view bytes) : left_(bytes) {}

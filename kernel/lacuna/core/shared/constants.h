@@ -7,7 +7,7 @@
 
 namespace lacuna {
 
-/// Cost of what is not possible, and the start of a search for a minimum.
+/// The cost of an impossible choice, and the initial value in a search for a minimum.
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Radians per degree.
@@ -16,7 +16,7 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 /// Angles in radians.
 inline constexpr double kRightAngle = std::numbers::pi / 2, kFullTurn = 2 * std::numbers::pi;
 
-/// In place of an index: there is none.
+/// Stands for "no index".
 inline constexpr std::size_t kNoIndex = static_cast<std::size_t>(-1);
 
 /// Steps of a loop between two checks for cancellation, if a step takes less than a microsecond.

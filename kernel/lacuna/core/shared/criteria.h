@@ -3,8 +3,8 @@
 
 #include <lacuna/core/shared/constants.h>
 
-/// What counts as a corner, flat, poor, the same place or the same volume. A limit that decides the same in
-/// several files is defined here once; one that decides a single thing stays beside it.
+/// Limits for corners, flatness, quality, coincidence and equal volumes. A limit that several files use is
+/// defined here once; a limit with a single use stays next to that use.
 
 namespace lacuna {
 
@@ -14,8 +14,9 @@ namespace lacuna {
 /// the sixteen digits.
 inline constexpr double kRoundoff = 1e-12;
 
-/// Points closer than this share of the length at hand (a side, an edge, a rim, the diagonal) are the same
-/// place, and a bend below it is none: projections converge to ten digits, and no side of a mesh is as short.
+/// Points closer than this share of a related length (a side, an edge, a rim, the diagonal) coincide, and a
+/// bend with a smaller sag counts as straight: projections converge to ten digits, and no side of a mesh is
+/// as short.
 inline constexpr double kSamePlace = 1e-9;
 
 /// Relative accuracy of coordinates in files: six to seven digits in single precision. Points this close to
@@ -23,26 +24,28 @@ inline constexpr double kSamePlace = 1e-9;
 /// by less are equal [radian].
 inline constexpr double kFileAccuracy = 1e-6;
 
-/// Relative changes of sizes, bends of sides and gaps of quads below this, and angles [radian], are not
-/// visible in a mesh and not worth the work.
+/// Relative changes of sizes, bends of sides, gaps between quads, and angles [radian] below this are
+/// invisible in a mesh and ignored.
 inline constexpr double kVisible = 1e-3;
 
 // Corner
 
-/// Faces whose normals differ by less across an edge are one patch; a rim that turns by less has no corner
-/// [degrees]. A chamfer of 45° has edges, a cylinder of more than twelve sides does not.
+/// Faces form one patch if the angle between their normals across the edge is smaller; a rim has no corner
+/// where it turns by less [degrees]. So the edges of a 45° chamfer are kept, and a cylinder of more than
+/// twelve sides is one patch.
 inline constexpr double kCreaseAngle = 30;
 
-/// Inner angles of a face [degrees]. A vertex below the first is a corner, where a mapped grid and the rows
-/// along a side end; a vertex above the second is a reversal. Half way between one, two and three quads.
+/// Inner angles of a face [degrees]. A vertex with a smaller angle than the first is a corner, where a mapped
+/// grid and the rows along a side end; one with a larger angle than the second is a reversal. They lie half
+/// way between the angles of one and two quads, and of two and three.
 inline constexpr double kCornerBelow = 135, kReversalAbove = 225;
 
-/// Cosine of the turn (20°) below which two edges belong to one curve: imprints split circles into edges of
-/// single chords, and coarse circles have some twenty.
+/// Two edges belong to one curve if they turn by less than 20°, of which this is the cosine: imprints split
+/// circles into edges of single chords, and coarse circles have some twenty chords.
 inline constexpr double kOneCurve = 0.94;
 
-/// Cosine of the turn (45°) below which an edge continues a line beyond a vertex: half way between straight
-/// and a right angle.
+/// An edge continues a line beyond a vertex if they turn by less than 45°, half way between straight and a
+/// right angle; this is the cosine, rounded.
 inline constexpr double kContinues = 0.7;
 
 /// Sides of a polyline that turn by less form a bend, others a corner [degrees]: a hexagon still approximates
@@ -51,24 +54,25 @@ inline constexpr double kBendBelow = 75;
 
 // Flat
 
-/// Sine of the largest angle between directions that count as parallel, and of the largest turn of a line
-/// that counts as straight: a degree. Facets in files are off by tenths of that.
+/// Sine of the largest angle (about one degree) between directions that count as parallel, and of the largest
+/// turn of a line that counts as straight. Facets in files deviate by tenths of that.
 inline constexpr double kParallel = 0.02;
 
-/// A face is flat if its summed area vector falls short of its area by less than this share, and normals
-/// agree if their cosine falls short of 1 by less: they are parallel.
+/// A face is flat if the length of its summed area vector is below its area by less than this share; normals
+/// agree if their cosine is below 1 by less. It corresponds to kParallel.
 inline constexpr double kFlatShare = kParallel * kParallel / 2;
 
-// Poor: least scaled Jacobian, of a plane quad the least sine of its corners
+// Poor: limits of the least scaled Jacobian; for a plane quad, of the least sine of its corners
 
-/// A quad below this counts as folded (6°): no row keeps it, and no corner is opened by it.
+/// A quad below this counts as folded (6°). No row may contain one, and no change of connections may create
+/// one.
 inline constexpr double kFoldedQuad = 0.1;
-
-/// A quad below this is flat (9°): smoothing hardly improves it where its nodes are on a boundary.
+/// A quad below this counts as flat (9°). Its nodes are moved first, because smoothing hardly improves it where
+/// they are on a boundary.
 inline constexpr double kFlatQuad = 0.15;
 
-/// A quad below the first is poor (30°), and more is tried for it; one above the second is good (53°), and
-/// more would be wasted.
+/// A quad below the first value is poor (30°) and gets further attempts; one above the second is good (53°)
+/// and gets none.
 inline constexpr double kPoorQuad = 0.5, kGoodQuad = 0.8;
 
 /// A hexahedron below this is poor: other directions and sizes are tried. Solvers accept 0.2.
@@ -76,28 +80,29 @@ inline constexpr double kPoorCell = 0.3;
 
 // Same volume
 
-/// Two volumes are the same if they differ by less than this share of the larger: the sag of facets alone
-/// makes half a percent.
+/// Two volumes are equal if they differ by less than this share of the larger: the sag of facets alone causes
+/// half a percent.
 inline constexpr double kSameVolume = 0.01;
 
-/// A difference of volume above this share is reported, whether an assumption or the mesh causes it: a mesh
-/// may lose as much.
+/// A volume difference above this share is reported, whether it is caused by an assumption or by the mesh. It
+/// is twice the difference below which volumes count as equal.
 inline constexpr double kVolumeNoted = 0.02;
 
 // Same size, same number
 
-/// Lengths, sizes and numbers of sides that differ by less than this share are alike, as drawn: they get the
-/// same number of sides.
+/// Lengths, sizes and numbers of sides that differ by less than this share are treated as drawn equal, and
+/// get the same number of sides.
 inline constexpr double kAlikeSizes = 0.01;
 
-/// A number of sides that exceeds a whole number by less is rounded down: far above the rounding of sizes and
-/// lengths, far below a side.
+/// A number of sides is rounded down if it exceeds a whole number by less: far above the rounding errors of
+/// sizes and lengths, far below one side.
 inline constexpr double kCountSlack = 1e-6;
 
-/// Growth of a size over the distance from a place with short sides, in paving and where quads are estimated.
+/// Growth of the size per length away from a place with short sides, in paving and in estimates of quads [-].
 inline constexpr double kGrading = 0.3;
 
-/// A mesh has the number of quads asked if it is off by no more than this share, the promise of every paving.
+/// A mesh has the number of quads asked if it deviates by no more than this share, which every paving
+/// promises.
 inline constexpr double kQuadsOff = 0.25;
 
 /// The promised share of sides with the size asked, and of good rows along the boundary.

@@ -6,7 +6,7 @@
 
 namespace lacuna {
 
-/// Letters to be changed, added or taken away to make one word of the other (Levenshtein).
+/// Number of letters to change, add or remove to turn one word into the other (Levenshtein).
 std::size_t edit_distance(const char* a, const char* b);
 
 /// Position of the key nearest to `word`, the first of equally near ones. @pre there are keys

@@ -10,8 +10,8 @@ namespace lacuna::geometry {
 
 /// Options of `transfinite()`.
 struct TransfiniteOptions {
-    /// Where a grid line stands between its two ends: by the running length of the sides (true), so that
-    /// graded sides give a graded grid, or by counting points (false).
+    /// Position of a grid line between its two ends: by the arc length of the sides (true), so that graded
+    /// sides give a graded grid, or by point number (false).
     bool by_arc_length = true;
 };
 

@@ -54,9 +54,9 @@ struct LoopCrossing {
     std::size_t loop_a, segment_a, loop_b, segment_b;
 };
 
-/// The first pair of segments (by loop, then segment) that cross, touch without being neighbours or overlap,
-/// decided exactly; nothing where the loops are clean.
-/// @note  O(n log n) for segments that do not crowd.
+/// The first pair of segments (by loop, then segment) that cross, overlap, or touch without being neighbours,
+/// decided exactly; empty if there is none.
+/// @note  O(n log n) if few segments are close to each other.
 std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
                                           std::span<const std::vector<Index>> loops);
 

@@ -77,7 +77,7 @@ class Cursor {
 public:
     Cursor(std::string path, std::string_view data);
 
-    Coding coding = Coding::text; ///< of `integer()`, `size()` and `real()`
+    Coding coding = Coding::text; ///< how `integer()`, `size()` and `real()` read numbers
     bool has_bytes = false;       ///< parts of the file are binary, so that messages name bytes
 
     [[nodiscard]] const std::string& path() const { return path_; }

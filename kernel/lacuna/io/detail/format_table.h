@@ -24,7 +24,7 @@ struct FormatRow : Format {
     void (*read)(Cursor&, DeckBuilder&) = nullptr;
     WriteView* write = nullptr;
     void (*write_folder)(const mesh::MeshView& view, const OutputPath& path,
-                         const RunContext& context) = nullptr; ///< of a folder
+                         const RunContext& context) = nullptr; ///< writer of a folder
     bool omits_middles = false; ///< elements may lack some of their middle nodes
 };
 std::span<const FormatRow> format_table();

@@ -55,15 +55,14 @@ inline Quad shell_key(const DeckBlock& block, std::size_t e)
     return face_key(block, e, {0, 1, 2, shape_info(block.shape).corners == 4 ? 3 : -1});
 }
 
-/// Indices of the sets that hold all nodes of a deck, or all solids. Of these only the sets named "all" or
-/// "eall", and those that duplicate regions. Includes sets for which this was true before decks were merged.
+/// Indices of the sets that hold all nodes or all solids of a deck, limited to sets named "all" or "eall" and
+/// to those that duplicate regions. Sets for which this was true before decks were merged are included.
 std::vector<std::size_t> sets_of_all(const Deck& deck);
 
-/// Add the data of a mesh to the sets of a deck that should contain them: the sets of everything, and those
-/// that held parts left out of the deck. Of the latter
-/// - a set of all nodes or elements of the part with the volume's name, otherwise of everything left out,
-/// gets
-///   all new ones;
+/// Add the data of a mesh to the sets of a deck that should contain it: the sets of all nodes or elements,
+/// and those that lost members when parts were left out. Of the latter
+/// - a set of all nodes or elements of the part with the volume's name (if there is no such part, of
+///   everything left out) gets all new ones;
 /// - a surface, or a set of elements on the skin, gets the quads of the skin in place of its old sides or
 ///   elements; a set of nodes gets their nodes.
 /// `Deck::gap` records the extended sets.

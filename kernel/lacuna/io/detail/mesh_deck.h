@@ -18,9 +18,9 @@ namespace lacuna::io {
 /// Position in a deck of the cells of a mesh that it does not store.
 struct BulkPlace {
     DeckTag first_node = 1;          ///< number of the first node of the whole mesh; the others follow
-    DeckTag first_cell = 1;          ///< number of the first; the others follow
-    Index region = 0;                ///< of all of them
-    std::vector<std::size_t> sets{}; ///< indices of the sets that contain all of them, increasing
+    DeckTag first_cell = 1;          ///< number of the first cell; the others follow
+    Index region = 0;                ///< region of all cells
+    std::vector<std::size_t> sets{}; ///< indices of the sets that contain all cells, increasing
     DeckTag highest = 0;             ///< highest cell number of earlier meshes
 };
 
@@ -33,7 +33,7 @@ struct AddedMesh {
     std::map<Quad, DeckTag>* skin_tags = nullptr;
     /// Sets of the meshes added before, by kind and group, which this one's extend; null: there are none.
     GroupSets* groups = nullptr;
-    Index region = -1; ///< of the deck, to which the cells are added; -1: a new one
+    Index region = -1; ///< region of the deck to which the cells are added; -1: a new one
     /// Null: the deck was read from a file, and its sets are extended.
     /// If not null, nodes and cells are not stored in the deck, only regions, sets and empty blocks of the
     /// cells' shapes; this gets their position.

@@ -83,7 +83,7 @@ private:
         CardUse use = CardUse::keep;
         std::string_view marker; ///< name of the expected continuation
         bool large = false;
-        std::string raw; ///< of a continuation without its card
+        std::string raw; ///< lines of a continuation without its card
     };
     bool is_awaited(std::string_view name);
     void own_fields(Card& card);

@@ -34,7 +34,7 @@ Fill each(PutOne put_one)
 struct Section {
     std::string text;
     std::size_t records = 0;
-    std::size_t record_bytes = 0; ///< of every record; with `Sizes::varying` the maximum
+    std::size_t record_bytes = 0; ///< for every record; with `Sizes::varying` the maximum
     Fill fill;
 };
 

@@ -12,7 +12,7 @@ namespace lacuna::io {
 /// The skin of a swept mesh as faces with given quads, one for each patch.
 struct MeshSkin {
     topology::OpenVolume volume; ///< closed; all faces are walls; they have the patches' tags and names
-    std::vector<FaceId> face;    ///< of each patch
+    std::vector<FaceId> face;    ///< for each patch
 };
 
 /// @throw InvalidInput "io.skin_in_pieces"  a patch whose quads are not connected, or that has none.

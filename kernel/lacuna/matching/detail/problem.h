@@ -37,7 +37,7 @@ struct Problem {
     std::map<VertexId, VertexId> walls; ///< source vertex → target vertex, joined by walls
     std::map<VertexId, VertexId> hard;  ///< those, and the user's
     std::vector<int> forced;            ///< target loop of each source loop, -1: not fixed
-    std::vector<bool> on_wall;          ///< of each vertex of the model
+    std::vector<bool> on_wall;          ///< for each vertex of the model
     std::optional<bool> backward; ///< set if walls join the ends: the target loops run against the source's
     std::vector<bool> by_length;  ///< whether loops are paired by length, at source · targets + target
     PointPairs led; ///< source rim points and their images under the given walls; empty if all loops have

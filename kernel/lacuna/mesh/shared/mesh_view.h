@@ -140,7 +140,7 @@ void each_run(const Runs& runs, std::size_t begin, std::size_t end, const Visit&
     }
 }
 
-/// What writers need of a mesh, however it is stored: a swept mesh, layers created on writing, a deck, or
+/// A mesh as the writers see it, however it is stored: a swept mesh, layers created on writing, a deck, or
 /// several meshes merged into one. Callbacks deliver nodes and cells in blocks, because a call for each cell
 /// would be slow. Several threads may call them at once, for any range and in any order; results must not
 /// differ between calls.
@@ -221,10 +221,11 @@ struct MeshView {
         SetKind kind = SetKind::elements;
         int tag = 0; ///< number of the group; 0: none
         std::string name;
-        std::size_t count = 0;             ///< of the members
-        Numbers members{};                 ///< of nodes or cells, rising; may name what is in `KeptText`
-        std::span<const CellSide> sides{}; ///< of a set of sides, rising
-        bool listed = false;               ///< has a card of its own, even if it equals a region
+        std::size_t count = 0; ///< number of members
+        /// Members of a set of nodes or cells, rising; may include entities in `KeptText`.
+        Numbers members{};
+        std::span<const CellSide> sides{}; ///< members of a set of sides, rising
+        bool listed = false;               ///< has a separate card, even if it equals a region
     };
     /// Text by the index of a node or cell, rising.
     using TextByIndex = std::span<const std::pair<std::size_t, std::string>>;

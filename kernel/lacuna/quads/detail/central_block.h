@@ -18,7 +18,7 @@ namespace lacuna::quads {
 struct CentralBlock {
     PlanarRegion around;     ///< the region with the block as its last hole, whose nodes come last
     std::vector<Vec2> inner; ///< nodes inside the block, numbered after those of `around`
-    std::vector<Quad> quads; ///< of the block
+    std::vector<Quad> quads; ///< quads of the block
 };
 
 /// Place a block in a region.

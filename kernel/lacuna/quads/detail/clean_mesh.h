@@ -14,7 +14,7 @@ namespace lacuna::quads::cleaning {
 
 /// How far a quad is from ideal.
 struct QuadLoss {
-    double jacobian = 1; ///< scaled
+    double jacobian = 1; ///< scaled Jacobian
     double loss = 0;     ///< 1 - jacobian, plus a penalty for a wrong area if a size is asked
 };
 
@@ -62,9 +62,9 @@ private:
     QuadNet net_;
     std::size_t fixed_;
     std::vector<int> ideal_;
-    std::vector<QuadLoss> loss_;         ///< of each quad, if known
-    std::vector<char> loss_known_;       ///< of each quad
-    std::vector<std::uint32_t> version_; ///< of each quad; counts how often its number was reused
+    std::vector<QuadLoss> loss_;         ///< for each quad, if known
+    std::vector<char> loss_known_;       ///< for each quad
+    std::vector<std::uint32_t> version_; ///< for each quad; counts how often its number was reused
 };
 
 } // namespace lacuna::quads::cleaning

@@ -58,10 +58,10 @@ private:
     QuadPatch patch_;
     Marks in_patch_, in_rings_, passed_;
     Numbers count_;         ///< number of the patch's quads at each point
-    Numbers parent_;        ///< of visited points: the next on the way back to the seed
-    Numbers next_;          ///< of points on the outline
+    Numbers parent_;        ///< for each visited point, the next one on the way back to the seed
+    Numbers next_;          ///< for each point of the outline, its successor
     Index start_ = -1;      ///< a point on the outline
-    std::size_t sides_ = 0; ///< of the outline
+    std::size_t sides_ = 0; ///< number of sides of the outline
     std::vector<Index> seen_points_, others_, rings_, front_;
 };
 

@@ -13,11 +13,11 @@ struct CleanOptions {
     std::function<double(const Vec2&)> size; ///< target edge length [model length]; none: only shape counts
     /// Scaled Jacobian [-]; no change may produce a quad below both this and the previous worst.
     double least = 0.6;
-    int largest_patch = 400; ///< quads refilled at once, >= 4
+    int largest_patch = 400; ///< limit of quads refilled at once, >= 4
     int passes = 4;          ///< over all irregular points, >= 1
     /// Search again with larger limits; false: a budget of 15,000 fillings' quads, not 50,000.
     bool thorough = true;
-    /// Budget: quads in tried fillings, this many times those of the mesh, plus the base of `thorough`.
+    /// Budget of quads in tried fillings: this many times the mesh's quads, plus the constant of `thorough`.
     double effort = 3;
 };
 

@@ -15,7 +15,7 @@ bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size
 /// A run: the part of a loop between two nodes that stay, or a whole loop without such nodes. Some of its
 /// sides are kept whole (not merged in pairs); their number is odd if the run has an odd number of sides.
 struct WholeRun {
-    std::vector<Index> nodes; ///< of the region, including the last one
+    std::vector<Index> nodes; ///< nodes of the region, including the last one
     Index first;              ///< first of its points in the coarse region, which are numbered consecutively
     std::size_t whole;        ///< number of sides kept whole, > 0
 

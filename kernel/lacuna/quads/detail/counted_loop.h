@@ -28,7 +28,7 @@ struct CountTask {
     [[nodiscard]] std::size_t segment_of(Index p) const { return index(segment[index(p)]); }
 };
 
-/// The mean of the sizes asked along the boundary [model length].
+/// Mean of the target size along the boundary [model length].
 double mean_size(const CountTask& task);
 
 /// Number of quads that the size asks for: from the region's size if it has one, otherwise from the wanted
@@ -39,9 +39,9 @@ double quads_asked(const CountTask& task);
 struct CountRange {
     double least, most;
 };
-/// Ranges for the loops of a ring, and for other segments of four sides or more. In the first, edges are 0.6
-/// to 1.6 times as long as asked, so `measure_plane()` counts a ring's rows as of the size asked. The second
-/// is the range that is promised for sizes. Shorter segments may change by one side.
+/// Ranges for the loops of a ring, and for other segments of four sides or more. In kRing, edges are 0.6 to
+/// 1.6 times as long as asked, the range in which `measure_plane()` counts a size as right. kSegment is the
+/// promised range of sizes. Segments of fewer sides may change by one side.
 inline constexpr CountRange kRing{1 / 1.6, 1 / 0.6}, kSegment{1 / 1.25, 1.25};
 /// Factor by which rounding may exceed a ring's range, so that repeated segments of a loop still get equal
 /// numbers. A larger value keeps more symmetry, but the edges of one loop then miss the size asked.
@@ -71,10 +71,11 @@ struct CountedRun {
 /// The runs of one loop and its excess, which is zero if the loop closes.
 struct CountedLoop {
     std::vector<CountedRun> runs;
-    std::array<int, 2> excess{}; ///< number of sides in each direction minus those back
-    std::array<int, 2> added{};  ///< sides along headings 0 and 1 that the loop's rows of quads add
-    double wanted = 0;           ///< total number of wanted sides
-    int soft = 0;                ///< turns made by the loop's rows of quads
+    /// For headings 0 and 1, the number of sides along the heading minus the number back.
+    std::array<int, 2> excess{};
+    std::array<int, 2> added{}; ///< sides along headings 0 and 1 that the loop's rows of quads add
+    double wanted = 0;          ///< total number of wanted sides
+    int soft = 0;               ///< turns made by the loop's rows of quads
 };
 
 /// A loop's runs with their wanted numbers, rounded, and its excess after its rows are placed.

@@ -13,10 +13,10 @@ namespace lacuna::quads::paving {
 struct CutPlaces {
     std::vector<float> x, y;    ///< from the loop's first node
     std::vector<float> arc;     ///< along the loop
-    std::vector<float> heading; ///< of the side that leaves the place [radians]
+    std::vector<float> heading; ///< direction of the side that leaves the place [radians]
     std::vector<float> angle;   ///< inside the region [radians]
     std::vector<float> gain;    ///< reduction of a line's cost if it ends there
-    std::vector<float> firm;    ///< weight of the angles there
+    std::vector<float> firm;    ///< weight of the angles there: lower for inner nodes, which still move
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
     void reserve(std::size_t n)

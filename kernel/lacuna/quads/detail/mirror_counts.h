@@ -26,8 +26,7 @@ double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunCo
 /// the size asked is tried first, because a graded size would leave too few lines for the whole part.
 inline constexpr double kFewForGrading = 200;
 
-/// Number of parts, between different pairs of mirror axes, that are tried. More cost time for candidates of
-/// lower rank.
+/// Limit of parts, between different pairs of mirror axes, that are tried; the pairs are ranked.
 inline constexpr std::size_t kMostChoices = 4;
 
 /// The cheapest result over the parts between different pairs of axes.

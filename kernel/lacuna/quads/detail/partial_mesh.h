@@ -16,11 +16,11 @@ namespace lacuna::quads::paving {
 /// Weights of the terms of a cut's cost. No weights are best for all outlines, so small regions are cut with
 /// several.
 struct CutWeights {
-    /// Of the angles at its ends, as far as they are not multiples of a right angle.
+    /// Deviation of the angles at its ends from multiples of a right angle.
     double corners = 1;
-    double added = 1;         ///< of the quads that it adds at its ends
-    double length = 1;        ///< of its length relative to the outline that it cuts off
-    double mismatch = 1;      ///< of parts whose sides do not agree
+    double added = 1;         ///< quads that it adds at its ends
+    double length = 1;        ///< its length relative to the outline that it cuts off
+    double mismatch = 1;      ///< unequal numbers of opposite sides in the parts
     double bent = 0.5;        ///< bonus for ending where the outline turns inward
     double least_patch = 0.6; ///< quality from which a small part is filled without a cut [-]
     double most_patch = 0.9;  ///< the same for a large part [-]

@@ -37,8 +37,8 @@ double main_angle(const PlanarRegion& region);
 /// itself does not turn so, the turn is soft: it takes place some rows of quads further inside.
 struct PatternLoop {
     std::vector<Index> nodes;
-    std::vector<int> heading;      ///< of the side from each node to the next
-    std::vector<double> direction; ///< of the side itself, unwrapped like the headings [right angles]
+    std::vector<int> heading;      ///< heading of the side from each node to the next
+    std::vector<double> direction; ///< direction of each side, unwrapped like the headings [right angles]
     std::vector<int> soft;         ///< number of rows to place before the loop may turn at each node
     std::vector<char> movable;     ///< whether the turn at a node may be moved to a neighbour
     int turns = 0;                 ///< total turn of the loop in its frame, in right angles

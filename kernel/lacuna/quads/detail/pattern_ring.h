@@ -14,8 +14,8 @@ namespace lacuna::quads {
 /// Widths of a ring along its outer loop.
 struct RingWidths {
     double least = 0, most = 0; ///< [model length]
-    std::size_t narrowest = 0;  ///< the outer loop's node there
-    std::size_t half = 0; ///< nodes from there to where the width is half way to the widest, on the mean
+    std::size_t narrowest = 0;  ///< number of the outer loop's node there
+    std::size_t half = 0;       ///< mean number of nodes from there to a width half way to the widest
 
     /// How many rows of the given height the rest of the ring should have more than its narrow part, so that
     /// all rows are about equally high; 0 if `measure_plane()` accepts the heights of a constant number of

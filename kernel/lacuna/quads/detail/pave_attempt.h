@@ -31,7 +31,7 @@ void judge(Attempt& attempt);
 /// The input common to all attempts at a region.
 struct AttemptSetting {
     const PlanarRegion& region;
-    SizeField size;  ///< of the region, graded from its boundary sides
+    SizeField size;  ///< size in the region, graded from its boundary sides
     double flat = 0; ///< quads with a smaller sine count as folded [-]
 };
 

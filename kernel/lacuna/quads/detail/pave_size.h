@@ -5,8 +5,7 @@
 
 namespace lacuna::quads::paving {
 
-/// Target edge lengths: the size that a region asks for, limited near the boundary by the lengths of its
-/// given sides.
+/// Target edge lengths: the size of the region, limited near the boundary by the lengths of its given sides.
 ///
 /// At distance d from a boundary node with sides of length l the size lies between l − 0.3 d and l + 0.3 d,
 /// which keeps neighbouring edges within a factor of 1.3. If the sides have about the length asked, these

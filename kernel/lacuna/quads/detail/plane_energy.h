@@ -15,16 +15,16 @@ namespace lacuna::quads {
 /// Target areas of the quads around each point.
 struct TargetAreas {
     struct Target {
-        double area = 0, inverse = 0; ///< 0: none
+        double area = 0, inverse = 0; ///< target area and its inverse; 0: no target
     };
     double weight = 0;
-    std::vector<Target> asked; ///< of each point; empty: no targets
+    std::vector<Target> asked; ///< for each point; empty: no targets
 };
 
 /// Energy of the quads around one point, with its gradient and curvature as functions of the point.
 ///
 /// The energy sums f², f = (|a|² + |b|²) / 2 det, over the corners that change with the point. The square
-/// gives bad corners more weight. If an area h² is asked, (det / h² + h² / det) / 2 is added.
+/// gives bad corners more weight. With a target area h², (det / h² + h² / det) / 2 is added.
 struct StarEnergy {
     double value = 0;
     Vec2 slope{0, 0};

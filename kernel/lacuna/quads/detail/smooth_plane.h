@@ -15,7 +15,7 @@ struct SmoothPlaneOptions {
     std::function<double(const Vec2&)>
         size;                 ///< edge length asked for [model length]; none: shape alone counts
     int sweeps = 12;          ///< over all points, >= 0
-    double size_weight = 0.1; ///< of size against shape, >= 0 [-]
+    double size_weight = 0.1; ///< weight of size against shape, >= 0 [-]
     double good_enough = 0.7; ///< quads with a smaller scaled Jacobian are improved one by one [-]
     int repairs = 20;         ///< rounds over them, >= 0
     bool untangle = true;     ///< untangle folded quads first

@@ -23,7 +23,7 @@ struct BoundaryRows {
     std::vector<std::vector<double>> heights;
     /// Table of the side from each boundary node to the next in its loop; -1: none.
     std::vector<int> table;
-    std::vector<RowTurn> turn; ///< of each boundary node
+    std::vector<RowTurn> turn; ///< for each boundary node
     /// Scale at a place: lengths in the plane divided by the lengths in which heights are given; empty: 1.
     std::function<double(const Vec2&)> scale{};
 };
@@ -38,7 +38,7 @@ struct RowsFinding {
     };
     Why why = Why::no_room;
     Index node = -1;  ///< boundary node near which the problem was found
-    int table = -1;   ///< of the rows
+    int table = -1;   ///< table of the rows
     double asked = 0; ///< height of the row; for `no_room`, of all rows [length of the heights]
     double found = 0; ///< room for rows there, or the height of the nearest node
 };

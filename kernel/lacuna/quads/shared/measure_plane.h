@@ -58,9 +58,8 @@ private:
 /// The angle inside the region at each of its boundary nodes, loop after loop [radian].
 std::vector<double> boundary_angles(const PlanarRegion& region);
 
-/// Limits for a good row quad: how far a corner may be from its ideal angle [radian], and by what share of
-/// the row's height an end of the side opposite the boundary may miss that height. Larger limits accept more
-/// skewed rows.
+/// Limits for a good row quad: the deviation of a corner from its ideal angle [radian], and the share of the
+/// row's height by which an end of the side opposite the boundary may miss that height.
 inline constexpr double kRowOffRight = std::numbers::pi / 9, kRowOffHeight = 0.3;
 
 /// Ideal corner angle of a row quad at a boundary node [radian]: half the node's angle if two quads share the

@@ -21,7 +21,7 @@ struct BoundarySegment {
 int even_sides(double wanted, int least);
 
 /// Above this number of quads, `pave()` paves with a quarter as many, refines the mesh, and keeps no
-/// symmetry. This trades regularity for time: a lower value gives faster but less symmetric meshes.
+/// symmetry, to limit the time.
 inline constexpr double kManyQuads = 20'000;
 /// A segment with fewer sides than this is not forced to an even number, because rounding would change its
 /// edge length too much.

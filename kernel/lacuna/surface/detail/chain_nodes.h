@@ -12,7 +12,7 @@ namespace lacuna::surface {
 
 /// A point of the model on a chain.
 struct ChainNode {
-    double at = 0; ///< running length
+    double at = 0; ///< running length [model length]
     Index point = -1;
 };
 
@@ -33,7 +33,7 @@ std::vector<ChainNode> chain_nodes(const topology::Model& model, const Chain& ch
     return nodes;
 }
 
-/// The node at a running length of a closed chain, up to rounding; -1 if there is none.
+/// The node within rounding distance of a running length of a closed chain; -1 if there is none.
 inline Index node_at(std::span<const ChainNode> nodes, const Chain& chain, double place)
 {
     const double slack = kSamePlace * chain.length();

@@ -15,7 +15,7 @@ namespace lacuna::surface {
 /// others.
 struct FaceGrids {
     std::map<FaceId, std::vector<SidePair>> opposite; ///< pairs of sides that need equal counts
-    std::map<FaceId, MappedFace> mapped;              ///< of four sides
+    std::map<FaceId, MappedFace> mapped;              ///< faces of four sides, with their grids
 };
 
 /// Choose mapped and submapped faces by their sides. If a minimum count across narrow places is set, sides of

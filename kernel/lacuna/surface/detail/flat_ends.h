@@ -13,8 +13,8 @@ namespace lacuna::surface {
 
 struct FlatEnds {
     std::vector<FlatEdge> source, target; ///< target: without closed edges that the source has
-    std::vector<Vec2> place;              ///< of each node
-    std::vector<VertexId> vertex;         ///< of each node; invalid if it is not a vertex of the source
+    std::vector<Vec2> place;              ///< for each node
+    std::vector<VertexId> vertex;         ///< for each node; invalid if it is not a vertex of the source
     std::vector<EdgeId> rim;              ///< edges of the source's rim
 };
 

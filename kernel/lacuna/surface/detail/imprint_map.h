@@ -20,7 +20,8 @@ struct SourcePlace {
 /// Closed edges of both ends that are swept to each other.
 struct ClosedPair {
     EdgeId source, target;
-    double from = 0, to = 1; ///< fractions of the target edge at the source edge's ends, past whole turns
+    /// Fractions of the target edge at the source edge's ends; may exceed 1 for a closed edge.
+    double from = 0, to = 1;
 };
 
 /// Both ends of a volume in one plane, the source counter-clockwise.
@@ -47,7 +48,7 @@ private:
                     std::span<const KnownLine> known);
 
     const topology::OpenVolume& volume_;
-    std::vector<Vec2> source_, target_; ///< of each model point
+    std::vector<Vec2> source_, target_; ///< for each model point
     FacetSet source_facets_;
     geometry::PlanarLocator locator_;
     std::map<FaceId, geometry::PlanarLocator> face_locator_;

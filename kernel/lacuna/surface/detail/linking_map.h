@@ -108,7 +108,7 @@ private:
     double turn_ = 0, most_turned_ = 0;
     bool bends_ = false;
     std::vector<double> row_at_;               ///< t of rows of columns
-    std::vector<std::vector<double>> columns_; ///< of each row, harmonic s at even s; empty: identity
+    std::vector<std::vector<double>> columns_; ///< for each row, harmonic s at even s; empty: identity
     geometry::FacetTree tree_;
     std::vector<Ring> rings_;
     std::vector<Upright> uprights_;

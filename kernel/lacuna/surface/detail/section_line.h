@@ -27,7 +27,7 @@ struct SectionLine {
     std::array<std::vector<Vec3>, kSections> points; ///< evenly over the sides; above the source may be empty
     std::vector<double> at;                          ///< positions of the nodes, ends included [sides]
     std::vector<double> above;                       ///< the same on the target; empty: as on the source
-    std::vector<std::size_t> variable;               ///< of each node, for a solver
+    std::vector<std::size_t> variable;               ///< for each node, for a solver
     std::vector<std::size_t> variable_above;
     std::vector<double> steep; ///< with `above`: the side at each node over the length of its column
     bool on_rim = false;

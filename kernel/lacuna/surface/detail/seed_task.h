@@ -22,7 +22,7 @@ struct SeedTask {
     QuadStyle style;
     ShapeSizing sizing;
     bool wedges;
-    std::vector<FaceId> faces;                ///< of the source
+    std::vector<FaceId> faces;                ///< faces of the source
     std::map<EdgeId, std::set<FaceId>> users; ///< source faces on each edge of them or of the rim
     std::set<EdgeId> rim;                     ///< edges with walls
 };

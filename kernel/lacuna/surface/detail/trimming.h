@@ -36,7 +36,7 @@ private:
     /// A side of the border's polyline, in the direction of the loop.
     struct Side {
         topology::EdgeUse use{};
-        std::size_t segment = 0; ///< of the edge, in the direction of the edge
+        std::size_t segment = 0; ///< segment of the edge, in the direction of the edge
         Vec3 normal = Vec3::Zero(), inward = Vec3::Zero();
         Vec3 inward_at_start = Vec3::Zero(), inward_at_end = Vec3::Zero();
         double bulge = 0; ///< maximum distance to the curve [model length]
@@ -44,14 +44,14 @@ private:
     /// A point that is outside, or so close to the border that its curve decides.
     struct Near {
         std::size_t point = 0, side = 0;
-        double share = 0; ///< of the side
+        double share = 0; ///< position as a share of the side
         Vec3 on_border = Vec3::Zero(), inward = Vec3::Zero();
     };
 
     /// A lower bound of the distance of a facet's points from the border.
     struct Clearance {
-        double facet = 0;            ///< of the whole facet [model length]
-        Vec3 heights = Vec3::Zero(); ///< of the facet over each side [model length]
+        double facet = 0;            ///< lower bound for the whole facet [model length]
+        Vec3 heights = Vec3::Zero(); ///< heights of the facet over each side [model length]
     };
 
     void add_loop(const topology::Loop& loop, const std::vector<Index>& facet_of_side);
@@ -67,7 +67,7 @@ private:
     geometry::FacetTree tree_; ///< a facet of no area for each side
     double most_bulge_ = 0;
     mutable std::once_flag once_;
-    mutable std::vector<Clearance> clearance_; ///< of each facet, computed on first use
+    mutable std::vector<Clearance> clearance_; ///< for each facet, computed on first use
 };
 
 } // namespace lacuna::surface

@@ -33,7 +33,7 @@ struct WallNet {
     /// Connected cross edges, or a vertex between long edges.
     struct Level {
         double height = 0;               ///< mean t
-        std::optional<std::size_t> ring; ///< of the map
+        std::optional<std::size_t> ring; ///< index of the ring in the map
         bool plain = false; ///< a ring that turns and ends on side lines only, and meets no long edge
         std::vector<std::size_t> stops;
         std::vector<std::size_t> lines; ///< side lines that the ring meets

@@ -31,7 +31,7 @@ bool has_face(const topology::OpenVolume& volume, const std::string& name);
 
 /// The boundary layers on the faces of one volume.
 struct LayerTables {
-    std::vector<std::vector<double>> heights; ///< of each table
+    std::vector<std::vector<double>> heights; ///< for each table
     std::map<FaceId, int> of;                 ///< table of each face that has one
 
     [[nodiscard]] int at(FaceId face) const
@@ -46,7 +46,7 @@ LayerTables layer_tables(const topology::OpenVolume& volume, std::span<const Bou
 
 /// Rows along the rims of the source: those of the adjacent walls.
 struct RimRows {
-    std::vector<std::vector<double>> heights; ///< of each table [model length]
+    std::vector<std::vector<double>> heights; ///< for each table [model length]
     /// Of each edge of the source's rim: parts of its length, as it runs, and their tables.
     struct Part {
         double from = 0, to = 1; ///< fractions of its length

@@ -18,7 +18,7 @@ std::vector<Vec3> edge_points(const topology::Model& model, EdgeId edge, std::sp
 /// A point of a chain.
 struct ChainPosition {
     std::size_t use = 0; ///< number of the edge's use in the chain
-    double fraction = 0; ///< of the edge's length, in the direction of the edge, not the use
+    double fraction = 0; ///< fraction of the edge's length, in the direction of the edge, not the use
 };
 
 /// A chain of edge uses as one curve over its arc length.

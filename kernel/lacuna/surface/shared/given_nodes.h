@@ -38,8 +38,9 @@ struct GivenColumns {
 
 /// What `given_columns()` found.
 struct GivenRows {
-    std::vector<GivenColumns> columns; ///< of each linking surface; all have the same number of rows, or none
-    std::vector<std::string> notes{};  ///< a line for each wall or side line whose nodes are not kept
+    /// For each linking surface; all have the same number of rows, or none.
+    std::vector<GivenColumns> columns;
+    std::vector<std::string> notes{}; ///< a line for each wall or side line whose nodes are not kept
 };
 
 /// Read the meshes of given walls as rows and columns, by walking from each side of the source rim over

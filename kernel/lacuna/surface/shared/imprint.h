@@ -13,7 +13,7 @@ namespace lacuna::surface {
 
 /// The part of a target edge to which a source edge is swept.
 struct EdgeImage {
-    EdgeId target; ///< of the volume
+    EdgeId target; ///< edge of the volume's target
     /// Fractions of the target edge at the source edge's ends, in the source edge's direction; whole turns
     /// are counted for closed edges.
     double from = 0, to = 1;
@@ -33,9 +33,9 @@ struct Imprint {
     /// follow, with the tag and the name of the whole face; imprinted edges have the tag of the target's.
     std::unique_ptr<topology::OpenVolume> volume;
     std::vector<LinkingSurface> links;
-    std::vector<FaceId> source_of;      ///< of each face: the face of the original volume that contains it
-    std::vector<FaceId> target_of;      ///< of each source face: the target face it is swept to
-    std::map<EdgeId, EdgeImage> images; ///< of source edges that are swept to the target's inner edges
+    std::vector<FaceId> source_of;      ///< for each face: the face of the original volume that contains it
+    std::vector<FaceId> target_of;      ///< for each source face: the target face it is swept to
+    std::map<EdgeId, EdgeImage> images; ///< images of source edges that are swept to the target's inner edges
 };
 
 /// Lengths of the images of source edges, as `seed_source()` needs them [model length].

@@ -18,7 +18,7 @@ namespace lacuna::surface {
 struct RimSegment {
     double source_from = 0, source_to = 0;
     double target_from = 0, target_to = 0; ///< may exceed the target chain's length: modulo it
-    std::size_t use = 0;                   ///< of the source chain
+    std::size_t use = 0;                   ///< index of the use in the source chain
     bool given = false;                    ///< one side of a quad: it lies between given nodes
     /// Its ends are vertices of the rim's facets, which bend no more between them than a straight side may.
     bool follows = false, target_follows = false;

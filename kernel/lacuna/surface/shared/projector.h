@@ -13,15 +13,15 @@ namespace lacuna::surface {
 
 /// A position on the facets of a face.
 struct FacetPosition {
-    Index triangle = -1;             ///< of the face
+    Index triangle = -1;             ///< index of a facet of the face
     Vec3 barycentric = Vec3::Zero(); ///< weights of the corners
 };
 
 /// The facets of several faces together.
 struct FacetSet {
     std::vector<Triangle> triangles;
-    std::vector<FaceId> face;  ///< of each facet
-    std::vector<Index> number; ///< of each facet in its face
+    std::vector<FaceId> face;  ///< for each facet
+    std::vector<Index> number; ///< index of each facet in its face
 };
 
 FacetSet facet_set(const topology::Model& model, std::span<const FaceId> faces);
@@ -61,7 +61,7 @@ private:
     const topology::Model* model_;
     FacetSet facets_;
     geometry::FacetTree tree_;
-    std::map<FaceId, Trimming> trimmed_; ///< of the faces with exact geometry
+    std::map<FaceId, Trimming> trimmed_; ///< borders of the faces with exact geometry
 };
 
 } // namespace lacuna::surface

@@ -16,7 +16,7 @@ namespace lacuna::surface {
 struct RimBreaks {
     /// Of each linking surface, running lengths on the source's and the target's chain; empty: no breaks.
     std::vector<std::vector<std::pair<double, double>>> pairs;
-    std::vector<char> on_crease; ///< of each linking surface: all its columns at breaks run along creases
+    std::vector<char> on_crease; ///< for each linking surface: all its columns at breaks run along creases
     std::map<EdgeId, std::vector<double>> edges; ///< edges with such vertices inside, and their fractions
     std::set<Index> points;                      ///< all such vertices
 };
@@ -49,7 +49,7 @@ private:
         double at = 0; ///< running length on the chain
         Index point = -1;
         EdgeId edge;
-        double fraction = 0;   ///< of the edge's length
+        double fraction = 0;   ///< fraction of the edge's length
         bool at_start = false; ///< the edge starts there: a node in any case
     };
     struct Side {
@@ -65,8 +65,8 @@ private:
 
     const topology::OpenVolume& volume_;
     std::span<const LinkingSurface> links_;
-    std::vector<char> end_of_; ///< of each model point: 1 on the source's rims, 2 on the target's
-    std::map<Index, std::vector<Side>> sides_;    ///< of facets, at each point
+    std::vector<char> end_of_; ///< for each model point: 1 on the source's rims, 2 on the target's
+    std::map<Index, std::vector<Side>> sides_;    ///< facet sides at each point
     std::map<Index, std::vector<Index>> creases_; ///< from rims, as far as computed; empty: none
 };
 

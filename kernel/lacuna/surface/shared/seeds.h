@@ -91,12 +91,12 @@ struct Seeds {
     std::map<FaceId, std::vector<std::size_t>> corners;
     std::set<FaceId> submapped;     ///< faces meshed as a grid of right angles
     std::set<FaceId> kept;          ///< faces whose own quads are the mesh
-    RimRows rows;                   ///< of boundary layers, along the rim
+    RimRows rows;                   ///< rows of boundary layers along the rim
     std::vector<std::string> notes; ///< a line for each given mesh that is not kept
     [[nodiscard]] int count(EdgeId edge) const;
     /// Fractions of the edge's nodes, both ends included.
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
-    /// The piece of its edge that a rim segment corresponds to.
+    /// The piece of the source edge to which a rim segment corresponds.
     [[nodiscard]] std::size_t piece_of(const LinkingSurface& link, const RimSegment& segment) const;
     /// The nodes of a linking surface, on the source's rim and on the target's.
     [[nodiscard]] LinkingNodes nodes(const LinkingSurface& link) const;

@@ -20,8 +20,8 @@ struct ShapeSizing {
 /// The shortest sides that one rule requests.
 struct SizeCause {
     double size = 0;             ///< requested [model length]
-    FaceId face;                 ///< of the source
-    std::optional<EdgeId> edge;  ///< of its rim, one side of a narrow place; unset: curvature
+    FaceId face;                 ///< face of the source
+    std::optional<EdgeId> edge;  ///< edge of its rim, one side of a narrow place; unset: curvature
     std::optional<EdgeId> other; ///< the edge opposite
     double width = 0;            ///< between the two [model length]
 };
@@ -29,8 +29,8 @@ struct SizeCause {
 /// Sizes over the source, and the causes of the reduction.
 struct ShapeSize {
     SizeField at;
-    std::optional<SizeCause> curvature; ///< of a face
-    std::optional<SizeCause> width;     ///< of a narrow place
+    std::optional<SizeCause> curvature; ///< cause by the curvature of a face
+    std::optional<SizeCause> width;     ///< cause by a narrow place
 };
 
 /// Reduce the requested size where the source faces are curved or narrow, or so thin that straight sides of

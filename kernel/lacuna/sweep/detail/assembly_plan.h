@@ -11,8 +11,8 @@ namespace lacuna::sweep {
 
 /// Decisions over a whole assembly before meshing.
 struct AssemblyPlan {
-    std::vector<std::vector<topology::EdgeNodes>> nodes; ///< of each member's shared edges
-    std::vector<int> layers; ///< of each member with others beside it; 0: not constrained
+    std::vector<std::vector<topology::EdgeNodes>> nodes; ///< for each member's shared edges
+    std::vector<int> layers; ///< for each member with others beside it; 0: not constrained
 };
 
 /// Numbers of sides for all edges of an assembly (interval assignment), and the nodes of shared edges.

@@ -18,13 +18,13 @@ namespace lacuna::sweep {
 /// them.
 struct CellRegion {
     std::vector<Hex> cells; ///< by the region's node numbers
-    std::vector<Vec3> box;  ///< of each cell: its initial mean edges
+    std::vector<Vec3> box;  ///< for each cell: its initial mean edges
     /// Of each cell: the target scaled Jacobian, limited by its fixed nodes.
     std::vector<double> aim;
     std::vector<Index> node;    ///< mesh node of each node
     std::size_t free = 0;       ///< nodes that may move
-    std::vector<Index> surface; ///< of each free node; -1: inside
-    mesh::Incidence uses;       ///< of each free node: 8 · cell + corner
+    std::vector<Index> surface; ///< for each free node; -1: inside
+    mesh::Incidence uses;       ///< for each free node: 8 · cell + corner
 };
 
 /// Cells that are poor although their fixed nodes allow better, and `rings` of neighbours. A corner cannot be
@@ -65,7 +65,7 @@ private:
     const CellRegion& region_;
     const RunContext& context_;
     std::vector<Vec3> places_;
-    std::vector<Vec3> slopes_; ///< of each use
+    std::vector<Vec3> slopes_; ///< for each use
     std::vector<Vec3> normal_; ///< of the surface at each free node; zero inside
 };
 

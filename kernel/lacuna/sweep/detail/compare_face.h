@@ -15,16 +15,16 @@ namespace lacuna::sweep {
 /// The quads of the skin on one face.
 struct SkinOfFace {
     FaceId face;
-    std::vector<Quad> quads;  ///< of nodes of the skin
+    std::vector<Quad> quads;  ///< quads, as nodes of the skin
     std::vector<double> side; ///< the longest of each quad [model length]
-    double mean_side = 0;     ///< of those [model length]
+    double mean_side = 0;     ///< mean of `side` [model length]
 };
 
 /// The nodes of a mesh's skin only, which are few: numbered in the mesh's order, with the quads of every
 /// face.
 struct Skin {
     std::vector<Vec3> points;      ///< [model length]
-    std::vector<Index> node;       ///< of the mesh, for each
+    std::vector<Index> node;       ///< node of the mesh, for each point
     std::vector<SkinOfFace> faces; ///< by their numbers in the model
 };
 
@@ -33,11 +33,11 @@ struct Skin {
 Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count,
              const mesh::LayeredNodes* layers = nullptr, const RunContext& context = {});
 
-/// Allowed distance between a face and its quads.
+/// Allowed distance between a face and its quads [model length], or as a share of a quad's side.
 struct DeviationLimit {
-    double length = 0; ///< for all; 0: a share of the side
-    double share = 0;  ///< of the side of a quad
-    double at_tip = 0; ///< the same within two sides of a tip, where at most four quads meet
+    double length = 0; ///< the same for all quads; 0: a share of the side
+    double share = 0;  ///< allowed distance as a share of the side of a quad
+    double at_tip = 0; ///< that share within two sides of a tip, where at most four quads meet
     double least = 0;  ///< lower bound of both, for short sides
     /// Whether inverted quads are folds: on sharply twisted void walls, where neither skin is given, the
     /// facet nearest to a quad may have any orientation.

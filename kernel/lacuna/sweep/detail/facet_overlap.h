@@ -26,7 +26,7 @@ struct FaceOverlap {
     double least = std::numeric_limits<double>::infinity(); ///< distance within the window [model length]
     double gap = 0;                                         ///< maximum distance where they are apart
     double depth = 0;                                       ///< maximum depth where they overlap
-    Eigen::AlignedBox3d box;                                ///< of the part within the window
+    Eigen::AlignedBox3d box;                                ///< bounding box of the part within the window
 };
 
 using FaceOverlaps = std::map<std::pair<FaceId, FaceId>, FaceOverlap>;

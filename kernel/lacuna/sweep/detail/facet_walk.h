@@ -22,10 +22,10 @@ public:
         Index facet = -1;
         Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, 0 to 1 to rounding, sum 1
         double height = 0;               ///< over the facet, along its normal [model length]
-        /// No other facet is closer: the sides of this one are so far from the foot point that the adjacent
-        /// facets, at their angle to it, do not reach the point. Facets further away are assumed to have no
-        /// sharper angles within that height; otherwise the foot point is still at most as close as the
-        /// closest point.
+        /// Whether no other facet is closer: the sides of this facet are so far from the foot point that the
+        /// adjacent facets, at their angle to it, do not reach the point. This assumes that no facet further
+        /// away, within that height, has a sharper angle. If not set, the foot point is still an upper bound
+        /// of the distance.
         bool nearest = false;
     };
     /// The facet below a point.
@@ -43,7 +43,7 @@ private:
     struct Frame {
         Vec3 corner = Vec3::Zero(), normal = Vec3::Zero();
         Vec3 to_first = Vec3::Zero(), to_second = Vec3::Zero(); ///< gradients of the second and third weight
-        Vec3 altitude = Vec3::Zero(); ///< of each corner over the opposite side; zero: too thin
+        Vec3 altitude = Vec3::Zero(); ///< for each corner over the opposite side; zero: too thin
         double rounding = 0;          ///< tolerance of distances [model length]
         double fold = 1;              ///< tangent of half the sharpest angle to a facet at one of its corners
     };

@@ -12,8 +12,8 @@ namespace lacuna::sweep {
 
 /// Given meshes of faces that the sweep keeps.
 struct GivenMeshes {
-    std::vector<surface::GivenColumns> columns; ///< of each linking surface
-    std::vector<double> heights;                ///< of the layers; empty: not constrained
+    std::vector<surface::GivenColumns> columns; ///< for each linking surface
+    std::vector<double> heights;                ///< heights of the layers; empty: not constrained
     std::vector<std::string> notes;
 };
 

@@ -78,7 +78,7 @@ private:
         double weight;
     };
     std::size_t fixed_count_ = 0;
-    std::vector<Index> place_;       ///< of each node in the factor's order; -1: fixed or not connected
+    std::vector<Index> place_;       ///< for each node in the factor's order; -1: fixed or not connected
     std::vector<RimSide> rim_sides_; ///< sides between a free node and a fixed one
     Eigen::SparseMatrix<double> lower_;
     Eigen::VectorXd diagonal_;

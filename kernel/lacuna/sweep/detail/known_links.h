@@ -15,8 +15,8 @@
 
 namespace lacuna::sweep {
 
-/// What the plans of one volume share, computed when it is first needed: the volume from its other end, the
-/// linking surfaces, sizes, and the numbers that keep its volume.
+/// Data shared by the plans of one volume, computed when first needed: the volume with its ends exchanged,
+/// the linking surfaces, the sizes, and the numbers of sides and layers that keep its volume.
 class KnownLinks {
 public:
     /// @param volume  must outlive this and must not move or change: linking surfaces refer to its model.
@@ -40,9 +40,9 @@ public:
         return links_[{&volume, turning}] = surface::linking_surfaces(volume, turning, {}, context);
     }
 
-    VolumePlan plan; ///< by default nothing
+    VolumePlan plan; ///< default-constructed: no requirements
 
-    /// Where the sizes for so many sides for a turn are kept. @param volume  as in `of()`
+    /// Storage for the sizes at a number of sides per full turn. @param volume  as in `of()`
     std::optional<SourceSize>& sizes(const topology::OpenVolume& volume, int per_turn)
     {
         return sizes_[{&volume, per_turn}];

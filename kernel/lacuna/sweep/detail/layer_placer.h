@@ -43,8 +43,8 @@ private:
     Placement placement_ = Placement::affine;
     double residual_ = 0;                  ///< largest distance of a rim node from its fit [model length]
     double size_ = 0;                      ///< diameter of the rim with that residual [model length]
-    std::vector<LayerMap> maps_;           ///< of the inner layers 1 … layers - 1
-    std::vector<Vec3> residuals_;          ///< of the inner layers' rims; only where fitted
+    std::vector<LayerMap> maps_;           ///< maps of the inner layers 1 … layers - 1
+    std::vector<Vec3> residuals_;          ///< residuals of the inner layers' rims; only where fitted
     std::optional<HarmonicSpread> spread_; ///< only where fitted
 };
 

@@ -10,7 +10,7 @@ namespace lacuna::sweep {
 
 /// The outline in which the source's quads are laid out.
 enum class Outline {
-    source, ///< its own
+    source, ///< the source's own outline
     mean,   ///< halfway to the target's
 };
 

@@ -42,14 +42,14 @@ private:
     mesh::MiddlePlaces places_{mesh_};
     SkinPlaces at_skin_{mesh_};
     LevelBlend blend_{mesh_};
-    std::vector<std::uint8_t> rim_side_; ///< of each side of the source, whether it is on the rim
+    std::vector<std::uint8_t> rim_side_; ///< for each side of the source, whether it is on the rim
     std::vector<std::uint8_t> rim_node_; ///< and of each node
-    /// The bends of the ends beyond their blend from the rim, and the relative height of each level; empty:
-    /// none.
+    /// The bends of the ends that are not explained by blending from the rim, and the relative height of each
+    /// level; empty: there are none.
     std::vector<Vec3> first_, last_;
     std::vector<double> share_;
     bool columns_bend_ = false;
-    std::optional<HarmonicSpread> spread_; ///< of the walls' bends beyond the columns' cubics
+    std::optional<HarmonicSpread> spread_; ///< spreads the walls' bends beyond the columns' cubics
     std::vector<Vec3> beyond_;             ///< those bends of the rim, for each layer
 };
 

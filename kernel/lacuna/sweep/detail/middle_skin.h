@@ -29,7 +29,7 @@ public:
 
     /// @param mesh  with numbers of its sides
     explicit SkinPlaces(const mesh::HexMesh& mesh);
-    /// Of an index among all middle nodes; `kInside`: not on the skin.
+    /// Compact index of a middle node, from its index among all; `kInside`: not on the skin.
     [[nodiscard]] std::size_t of(std::size_t place) const
     {
         const std::size_t level = place / period_, slot = place % period_;
@@ -41,7 +41,7 @@ public:
 
 private:
     std::size_t period_, on_level_, layers_;
-    std::size_t ring_ = 0;    ///< of a level and the layer over it
+    std::size_t ring_ = 0;    ///< number of places on a level and the layer over it
     std::vector<Index> rank_; ///< compact index of each place on a level and the layer above it; -1: inside
 };
 
@@ -55,7 +55,7 @@ public:
     [[nodiscard]] Vec3& node(std::size_t place) { return nodes_[places_.of(place)]; }
     [[nodiscard]] const Vec3& node(std::size_t place) const { return nodes_[places_.of(place)]; }
     void set(std::size_t place, Middle state) { states_[places_.of(place)] = state; }
-    /// Of any middle node.
+    /// State of any middle node, by its index among all.
     [[nodiscard]] Middle state(std::size_t place) const
     {
         const std::size_t at = places_.of(place);
@@ -89,7 +89,7 @@ public:
     /// Compute the bends of all sides on a level that are not `known` from those that are.
     /// @param nodes  of the level.
     /// @param bend   of each side, input and output [model length].
-    /// @param extra  of each side, local: added to what is blended; empty: none.
+    /// @param extra  of each side, local: added to the blended bends; empty: none.
     void blend(const Vec3* nodes, const std::vector<std::uint8_t>& known, std::vector<Vec3>& bend,
                const std::vector<Vec3>& extra = {}) const;
     /// The difference of a level's bends from their blend of the `known` ones, local.
@@ -101,7 +101,7 @@ private:
         Index from, to, side;
     };
     struct Chord {
-        std::size_t begin, end; ///< of `steps_`
+        std::size_t begin, end; ///< range in `steps_`
         bool closed;
     };
     template <class Take>
@@ -125,7 +125,7 @@ ColumnWindow column_window(int layers, int layer);
 /// @param column  its nodes on the levels of a `column_window()`. @param low  which of them is below
 Vec3 column_bend(std::span<const Vec3> column, std::size_t low);
 
-/// The same of a column of the rim.
+/// The same for a column of the rim.
 Vec3 rim_bend(const mesh::SkinNodes& corners, Index node, int layer);
 
 /// The middle of a quad by the middles of its sides and its corners: transfinite.

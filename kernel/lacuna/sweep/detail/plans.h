@@ -11,13 +11,13 @@
 
 namespace lacuna::sweep {
 
-/// One way to mesh a sealed volume: all that a sweep may choose, as numbers.
+/// One way to mesh a sealed volume, with all choices of a sweep as numbers.
 struct Plan {
-    bool turned = false;    ///< swept from the target
-    bool keeps_end = false; ///< the end that it starts from came with quads, which are its mesh
+    bool turned = false;    ///< swept from the target to the source
+    bool keeps_end = false; ///< the end where it starts has given quads, which are kept
     Outline outline = Outline::source;
     surface::Turning turning = surface::Turning::each;
-    std::vector<double> heights{}; ///< of layers that are thinner in bends, as `LayerSpec::heights`
+    std::vector<double> heights{}; ///< heights of layers that are thinner in bends, as `LayerSpec::heights`
     int per_turn = 12;             ///< sides for a full turn
     bool wedges = false;           ///< see `SweepOptions::wedges`
     double below = kPoorCell;      ///< tried if no mesh has this least scaled Jacobian yet
@@ -27,11 +27,12 @@ struct Plan {
 
 /// The ways to mesh a volume, best first.
 ///
-/// First the end that came with quads, if one did, is the source; then an end of several faces, whose inner
-/// edges are mesh edges then; then the source. The same with all loops turned as one body, if their walls do
-/// not tell how far each is turned; the other end; and quads laid out between the outlines of both ends. All
-/// of these with layers that are thinner in bends first, if they gain volume. At order 2 the whole list is
-/// repeated with more sides, which a quad with two sides on a round rim needs.
+/// First the given source and target are used as they are, except that an end with given quads, or else an
+/// end of several faces (whose inner edges become mesh edges), becomes the source. Then follow: all loops
+/// rotated together, if the walls of some loop do not determine its rotation; the other end as source; and
+/// quads laid out between the outlines of both ends. If layers that are thinner in bends reduce the volume
+/// error, all of these come with such layers first. At order 2 the whole list is repeated with more sides,
+/// which a quad with two sides on a round rim needs.
 /// @param options  checked; `curvature` as planned for the volume.
 /// @throw Cancelled
 std::vector<Plan> plans(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,

@@ -17,7 +17,7 @@ namespace lacuna::sweep {
 
 /// The result of adding middle nodes to a mesh.
 struct Elevated {
-    quality::Quality quality; ///< of the cells of order 2
+    quality::Quality quality; ///< quality of the cells of order 2
     std::string report;       ///< a line
     /// Set if the nodes are generated on demand; empty: the mesh holds them all.
     std::optional<PlacedLayers> layers;
@@ -53,7 +53,7 @@ Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const 
 /// The skin of a mesh of order 2 as a mesh of order 1 with four quads for each.
 struct FinerSkin {
     mesh::HexMesh mesh;       ///< its nodes are those of the source
-    mesh::LayeredNodes nodes; ///< of the skin only; refers to its input
+    mesh::LayeredNodes nodes; ///< nodes of the skin only; refers to its input
 };
 /// For comparisons. @pre  order 2
 FinerSkin finer_skin(const mesh::SkinNodes& skin);

@@ -20,7 +20,7 @@ struct PartlyShared {
 struct FacesInCommon {
     std::vector<SharedFace> whole;
     std::vector<PartlyShared> partly;
-    std::vector<NearMiss> near; ///< of faces that are not shared completely
+    std::vector<NearMiss> near; ///< near misses of faces that are not shared completely
 };
 
 /// @throw InvalidInput "assembly.overlap", "assembly.rims_apart", "assembly.crack"  as `shared_faces()`

@@ -16,7 +16,7 @@ namespace lacuna::sweep {
 /// Estimated number of cells of a sweep.
 struct ExpectedCells {
     double all = 0;
-    double unasked = 0; ///< of sweeps without both size and layers
+    double unasked = 0; ///< number of cells of sweeps without both size and layers
 };
 
 /// The sizes of a sweep's quads, and their origin.
@@ -25,11 +25,11 @@ struct SourceSize {
     std::optional<surface::DefaultSize> by_default; ///< if no size is given
     surface::ShapeSizing sizing;
     surface::ShapeSize shape; ///< the requested size, reduced by the shape
-    surface::SizeField along; ///< of the layers: without the default reduction in narrow places
+    surface::SizeField along; ///< size of the layers: without the default reduction in narrow places
     /// A place too narrow for the default of `kDefaultGap` quads across, which would give too many quads in
     /// total.
     std::optional<surface::SizeCause> too_narrow;
-    std::function<int(int least)> layers{}; ///< of `VolumePlan`
+    std::function<int(int least)> layers{}; ///< layers as in `VolumePlan`
     bool narrow = false;                    ///< there are, or may be, narrow places
     ExpectedCells expected{};
 };

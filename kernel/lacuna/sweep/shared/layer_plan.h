@@ -32,7 +32,7 @@ struct LayerPlan {
     PlacementOptions options;
     /// Nodes of the skin that are moved after all are placed, increasing.
     std::vector<std::pair<Index, Vec3>> laid{};
-    std::optional<MiddlePlan> middles{}; ///< of order 2
+    std::optional<MiddlePlan> middles{}; ///< middle nodes, if the mesh is of order 2
 };
 
 /// The cells over a source, without nodes and patches.
@@ -59,7 +59,7 @@ PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> 
 /// The same layers with middle nodes.
 PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunContext& context = {});
 
-/// A plan for other processes, whole and within a message.
+/// Serialise a complete plan as a part of a message to other processes.
 void put(Writer& writer, const LayerPlan& plan);
 void put(Reader& reader, LayerPlan& plan);
 
@@ -70,14 +70,14 @@ struct LayersFound {
     std::optional<quality::Finding> misplaced;
 };
 
-/// Measure all cells of a plan and look for misplaced nodes: with a crew, if there is one.
+/// Measure all cells of a plan and look for misplaced nodes; with a crew, all its processes share the work.
 /// @param least  sufficient scaled Jacobian
 /// @param crew   null: this process only
 /// @throw Cancelled; TeamFailed
 LayersFound find_in_layers(const PlacedLayers& layers, double least, const Crew* crew,
                            const RunContext& context);
 
-/// The crew's part in that, within `do_together()`.
+/// Name of the crew's part of this work in `do_together()`.
 inline constexpr std::string_view kLayersTask = "layers";
 void help_find_in_layers(const std::string& bytes, const Team& team, const RunContext& context);
 

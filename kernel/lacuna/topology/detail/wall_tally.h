@@ -46,7 +46,7 @@ public:
     [[nodiscard]] bool can_hold(std::size_t p) const;
 
 private:
-    /// What the walls lose when a patch becomes an end, and how many rims they may gain; see `can_hold()`.
+    /// Change of the walls' counts when a patch becomes an end; see `can_hold()`.
     struct Taken {
         long fans = 0;        ///< reduction of the number of patch fans round vertices
         long vertices = 0;    ///< vertices that no other patch has

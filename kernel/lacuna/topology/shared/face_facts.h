@@ -10,7 +10,7 @@ namespace lacuna::topology {
 
 /// Facts that help to identify a face.
 struct FaceFacts {
-    Eigen::AlignedBox3d box;        ///< of its facets
+    Eigen::AlignedBox3d box;        ///< bounding box of its facets
     std::vector<FaceId> neighbours; ///< faces that share an edge with it; ascending
     std::vector<EdgeId> free_edges; ///< edges that no other face uses, without seams; ascending
     std::size_t part = 0;           ///< number of its connected part, from 0

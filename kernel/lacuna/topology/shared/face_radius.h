@@ -10,8 +10,8 @@ namespace lacuna::topology {
 /// The cylinder or sphere that a face lies on.
 struct RoundShape {
     double radius = 0;          ///< [model length]
-    Vec3 centre = Vec3::Zero(); ///< of the sphere, or the point of the axis at mid-length of the face
-    std::optional<Vec3> axis;   ///< of a cylinder; unit
+    Vec3 centre = Vec3::Zero(); ///< centre of the sphere, or the point of the axis at mid-length of the face
+    std::optional<Vec3> axis;   ///< unit axis of a cylinder; empty for a sphere
     [[nodiscard]] bool is_sphere() const { return !axis; }
 };
 

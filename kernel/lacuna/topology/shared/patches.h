@@ -12,8 +12,8 @@ namespace lacuna::topology {
 struct SmoothPatch {
     std::vector<FaceId> faces; ///< in the model's order
     std::vector<Rim> rims;
-    std::vector<VertexId> vertices; ///< of the faces' loops, without repeats
-    std::vector<EdgeId> edges;      ///< of the faces' loops, without repeats
+    std::vector<VertexId> vertices; ///< vertices of the faces' loops, without repeats
+    std::vector<EdgeId> edges;      ///< edges of the faces' loops, without repeats
     long inner_euler = 0;           ///< Euler number without the points and sides on `edges`
     Vec3 normal = Vec3::Zero();     ///< unit mean normal
     Vec3 centre = Vec3::Zero();
@@ -21,7 +21,7 @@ struct SmoothPatch {
     double flatness = 0; ///< length of the summed area vector over the area: 1 for a plane
     double slant = 0;    ///< mean deviation from a right angle to its neighbours, as a share of a right angle
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); ///< sum of area n nᵀ over the facets
-    long corners = 0; ///< of its rims, in quarter turns: 4 for a rectangle, 0 for a disc
+    long corners = 0; ///< sum over its rims, in quarter turns: 4 for a rectangle, 0 for a disc
 };
 
 /// Mean angle between the two faces at each edge by their normals, negative at concave edges [degrees]; 0 if

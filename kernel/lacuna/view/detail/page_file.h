@@ -14,7 +14,7 @@ namespace lacuna::view {
 struct Grid {
     Vec3 low = Vec3::Zero(), centre = Vec3::Zero();
     double step = 1;   ///< [model length]
-    double radius = 1; ///< of a ball around the centre that contains everything [model length]
+    double radius = 1; ///< radius of a ball around the centre that contains everything [model length]
 };
 /// The grid over a box; its steps are 2^-21 of the largest extent. @pre  the box is not empty
 Grid grid_over(const Eigen::AlignedBox3d& box);
