@@ -7,7 +7,6 @@
 #include <lacuna/quads/detail/pave_fit.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/raise_flat_quads.h>
-#include <lacuna/quads/detail/refill_cavities.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/detail/triangle_quads.h>
 #include <lacuna/quads/shared/clean_quads.h>
@@ -42,8 +41,7 @@ bool is_conforming(const PlanarQuads& mesh)
     return std::ranges::find(opposite, mesh::kBadSide) == opposite.end();
 }
 
-/// Open folded quads by moving nodes, then by adding nodes (pillows). Quads that stay inverted are removed
-/// together with two rings of neighbours, and the cavity is remeshed.
+/// Open folded quads by moving nodes, then by adding nodes (pillows).
 void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
 {
     const std::size_t fixed = setting.region.points.size();
@@ -67,9 +65,6 @@ void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContex
         if (better) attempt = std::move(tried);
         if (!better || attempt.worst > setting.flat) break;
     }
-    if (attempt.worst > 0) return;
-    attempt.report.refilled = refill_cavities(attempt.mesh, setting.region, setting.size);
-    judge(attempt);
 }
 
 void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thorough,
