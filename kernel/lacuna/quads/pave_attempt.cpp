@@ -86,17 +86,14 @@ void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& r
     std::vector<int> rows;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const int own = rows_for(partial, loops[l], l == 0);
-        rows.push_back(style == RowStyle::no_rows || one_patch ? 0 : style == RowStyle::buffer ? 1 : own);
+        rows.push_back(style == RowStyle::no_rows || one_patch ? 0 : own);
     }
-    const RowKind kind = style == RowStyle::buffer ? RowKind::buffer
-                         : style == RowStyle::thin ? RowKind::thin
-                                                   : RowKind::tall;
     int laid = 0;
     for (int r = 0;; ++r) {
         std::vector<bool> wanted;
         for (const int own : rows) wanted.push_back(own > r);
         if (std::ranges::none_of(wanted, [](bool w) { return w; })) break;
-        laid += lay_rows(partial, loops, wanted, partial.size, kind);
+        laid += lay_rows(partial, loops, wanted, partial.size, RowKind::tall);
         for (std::size_t l = 0; l < loops.size(); ++l) {
             if (!wanted[l]) rows[l] = 0;
         }
