@@ -4,7 +4,6 @@
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_core.h>
-#include <lacuna/quads/detail/pave_fit.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/raise_flat_quads.h>
 #include <lacuna/quads/detail/row_heights.h>
@@ -14,15 +13,6 @@
 
 namespace lacuna::quads::paving {
 namespace {
-
-/// Whether a single mapped patch fills the region well.
-bool is_patch(const PartialMesh& partial, const std::vector<Cycle>& loops)
-{
-    constexpr double kGood = 0.8; // quality above which rows gain nothing; lower uses one patch more often
-    if (loops.size() > 1 || loops.front().size() < 8) return false;
-    const PatchFit fit = fit_patch(partial, loops.front(), corner_angles(partial.points, loops.front()));
-    return fit.quality > kGood;
-}
 
 /// Number of rows to pave along a loop. A round outer loop gets four nodes of three quads where its rows end.
 /// With one row for about sixty nodes these lie at the corners of a square with as many nodes as the loop.
@@ -82,11 +72,10 @@ void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& r
                    const RunContext& context)
 {
     std::vector<Cycle> loops = region.loops;
-    const bool one_patch = style == RowStyle::by_shape && is_patch(partial, loops);
     std::vector<int> rows;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const int own = rows_for(partial, loops[l], l == 0);
-        rows.push_back(style == RowStyle::no_rows || one_patch ? 0 : own);
+        rows.push_back(style == RowStyle::no_rows ? 0 : own);
     }
     int laid = 0;
     for (int r = 0;; ++r) {
@@ -98,7 +87,7 @@ void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& r
             if (!wanted[l]) rows[l] = 0;
         }
     }
-    const bool is_one_patch = fill_core(partial, loops, one_patch, context);
+    const bool is_one_patch = fill_core(partial, loops, context);
     attempt.report.used = is_one_patch && laid == 0 ? "mapped" : "paved";
     attempt.mesh = {partial.points, partial.quads};
     drop_loose_points(attempt.mesh, partial.fixed);
