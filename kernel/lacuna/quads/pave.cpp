@@ -139,8 +139,6 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
         if (!is_symmetric) symmetrise(best.mesh, region.points.size(), symmetries);
     }
     best.mesh.how = best.report.used;
-    if (best.report.refilled > 0)
-        best.mesh.how += formatted(", {} places by split triangles", best.report.refilled);
     return {std::move(best.mesh), std::move(best.report)};
 }
 

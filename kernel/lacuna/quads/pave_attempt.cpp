@@ -6,24 +6,14 @@
 #include <lacuna/quads/detail/clean_quads.h>
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_core.h>
-#include <lacuna/quads/detail/pave_fit.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/raise_flat_quads.h>
-#include <lacuna/quads/detail/refill_cavities.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/detail/triangle_quads.h>
 
 namespace lacuna::quads::paving {
 namespace {
-
-/// Whether a single mapped patch fills the region well.
-bool is_patch(const PartialMesh& partial, const std::vector<Cycle>& loops)
-{
-    if (loops.size() > 1 || loops.front().size() < 8) return false;
-    const PatchFit fit = fit_patch(partial, loops.front(), corner_angles(partial.points, loops.front()));
-    return fit.quality > kGoodQuad;
-}
 
 /// Number of rows to pave along a loop. A round outer loop gets four nodes of three quads where its rows end.
 /// With one row for about sixty nodes these lie at the corners of a square with as many nodes as the loop.
@@ -42,8 +32,7 @@ bool is_conforming(const PlanarQuads& mesh)
     return std::ranges::find(opposite, mesh::kBadSide) == opposite.end();
 }
 
-/// Open folded quads by moving nodes, then by adding nodes (pillows). Quads that stay inverted are removed
-/// together with two rings of neighbours, and the cavity is remeshed.
+/// Open folded quads by moving nodes, then by adding nodes (pillows).
 void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
 {
     const std::size_t fixed = setting.region.points.size();
@@ -67,9 +56,6 @@ void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContex
         if (better) attempt = std::move(tried);
         if (!better || attempt.worst > setting.flat) break;
     }
-    if (attempt.worst > 0) return;
-    attempt.report.refilled = refill_cavities(attempt.mesh, setting.region, setting.size);
-    judge(attempt);
 }
 
 void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thorough,
@@ -87,26 +73,22 @@ void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& r
                    const RunContext& context)
 {
     std::vector<Cycle> loops = region.loops;
-    const bool one_patch = style == RowStyle::by_shape && is_patch(partial, loops);
     std::vector<int> rows;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const int own = rows_for(partial, loops[l], l == 0);
-        rows.push_back(style == RowStyle::no_rows || one_patch ? 0 : style == RowStyle::buffer ? 1 : own);
+        rows.push_back(style == RowStyle::no_rows ? 0 : own);
     }
-    const RowKind kind = style == RowStyle::buffer ? RowKind::buffer
-                         : style == RowStyle::thin ? RowKind::thin
-                                                   : RowKind::tall;
     int laid = 0;
     for (int r = 0;; ++r) {
         std::vector<bool> wanted;
         for (const int own : rows) wanted.push_back(own > r);
         if (std::ranges::none_of(wanted, [](bool w) { return w; })) break;
-        laid += lay_rows(partial, loops, wanted, partial.size, kind);
+        laid += lay_rows(partial, loops, wanted, partial.size, RowKind::tall);
         for (std::size_t l = 0; l < loops.size(); ++l) {
             if (!wanted[l]) rows[l] = 0;
         }
     }
-    const bool is_one_patch = fill_core(partial, loops, one_patch, context);
+    const bool is_one_patch = fill_core(partial, loops, context);
     attempt.report.used = is_one_patch && laid == 0 ? "mapped" : "paved";
     attempt.mesh = {partial.points, partial.quads};
     drop_loose_points(attempt.mesh, partial.fixed);

@@ -457,10 +457,7 @@ void AttemptChooser::try_default_weights()
         if (best_.worst > kPoorQuad) return;
     }
     pave_in(RowStyle::by_shape);
-    if (best_.worst <= setting_.flat) pave_in(RowStyle::buffer);
-    for (const RowStyle style : {RowStyle::no_rows, RowStyle::thin}) {
-        if (best_.worst <= 0 || (is_small() && !is_good_enough())) pave_in(style);
-    }
+    if (best_.worst <= 0 || (is_small() && !is_good_enough())) pave_in(RowStyle::no_rows);
 }
 
 double AttemptChooser::score_with(RowStyle style, const CutWeights& weights) const

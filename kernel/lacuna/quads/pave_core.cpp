@@ -115,8 +115,7 @@ double good_patch(const CutWeights& weights, std::size_t nodes)
 
 } // namespace
 
-bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, bool one_patch,
-               const RunContext& context)
+bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, const RunContext& context)
 {
     bool is_one_patch = false;
     for_sides_of(loops, [&](Index a, Index b) { partial.link(a, b); });
@@ -133,8 +132,7 @@ bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, bool one_p
         const std::vector<double> angles = corner_angles(partial.points, cycle);
         const PatchFit fit = fit_patch(partial, cycle, angles);
         std::optional<Cut> cut;
-        if (!one_patch && fit.quality < good_patch(partial.weights, cycle.size()))
-            cut = best_cut(partial, cycle, angles);
+        if (fit.quality < good_patch(partial.weights, cycle.size())) cut = best_cut(partial, cycle, angles);
         if (!cut && fit.quality > 0 && fill_patch(partial, cycle, fit.corners)) {
             is_one_patch = is_whole;
             continue;

@@ -6,7 +6,6 @@
 #include <lacuna/quads/detail/patch_template.h>
 
 #include <array>
-#include <numeric>
 
 namespace lacuna::quads::paving {
 namespace {
@@ -22,10 +21,7 @@ constexpr std::size_t kSamples = 6;
 
 /// The quality of a block of a patch: the least sine of its worst sample cell, reduced if cells miss the size
 /// asked.
-/// @param virtual_corner  true if a corner of the patch is not on the outline but an inner node that will
-///                        move, so the cell there is ignored.
-double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& side,
-                   const std::array<bool, 4>& virtual_corner)
+double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& side)
 {
     const std::size_t n = side[0].points.size() - 1, m = side[1].points.size() - 1;
     const auto& [b, r, t, l] = side;
@@ -37,11 +33,7 @@ double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& sid
         for (std::size_t i = 0; i < n; ++i) {
             const Vec2 &p0 = grid[j * (n + 1) + i], &p1 = grid[j * (n + 1) + i + 1];
             const Vec2 &p3 = grid[(j + 1) * (n + 1) + i], &p2 = grid[(j + 1) * (n + 1) + i + 1];
-            const bool corner[4] = {i == 0 && j == 0, i + 1 == n && j == 0, i + 1 == n && j + 1 == m,
-                                    i == 0 && j + 1 == m};
-            bool skip = false;
-            for (std::size_t k = 0; k < 4; ++k) skip = skip || (corner[k] && virtual_corner[k]);
-            if (!skip || (n == 1 && m == 1)) worst = std::min(worst, least_sine(p0, p1, p2, p3));
+            worst = std::min(worst, least_sine(p0, p1, p2, p3));
             const double size = partial.size((p0 + p1 + p2 + p3) / 4);
             const double across = std::max(b.edges, t.edges) / static_cast<double>(n);
             const double along = std::max(l.edges, r.edges) / static_cast<double>(m);
@@ -72,8 +64,7 @@ Sampled reversed(Sampled side)
     return side;
 }
 
-double judge_four(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles,
-                  const std::vector<std::size_t>& corners)
+double judge_four(const PartialMesh& partial, const Cycle& cycle, const std::vector<std::size_t>& corners)
 {
     const SideCounts counts = side_counts(cycle.size(), corners);
     if (!can_fill(counts)) return -1;
@@ -85,10 +76,7 @@ double judge_four(const PartialMesh& partial, const Cycle& cycle, const std::vec
                                       sample(partial, cycle, corners[1], edges[1], m),
                                       reversed(sample(partial, cycle, corners[2], edges[2], n)),
                                       reversed(sample(partial, cycle, corners[3], edges[3], m))};
-    std::array<bool, 4> is_virtual{};
-    for (std::size_t k = 0; k < 4; ++k)
-        is_virtual[k] = angles[corners[k]] > kCornerBelow * kDegree && !partial.is_fixed(cycle[corners[k]]);
-    const double quality = judge_block(partial, side, is_virtual);
+    const double quality = judge_block(partial, side);
     // Columns that turn off to a neighbouring side bend the grid, and lower the quality more the more of them
     // there are.
     const auto excess = [](std::size_t a, std::size_t c) {
@@ -127,40 +115,9 @@ double judge_star(const PartialMesh& partial, const Cycle& cycle, const std::vec
             sample(partial, cycle, corners[i], foot(i), a), straight(at[i], rest, b),
             straight(at[before], foot(i), a),
             reversed(sample(partial, cycle, (corners[before] + foot(before)) % size, rest, b))};
-        quality = std::min(quality, judge_block(partial, side, {}));
+        quality = std::min(quality, judge_block(partial, side));
     }
     return quality;
-}
-
-/// The best four corners of a loop without corners: those of a square or rectangle with as many edges.
-PatchFit fit_round(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles)
-{
-    const std::size_t n = cycle.size(), half = n / 2;
-    PatchFit best;
-    best.quality = -1;
-    if (n < 8 || n % 2 != 0) return best;
-    constexpr std::size_t kTurns = 24; // limit of first corners that are tried
-    const std::size_t step = std::max<std::size_t>(1, half / kTurns);
-    for (std::size_t start = 0; start < half; start += step) {
-        for (const double share : {0.5, 0.4, 0.3, 0.2}) {
-            const auto a = static_cast<std::size_t>(std::lround(static_cast<double>(half) * share));
-            if (a < 2 || half - a < 2) continue;
-            for (const std::size_t first : {a, half - a}) {
-                const std::vector<std::size_t> corners{start, start + first, start + half,
-                                                       (start + half + first) % n};
-                bool free = true;
-                for (const std::size_t c : corners) free = free && !partial.is_fixed(cycle[c % n]);
-                if (!free || corners[2] >= n || corners[3] < start) continue;
-                const double quality = judge_four(partial, cycle, angles, corners);
-                if (quality > best.quality) best = {corners, quality};
-            }
-        }
-    }
-    // The grid's corners lie on a round outline, so its corner cells are skewed.
-    // Factor on the quality: a patch without corners must be that much better than a cut.
-    constexpr double kBend = 0.8;
-    best.quality *= best.quality > 0 ? kBend : 1;
-    return best;
 }
 
 } // namespace
@@ -172,25 +129,8 @@ PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::ve
         if (angles[i] > kReversalAbove * kDegree) return {};
         if (angles[i] < kCornerBelow * kDegree) fit.corners.push_back(i);
     }
-    if (fit.corners.empty()) return fit_round(partial, cycle, angles);
-    if (fit.corners.size() == 3) {
-        // A wide corner may be the fourth corner if its neighbours are wider still.
-        std::vector<std::size_t> order(cycle.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::partial_sort(order.begin(), order.begin() + 5, order.end(), [&](std::size_t a, std::size_t b) {
-            return std::pair(angles[a], a) < std::pair(angles[b], b);
-        });
-        // Difference of angle by which a fourth corner must stand out against the next candidate, 10°.
-        constexpr double kClear = kRightAngle / 9;
-        if (angles[order[3]] + kClear < angles[order[4]]) {
-            std::vector<std::size_t> four(order.begin(), order.begin() + 4);
-            std::ranges::sort(four);
-            const double quality = judge_four(partial, cycle, angles, four);
-            if (quality > 0) return {four, quality};
-        }
-    }
     if (fit.corners.size() == 4)
-        fit.quality = judge_four(partial, cycle, angles, fit.corners);
+        fit.quality = judge_four(partial, cycle, fit.corners);
     else if (fit.corners.size() == 3 || fit.corners.size() == 5)
         fit.quality = judge_star(partial, cycle, fit.corners);
     else

@@ -49,11 +49,7 @@ std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
 class RowTrial {
 public:
     RowTrial(PartialMesh& partial, const Cycle& cycle, RowKind kind)
-        : partial_(partial),
-          cycle_(cycle),
-          n_(cycle.size()),
-          kind_(kind),
-          least_quads_(kind == RowKind::buffer ? 2 : 1)
+        : partial_(partial), cycle_(cycle), n_(cycle.size()), kind_(kind)
     {
     }
 
@@ -68,7 +64,7 @@ public:
             Cycle inner = add_quads();
             bool good = inner.size() >= 4;
             for (std::size_t q = quads; q < partial_.quads.size() && good; ++q)
-                good = least_sine(partial_, partial_.quads[q]) > (least_quads_ > 1 ? 0 : kFoldedQuad);
+                good = least_sine(partial_, partial_.quads[q]) > kFoldedQuad;
             if (good) return inner;
         }
         partial_.points.resize(points);
@@ -77,10 +73,7 @@ public:
     }
 
 private:
-    [[nodiscard]] int kind(std::size_t i) const
-    {
-        return std::clamp(quads_in(angles_[i % n_]), least_quads_, kMostQuads);
-    }
+    [[nodiscard]] int kind(std::size_t i) const { return std::min(quads_in(angles_[i % n_]), kMostQuads); }
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
     /// Each end removes a node from the sides before and after it, so sides of at least three edges keep one.
@@ -102,7 +95,6 @@ private:
     /// hundredth, for rounding only.
     [[nodiscard]] bool high_enough(const SizeField& height) const
     {
-        if (kind_ != RowKind::tall && kind_ != RowKind::exact) return true;
         const double kSqueezed = kind_ == RowKind::exact ? 0.99 : 0.6,
                      kMost = kind_ == RowKind::exact ? 0 : 0.25;
         std::size_t squeezed = 0;
@@ -163,7 +155,6 @@ private:
     const Cycle& cycle_;
     std::size_t n_;
     RowKind kind_;
-    int least_quads_;
     std::vector<double> angles_, heights_;
     std::vector<Cycle> inner_;
 };
@@ -178,24 +169,6 @@ bool needs_row(const PartialMesh& partial, const Cycle& cycle)
     return off > kRightAngle / 2;
 }
 
-namespace {
-
-std::optional<Cycle> lay_one(PartialMesh& partial, const Cycle& cycle, const GapFinder& gaps,
-                             const SizeField& height, RowKind kind)
-{
-    if (kind != RowKind::buffer) return RowTrial(partial, cycle, kind).lay(gaps, height);
-    constexpr int kFlatter = 5; // attempts, each with half the height of the previous, down to a sixteenth
-    for (double part = 1; part > std::ldexp(1.0, -kFlatter); part /= 2) {
-        auto inner = RowTrial(partial, cycle, kind).lay(gaps, [&](const Vec2& p) {
-            return part * height(p);
-        });
-        if (inner) return inner;
-    }
-    return std::nullopt;
-}
-
-} // namespace
-
 int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>& wanted,
              const SizeField& height, RowKind kind)
 {
@@ -206,7 +179,7 @@ int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>&
         for (std::size_t l = 0; l < loops.size(); ++l) {
             inner[l].reset();
             if (!wanted[l]) continue;
-            inner[l] = lay_one(partial, loops[l], gaps, height, kind);
+            inner[l] = RowTrial(partial, loops[l], kind).lay(gaps, height);
             if (!inner[l]) wanted[l] = false;
         }
         std::vector<Cycle> next;

@@ -11,8 +11,6 @@ namespace lacuna::quads::paving {
 enum class RowStyle {
     by_shape,  ///< as many rows as suit each loop
     no_rows,   ///< none; the region is cut as it is
-    thin,      ///< also rows where loops are close to each other
-    buffer,    ///< one row with at least two quads at every node, so that all other nodes can move
     triangles, ///< none; `quads_of_triangles()` fills the region
 };
 

@@ -8,11 +8,9 @@ namespace lacuna::quads::paving {
 
 /// Fill the area between loops with quads. Holes are joined to the outer loop; then the loop is cut in two
 /// recursively, until every part is a good patch or a loop of six nodes or fewer.
-/// @param one_patch  fill the only loop without a cut if any template fits.
 /// @return whether `fill_patch()` filled everything as one part, without a cut.
 /// @pre   the total number of nodes of the loops is even.
 /// @throw Cancelled  by the context.
-bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, bool one_patch,
-               const RunContext& context);
+bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, const RunContext& context);
 
 } // namespace lacuna::quads::paving

@@ -16,8 +16,7 @@ struct PatchFit {
 /// The best corners of a loop, and the quality of a patch with these corners, estimated from a few sample
 /// cells.
 ///
-/// Nodes where the outline turns are corners. A loop without corners gets four at the most suitable of its
-/// inner nodes: such a loop has rows around it, so quads at its nodes need not be flat.
+/// Nodes where the outline turns are corners.
 PatchFit fit_patch(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles);
 
 } // namespace lacuna::quads::paving

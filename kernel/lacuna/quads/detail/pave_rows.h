@@ -10,9 +10,7 @@ namespace lacuna::quads::paving {
 /// How strictly a row keeps its height.
 enum class RowKind {
     tall,  ///< as high as asked on most of the loop, otherwise the row is dropped
-    thin,  ///< placed even if the next loop is near
     exact, ///< as high as asked everywhere, otherwise the row is dropped
-    buffer ///< at least two quads at every node; made flatter until the row fits
 };
 
 /// Whether a loop needs a row: its nodes other than corners turn by more than half a right angle in sum.
