@@ -4,8 +4,8 @@
 #include <lacuna/core/error.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/linking_surface.h>
-#include <lacuna/sweep/detail/turned_round.h>
 #include <lacuna/sweep/detail/plan_heights.h>
+#include <lacuna/sweep/detail/turned_round.h>
 
 #include <algorithm>
 #include <utility>

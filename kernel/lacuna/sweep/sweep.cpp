@@ -115,8 +115,8 @@ constexpr std::size_t kMostTried = 6;
 /// Error code of an end with given triangles: no plan may remesh it without a request.
 constexpr std::string_view kOwnTriangles = "surface.given_triangles";
 
-/// The only search: meshes the plans, best first, as long as the mesh is poor, and returns the best mesh that is
-/// valid and has the right shape.
+/// The only search: meshes the plans, best first, as long as the mesh is poor, and returns the best mesh that
+/// is valid and has the right shape.
 class Search {
 public:
     Search(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,

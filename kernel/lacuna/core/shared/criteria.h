@@ -67,8 +67,8 @@ inline constexpr double kFlatShare = kParallel * kParallel / 2;
 /// A quad below this counts as folded (6°). No row may contain one, and no change of connections may create
 /// one.
 inline constexpr double kFoldedQuad = 0.1;
-/// A quad below this counts as flat (9°). Its nodes are moved first, because smoothing hardly improves it where
-/// they are on a boundary.
+/// A quad below this counts as flat (9°). Its nodes are moved first, because smoothing hardly improves it
+/// where they are on a boundary.
 inline constexpr double kFlatQuad = 0.15;
 
 /// A quad below the first value is poor (30°) and gets further attempts; one above the second is good (53°)
