@@ -191,8 +191,8 @@ TEST_CASE("the kind of a face is known, also where Gmsh does not say it")
     const test::TempFolder folder;
     const auto kinds = [&](const std::function<void()>& build) {
         std::set<std::string> found;
-        for (const topology::Face& face : cad::load({folder.gmsh("shape.brep", build)}).faces)
-            found.insert(face.kind);
+        const topology::Model model = cad::load({folder.gmsh("shape.brep", build)});
+        for (const topology::Face& face : model.faces) found.insert(face.kind);
         return found;
     };
     CHECK(kinds([] { occ::addCylinder(0, 0, 0, 0, 0, 2, 1); }) == std::set<std::string>{"cylinder", "plane"});
@@ -295,8 +295,8 @@ TEST_CASE("labels that CAD programs write by default are no names of faces, thos
             if (last == "." + std::to_string(number)) own.replace(at, end - at, label);
         }
         std::multiset<std::string> found;
-        for (const topology::Face& face : cad::load({folder.write("named.step", own)}).faces)
-            found.insert(face.name);
+        const topology::Model model = cad::load({folder.write("named.step", own)});
+        for (const topology::Face& face : model.faces) found.insert(face.name);
         return found;
     };
     const std::multiset<std::string> none{"", "", "", ""};
