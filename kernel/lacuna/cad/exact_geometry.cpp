@@ -92,9 +92,9 @@ CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Mess
     } catch (const Error& error) {
         trouble = error.message();
     }
-    throw BackendError(
-        Message("cad.file_changed", "{}, and could not be read again: {}", why.parts(), trouble.parts())
-            .remedy("load the file again for its exact geometry"));
+    throw BackendError(Message("cad.file_changed", "{}, and the file could not be read again: {}",
+                               why.parts(), trouble.parts())
+                           .remedy("load the file again for its exact geometry"));
 }
 
 // --- points ---------------------------------------------------------------------------------------------

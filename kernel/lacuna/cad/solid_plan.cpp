@@ -83,7 +83,7 @@ public:
             try {
                 plan_.request.faces.push_back(plan(FaceId(f)));
             } catch (const BackendError& error) {
-                throw BackendError("cad.face_failed", "{} could not be made: {}",
+                throw BackendError("cad.face_failed", "{} cannot be written as a CAD face: {}",
                                    entity_of(model_, FaceId(f)), error.message().parts());
             }
         }

@@ -16,7 +16,7 @@ void keep_from_writing();
 /// A seccomp filter traps every call that opens or inspects a path, and a SIGSYS handler decides: the name of
 /// an offered file leads to its descriptor, other files can only be opened for reading.
 ///
-/// @return  features that this kernel lacks, for a person; empty if none.
+/// @return  the protection that the Linux kernel lacks, and its purpose, as text; empty if none.
 /// @throw BackendError  the kernel has no seccomp filters; CAD files are then not read at all.
 std::string confine();
 

@@ -182,7 +182,8 @@ void serve(Channel& channel, const std::string& missing)
         } catch (const ChannelClosed&) {
             return;
         } catch (const ProtocolError& error) {
-            failed(Failure::backend, Message("cad.protocol", "{}", error.what()));
+            failed(Failure::backend,
+                   Message("cad.protocol", "the CAD process received an invalid request: {}", error.what()));
         } catch (const InvalidInput& error) {
             failed(Failure::invalid_input, error.message());
         } catch (const NotSweepable& error) {
@@ -193,7 +194,8 @@ void serve(Channel& channel, const std::string& missing)
             failed(Failure::out_of_memory, Message("cad.memory_limit", "out of memory")
                                                .remedy("raise the limit with LACUNA_CAD_MEGABYTES"));
         } catch (const std::exception& error) {
-            failed(Failure::backend, Message("cad.gmsh", "{}", error.what()));
+            failed(Failure::backend,
+                   Message("cad.gmsh", "the CAD process failed unexpectedly: {}", error.what()));
         }
     }
 }

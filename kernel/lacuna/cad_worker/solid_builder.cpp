@@ -144,7 +144,8 @@ cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& s
                 const auto place = is(tag + shift) ? std::find(fresh.begin(), fresh.end(), tag + shift)
                                                    : std::find_if(fresh.begin(), fresh.end(), is);
                 if (place == fresh.end())
-                    throw BackendError(Message("cad.lost", "{} of {} was lost when copied through a file",
+                    throw BackendError(Message("cad.lost",
+                                               "{} of {} was not found in a BREP copy of its geometry",
                                                NamedEntity{dim == 2 ? "face" : "curve", tag}, source.path)
                                            .remedy("repair it in the CAD system"));
                 matched[tag] = *place;
@@ -307,7 +308,7 @@ cad_protocol::MakeSolidReply SolidBuilder::make(const cad_protocol::MakeSolidReq
             const std::vector<int> tags = session_.run([&] { return make_face(face); });
             faces.insert(faces.end(), tags.begin(), tags.end());
         } catch (const BackendError& error) {
-            throw BackendError("cad.face_failed", "{} could not be made: {}", face.entity,
+            throw BackendError("cad.face_failed", "{} cannot be written as a CAD face: {}", face.entity,
                                error.message().parts());
         }
         progress(static_cast<double>(f + 1) / static_cast<double>(request.faces.size()));

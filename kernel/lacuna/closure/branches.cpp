@@ -226,10 +226,10 @@ private:
         throw NotSweepable(
             Message("closure.branches", "the branch of {} on {} cannot be cut automatically: {}",
                     wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host), why)
-                .remedy("cut by hand on both sides of the branch's mouth, from {} to {}, with planes of "
-                        "normal {{{:.3g}, {:.3g}, {:.3g}}}",
-                        place_with_digits(on_axis(own.low), 4), place_with_digits(on_axis(own.high), 4),
-                        axis_.x(), axis_.y(), axis_.z()));
+                .remedy("cut by planes of normal {{{:.3g}, {:.3g}, {:.3g}}} on both sides of the branch's "
+                        "mouth, which extends from {} to {}",
+                        axis_.x(), axis_.y(), axis_.z(), place_with_digits(on_axis(own.low), 4),
+                        place_with_digits(on_axis(own.high), 4)));
     }
 
     [[nodiscard]] NamedEntity wall_entity(const Mouth& mouth, std::size_t region) const
@@ -260,8 +260,8 @@ private:
             const double facing = std::abs(face_area_vector(model, face).dot(outward));
             if (!is_at(mouth, face) || facing <= kAlongWay * face_area(model, face)) continue;
             throw NotSweepable(Message("closure.branches",
-                                       "the branch of {} on {} reaches beyond the side of the main body: at "
-                                       "its mouth, {} faces along the branch instead of across it",
+                                       "the branch of {} on {} reaches beyond the side of the main body: "
+                                       "next to its mouth, the normal of {} points along the branch",
                                        wall_entity(mouth, mouth.branch), wall_entity(mouth, mouth.host),
                                        entity_of(model, face))
                                    .remedy("move the branch towards the middle, or make it narrower"));

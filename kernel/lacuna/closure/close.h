@@ -78,8 +78,8 @@ struct Closed {
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, the reason, and a shape or
 ///         direction that would seal it. "closure.shape_open": the shape of the missing faces is ambiguous
 ///         and neither a shape nor `take_guess` was given; names the adjacent faces. "closure.holes_open": an
-///         end is missing and the given one has holes without walls; reports the volume with these covered
-///         and extended.
+///         end is missing and the given one has holes without walls; reports both volumes: with the holes
+///         covered, and with the holes extended to the other end.
 /// @throw InvalidInput  a user's void edge that is not possible; names its vertices. An option that does not
 ///         apply to the volume.
 /// @throw Cancelled

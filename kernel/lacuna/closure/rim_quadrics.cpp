@@ -33,8 +33,9 @@ constexpr double kOnQuadric = 1e-4;
 /// Number of conditions beyond the nine that determine a quadric. Nine points always lie on a quadric; the
 /// spare ones show that the rim really lies on it. More would exclude rims of few points.
 constexpr Eigen::Index kSpare = 4;
-/// Tolerance for a special quadric, as a share of its largest coefficient. It may be wide, because the
-/// quadric passes through the rim anyway.
+/// Largest relative deviation (of principal curvatures or singular values) at which a quadric counts as a
+/// ball, a round cone, a cylinder or a pair of planes. It may be large, because the quadric passes through
+/// the rim anyway.
 constexpr double kSpecial = 0.01;
 /// A quadric is steep where the cosine between its gradient and the plane's normal is below the first value,
 /// as on the walls that end at the rim. It may be steep along the second share of the rim, because a shaft as

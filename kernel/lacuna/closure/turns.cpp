@@ -136,10 +136,11 @@ std::vector<char> points_on_edges(const Model& model)
     return on_edge;
 }
 
-/// On which side of a part's ends its walls stand: the sum over the facet sides common to an end and a wall
-/// of length times the cosine between the wall and the end's normal. Positive: on the side that the ends
-/// face; negative: on the other side; 0: on both, or the part lacks an end. Walls that join two ends stand on
-/// the void's side; only walls of a step stand on the other side.
+/// Whether a part's walls are in front of its ends, where their normals point (positive), or behind them
+/// (negative); 0 if some are in front and some behind, or if the part lacks an end. A wall between both ends
+/// is on the void's side of each; only the risers of a stepped end are on the other side of the end above.
+/// @return  sum over the facet sides that an end and a wall share: length times the cosine of the angle
+///          between the wall and the end's normal [model length].
 double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,
                      const std::vector<char>& on_edge)
 {

@@ -118,8 +118,8 @@ private:
 
 /// An error or a note, as data and as text.
 ///
-///     Message("surface.sides_asked", "{} has {} sides, but {} are asked for", face, found(7), needed(9))
-///         .remedy("give an even number")
+///     Message("surface.sides_asked", "{} has {} sides, but {} are needed", edge, found(7), needed(8))
+///         .remedy("load with keep_mesh = false")
 ///
 /// Visible, as hosts of the shared library copy the message of an error that they caught.
 class __attribute__((visibility("default"))) Message {

@@ -24,7 +24,7 @@ public:
 
     /// The columns in which row k of L has entries, ordered so that each comes after those it depends on;
     /// stored at the end of `row_`.
-    /// @param tells  called with each entry of column k of the upper triangle.
+    /// @param tell  called with each entry of column k of the upper triangle.
     template <class Tell>
     std::span<const int> of(const Matrix& upper, int k, const Tell& tell)
     {

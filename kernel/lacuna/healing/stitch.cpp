@@ -22,7 +22,8 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Points on an exact curve closer than this share of a side merge: facets between them would be slivers.
+/// Points on an exact curve merge if they are closer than this share of the shortest segment next to them:
+/// facets between them would be slivers.
 constexpr double kJoinOnCurve = 0.25;
 
 class Stitcher {

@@ -25,8 +25,8 @@ constexpr double kFairMean = 0.7, kFairEven = 0.6;
 /// many as the other needs.
 bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
 {
-    // Same rule as `alike()`, for counts instead of lengths; up to four sides any ratio is accepted.
-    // Heuristic.
+    // Same rule as `alike()`, for numbers of quads instead of lengths; any ratio is accepted if neither side
+    // has more than four quads. Heuristic.
     constexpr int kUnlike = 3, kFew = 4;
     return std::ranges::all_of(pairs, [&](const SidePair& sides) {
         const int a = total(seeds, sides[0]), b = total(seeds, sides[1]);

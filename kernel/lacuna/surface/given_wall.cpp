@@ -38,8 +38,8 @@ public:
             const bool beside = !ways.empty() && !ways.back().faces->empty();
             const std::size_t before = ways.empty() ? 0 : ways.back().node;
             if (!add_way(stub.at, stub.from_target, stub.points, stub.faces, ways)) refuse_stub(stub);
-            // A rim with an odd count has an additional node on one side; other extra nodes belong to the
-            // opposite end.
+            // Between adjacent given columns there may be one more node, which splits a side of a rim with an
+            // odd count. More nodes come from the opposite rim, which has another mesh.
             if (beside && (ways.back().node + count_ - before) % count_ > 2) refuse_stub(stub);
         }
         take_ways(up, false);

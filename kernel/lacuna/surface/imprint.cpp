@@ -96,7 +96,8 @@ private:
         return true;
     }
 
-    /// An end with a long tube inside its rim becomes vanishingly small when it is mapped to the other end.
+    /// Refuse an edge that is mapped to a far shorter one on the other end, because its own end is deep
+    /// inside its rim, such as the floor of a long tube.
     void check_sizes() const
     {
         for (const auto& [edge, image] : result_.images) {
@@ -161,7 +162,7 @@ private:
             const EdgeId edge = flat_.source[piece.edge].edge;
             part[k] = edge;
             if (k == 0 || low[k - 1].edge != piece.edge) continue;
-            // The edge still runs from its start to the end of this piece.
+            // Pieces are split off from the last to the first, so the edge now ends where this piece ends.
             const EdgeSplit made = split_at(model(), edge, piece.from_at / piece.to_at, inner_.front());
             part[k] = made.behind;
             flat_.vertex[piece.from] = made.vertex;

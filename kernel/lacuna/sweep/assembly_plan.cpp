@@ -294,11 +294,12 @@ private:
         const auto [found, fresh] = intervals_.try_emplace(classes_.find(e), sides);
         if (fresh || found->second.count == sides.count) return;
         const SidesOfClass& before = found->second;
-        throw NotSweepable(Message("surface.sides_asked",
-                                   "intervals: {}: {} asks for {} sides, and {}: {} for {}", sides.region,
-                                   sides.name, lacuna::found(sides.count), before.region, before.name,
-                                   needed(before.count))
-                               .remedy("volumes that share an edge need the same number there"));
+        throw NotSweepable(
+            Message("surface.sides_asked",
+                    "intervals: matching edges cannot have both {} sides ({}: {}) and {} ({}: {})",
+                    lacuna::found(sides.count), sides.region, sides.name, needed(before.count), before.region,
+                    before.name)
+                .remedy("volumes that share an edge need the same number there"));
     }
 
     /// Opposite edges of walls have equal numbers because walls have rows and columns; so have those of an

@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    /// The cells that contain side `e` of a cell.
+    /// The cells around edge `e` (0 to 11, see `mesh::kHexEdges`) of a cell.
     std::vector<std::size_t> cells_round(std::size_t cell, std::size_t e) const
     {
         const std::size_t quads = mesh_.quads.size(), layer = cell / quads, q = cell % quads;

@@ -35,7 +35,7 @@ public:
         Eigen::AlignedBox3d box;
         for (const DrawnSide& side : scene.sides)
             for (std::size_t k = 0; k < side.count; ++k) box.extend(turn_ * side.corner[k]);
-        // In a picture too low for its texts, the object is drawn behind them.
+        // If title and legend leave too little height, the object is drawn behind them at full height.
         const double words = legend.above + legend.below, room = options.height - words;
         const bool beside = room > options.height * kLeastShare;
         const double width = options.width * kSamples;

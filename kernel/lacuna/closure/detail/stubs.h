@@ -7,11 +7,11 @@
 
 namespace lacuna::closure {
 
-/// Wall parts that surround a whole loop of one end and do not reach the other: the lowest or topmost faces
-/// of a stack whose middle is missing.
+/// Add to each end the walls that surround a whole loop of it and do not reach the other end: the lowest or
+/// topmost faces of a stack whose middle is missing.
 ///
-/// During closing they count as part of that end, so that its open loop is their free rim; the gap is then
-/// closed as between any source and target.
+/// The free rim of these walls then is the end's open loop, so the gap can be closed as between any source
+/// and target.
 /// @return  the faces whose role changed; set them back to Role::wall after closing.
 std::vector<FaceId> lend_stubs_to_ends(topology::OpenVolume& volume);
 

@@ -52,7 +52,7 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
 /// followed by the node sets, with "nodes:" before their names.
 /// @param deck   must outlive the view, as must `parts`.
 /// @param parts  meshes that `deck_without_bulk()` omitted; empty: the deck has all.
-/// @note  O(n) in the elements and the members of sets, plus the search for sparse tags.
+/// @note  O(n) in the elements and the members of sets; O(n log n) if tags have large gaps.
 std::shared_ptr<const mesh::MeshView> view_of(const Deck& deck, const Format& format,
                                               std::span<const BulkPart> parts = {});
 

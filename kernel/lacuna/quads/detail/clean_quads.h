@@ -29,7 +29,8 @@ struct CleanOptions {
 /// 2006; Verma and Suresh 2017). One template replaces many local changes (collapsed quads, swapped and
 /// opened edges, collapsed chords) and pairs points of three and of five quads over any distance. A change is
 /// kept if, after smoothing, its corners are positive, no quad is worse than both `options.least` and the
-/// previous worst, and the quality lost in sum is small for the irregular points removed.
+/// previous worst, and the loss of quality, summed over the quads, is within a limit for each irregular point
+/// removed.
 /// @param fixed  number of boundary points. They come first and are neither moved nor renumbered; other
 ///               points may be.
 /// @pre   quads are counter-clockwise and conforming; some may be folded. Nothing is done if they do not
