@@ -468,8 +468,8 @@ TEST_CASE("AVS and HEC-MW files are refused by their names, whatever their endin
         }
         const std::string ending = endings[static_cast<std::size_t>(number++) % endings.size()];
         CAPTURE(ending);
-        CHECK(has(failure("x" + ending, avs), "an AVS UCD file, which is not read"));
-        CHECK(has(failure("x" + ending, hec), "a HEC-MW mesh, which is not read"));
+        CHECK(has(failure("x" + ending, avs), "an AVS UCD file, a format that is not supported"));
+        CHECK(has(failure("x" + ending, hec), "a HEC-MW mesh, a format that is not supported"));
     }
     // Counts alone are no such file.
     CHECK(has(failure("x.inp", "1 2 3 4 5\n*NODE\n"), "io.no_faces"));

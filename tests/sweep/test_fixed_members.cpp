@@ -165,7 +165,7 @@ TEST_CASE("fixed members alone, and those of another order, are refused by name"
 {
     const Fixed fixed(sweep::sweep(brick({.low = {0, 0, 0}, .high = {1, 1, 1}}), sized(0.5)));
     const std::vector<AssemblyMember> alone{fixed.member("given")};
-    CHECK(test::refusal([&] { sweep::sweep_assembly(alone); }, {"swept"}) == "assembly.all_fixed");
+    CHECK(test::refusal([&] { sweep::sweep_assembly(alone); }, {"sweep"}) == "assembly.all_fixed");
     const OpenVolume volume = brick({.low = {0, 0, 1}, .high = {1, 1, 2}});
     sweep::SweepOptions curved = sized(0.5);
     curved.order = 2;
