@@ -497,7 +497,7 @@ TEST_CASE("binary AVS files are refused by that name, in either byte order")
                 for (int n = 1; n <= block.nodes(); ++n) add(static_cast<float>(block.at(n)[axis]));
             const std::string ending = endings[static_cast<std::size_t>(number++) % endings.size()];
             CAPTURE(ending);
-            CHECK(has(failure("x" + ending, bytes), "a binary AVS UCD file, which is not read"));
+            CHECK(has(failure("x" + ending, bytes), "a binary AVS UCD file, a format that is not supported"));
             // One that ends before its counts do is no such file.
             CHECK(!has(failure("x" + ending, bytes.substr(0, bytes.size() - 1)), "AVS"));
         }
