@@ -212,7 +212,7 @@ local function refused(roles, options, ...)
 end
 refused({ source = 1, walls = { 2, 3, 4 }, full_turn = true }, nil, "full_turn", "no source")
 refused({ full_turn = true, class = "closed" }, nil, "full_turn")
-refused({ full_turn = true }, { size = 0.3, layers = 3 }, "4 layers at least", "3")
+refused({ full_turn = true }, { size = 0.3, layers = 3 }, "at least 4 layers", "3")
 refused({ full_turn = true }, { size = 0.3, layers = { count = 20, bias = 2 } }, "bias")
 check.fails(function() model:open_volume { full_turn = true }:close() end, "full-turn", "cut()")
 model = lacuna.synthetic.prism { sides = 6, radius = 1, height = 3 }

@@ -80,7 +80,7 @@ for sides = 3, 7 do
     options.min_scaled_jacobian = 1
     local message = check.fails(function() shape:open_volume():sweep(options) end, "quality.below_limit")
     met = {}
-    local first = message:match("^(.-) %(from the ") or message -- the list of the other end follows
+    local first = message:match("^(.-) %(swept from the ") or message -- those of other plans follow
     for cell in first:gmatch("cell (%d+)") do
       local column = (tonumber(cell) - 1) % columns
       check.that(not met[column], "column " .. column .. " is named twice in the refusal")
