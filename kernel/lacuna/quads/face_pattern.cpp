@@ -269,11 +269,24 @@ private:
         return sum / static_cast<double>(goal.size());
     }
 
-    /// Move a hole to the grid position nearest to its goal.
+    /// Move a hole to the grid position nearest to its goal. If that is between two lines in both directions,
+    /// a round hole trades a column for a row, which places it on lines.
     /// @return false if it has no position in the grid.
     bool settle(std::size_t l, const std::vector<Vec2>& goal)
     {
-        const Vec2 by = way_to(goal, grid_[l]);
+        const auto off = [](const Vec2& by) {
+            return (by - by.unaryExpr([](double x) { return std::round(x); })).norm();
+        };
+        Vec2 by = way_to(goal, grid_[l]);
+        PatternLoop traded = loops_[l];
+        if (by.allFinite() && trade_column_for_row(traded)) {
+            GridLoop other = positions_of(traded);
+            const Vec2 now = way_to(goal, other);
+            if (off(now) < off(by) - kRounding) {
+                grid_[l] = std::move(other);
+                by = now;
+            }
+        }
         if (!(by.cwiseAbs().maxCoeff() < static_cast<double>(points_.size()))) return false;
         move(grid_[l], nearest(by.x()), nearest(by.y()), period_);
         return true;

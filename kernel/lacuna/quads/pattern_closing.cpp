@@ -89,6 +89,25 @@ bool close_pattern_loop(PatternLoop& loop, int period)
     return true;
 }
 
+bool trade_column_for_row(PatternLoop& loop)
+{
+    const std::size_t n = loop.size();
+    std::vector<std::size_t> ends; // sides that run along a row and then along a column
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t before = (i + n - 1) % n;
+        if (loop.turn(i) == 0 || loop.heading[before] % 2 != 0) continue;
+        if (!loop.movable[i] || loop.turn(before) != 0) return false;
+        ends.push_back(i);
+    }
+    if (ends.size() != 2) return false;
+    for (const std::size_t i : ends) {
+        const std::size_t before = (i + n - 1) % n;
+        loop.heading[before] += loop.turn(i);
+        std::swap(loop.movable[i], loop.movable[before]);
+    }
+    return true;
+}
+
 GridLoop positions_of(const PatternLoop& loop)
 {
     GridLoop grid{loop.nodes, {}};

@@ -115,6 +115,10 @@ inline int badness(const std::array<int, 2>& excess) { return excess[0] * excess
 /// @return false if that is impossible.
 bool close_pattern_loop(PatternLoop& loop, int period);
 
+/// Make a closed round loop one column narrower and one row higher in the grid.
+/// @return false if its turns cannot be moved so.
+bool trade_column_for_row(PatternLoop& loop);
+
 /// The loop's positions in the grid, from (0, 0).
 GridLoop positions_of(const PatternLoop& loop);
 
