@@ -282,7 +282,7 @@ private:
         if (by.allFinite() && trade_column_for_row(traded)) {
             GridLoop other = positions_of(traded);
             const Vec2 now = way_to(goal, other);
-            if (off(now) < off(by) - kRounding) {
+            if (off(now) < off(by) - kCountSlack) {
                 grid_[l] = std::move(other);
                 by = now;
             }
