@@ -33,7 +33,6 @@ struct WriteArguments {
     std::vector<std::string> without;  ///< parts of these that the mesh stands for
     bool renumber = false, renumber_given = false;
     bool gmsh_options = false; ///< a file beside a .msh that says how Gmsh shows it
-    bool interfaces = false;   ///< of an assembly: quads between its volumes too
     bool groups_given = false; ///< of a .msh
     io::PartitionOptions partition;
     bool partitions_given = false, by_process = false; ///< a part for each process
@@ -196,7 +195,7 @@ const Option<WriteArguments> kWriteOptions[] = {
     {"first_node", count<&WriteArguments::deck, &io::MeshDeckOptions::first_node>},
     {"first_cell", count<&WriteArguments::deck, &io::MeshDeckOptions::first_cell>},
     {"element", read_element},
-    {"interfaces", boolean<&WriteArguments::interfaces>},
+    {"interfaces", boolean<&WriteArguments::msh, &io::MshOptions::interfaces>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
     {"partitions", read_partitions},
     {"ghosts", read_ghosts},
@@ -210,7 +209,7 @@ const Option<WriteArguments> kLayeredOptions[] = {
     {"quality", read_quality},
     {"partitions", read_partitions},
     {"ghosts", read_ghosts},
-    {"interfaces", boolean<&WriteArguments::interfaces>},
+    {"interfaces", boolean<&WriteArguments::msh, &io::MshOptions::interfaces>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
     {"groups", read_groups},
 };
@@ -288,10 +287,10 @@ const char* idle_option(const io::Format& format, const WriteArguments& argument
                                                      {arguments.deck.first_node != 0, "first_node"},
                                                      {arguments.deck.first_cell != 0, "first_cell"}};
     const std::pair<bool, const char*> of_all[] = {
-        {arguments.version_given, "version"}, {arguments.binary_given, "binary"},
-        {arguments.element_given, "element"}, {arguments.gmsh_options, "gmsh_options"},
-        {arguments.groups_given, "groups"},   {joins, "with"},
-        {arguments.interfaces, "interfaces"}};
+        {arguments.version_given, "version"},    {arguments.binary_given, "binary"},
+        {arguments.element_given, "element"},    {arguments.gmsh_options, "gmsh_options"},
+        {arguments.groups_given, "groups"},      {joins, "with"},
+        {arguments.msh.interfaces, "interfaces"}};
     for (const auto& [given, name] : of_all)
         if (given && !format.has_option(name)) return name;
     for (const auto& [given, name] : of_meshes)
@@ -399,7 +398,6 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
     std::vector<mesh::LayeredPart> parts;
     for (std::size_t p = 0; p < state.regions.size(); ++p)
         parts.push_back({state.swept.parts[p].mesh, nullptr, state.swept.numbering[p]});
-    arguments.msh.interfaces = arguments.interfaces;
     io::write_parts(format, parts, path, arguments.msh, arguments.deck, context);
 }
 
@@ -576,12 +574,12 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
 bool may_be_layered_of_parts(const WriteArguments& arguments, const io::OutputPath& path)
 {
     return io::needed_mesh_format("sweep_to", path.text()).streamed_parts && !arguments.partitions_given &&
-           !arguments.interfaces;
+           !arguments.msh.interfaces;
 }
 
 void refuse_interfaces(const WriteArguments& arguments)
 {
-    if (arguments.interfaces)
+    if (arguments.msh.interfaces)
         throw InvalidInput(
             Message("lua.idle_option", "write: meshes of one volume have no option 'interfaces'")
                 .remedy("leave it out"));

@@ -80,9 +80,10 @@ void compact(topology::ModelBuilder& model)
     model.diagonal = bounds.isEmpty() ? 0 : bounds.diagonal().norm();
 }
 
-topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr<const CadSource>& source)
+/// Make the model of a reply, without loops.
+void build_model(topology::ModelBuilder& model, LoadReply reply, double scale,
+                 const std::shared_ptr<const CadSource>& source)
 {
-    topology::ModelBuilder model;
     model.source = source->path();
     for (MessageParts& note : reply.notes) model.notes.emplace_back(std::move(note));
     model.points = std::move(reply.points);
@@ -99,7 +100,6 @@ topology::Model build_model(LoadReply reply, double scale, const std::shared_ptr
     }
     for (Vec3& p : model.points) p *= scale;
     compact(model);
-    return std::move(model).finish();
 }
 
 } // namespace
@@ -116,7 +116,8 @@ io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOpti
     std::vector<std::vector<std::size_t>> solids;
     for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());
     const auto left_out = static_cast<std::ptrdiff_t>(reply.left_out.size());
-    topology::ModelBuilder model(build_model(std::move(reply), options.scale, source));
+    topology::ModelBuilder model;
+    build_model(model, std::move(reply), options.scale, source);
     std::vector<Message> warnings(model.notes.begin(), model.notes.begin() + left_out);
     warnings.insert(warnings.end(), files.notes.begin(), files.notes.end());
     model.notes.insert(model.notes.end(), files.notes.begin(), files.notes.end());

@@ -354,8 +354,7 @@ std::string confine()
     action.sa_flags = SA_SIGINFO | SA_NODEFER;
     if (::getrandom(&own_mark, sizeof(own_mark), 0) != sizeof(own_mark) ||
         ::sigaction(SIGSYS, &action, nullptr) != 0 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
-        throw BackendError("cad.no_wall",
-                           "the CAD process cannot be confined: the kernel refuses the seccomp filter");
+        throw BackendError("cad.no_wall", "the CAD process cannot be confined: {}", std::strerror(errno));
     const bool landlock = restrict_files();
     if (!make_filter().install())
         throw BackendError("cad.no_wall",

@@ -191,8 +191,7 @@ void serve(Channel& channel, const std::string& missing)
         } catch (const Error& error) {
             failed(Failure::backend, error.message());
         } catch (const std::bad_alloc&) {
-            failed(Failure::out_of_memory, Message("cad.memory_limit", "out of memory")
-                                               .remedy("raise the limit with LACUNA_CAD_MEGABYTES"));
+            failed(Failure::out_of_memory, Message("cad.memory_limit", "out of memory"));
         } catch (const std::exception& error) {
             failed(Failure::backend,
                    Message("cad.gmsh", "the CAD process failed unexpectedly: {}", error.what()));

@@ -12,10 +12,6 @@ namespace lacuna::closure {
 
 using namespace topology;
 
-namespace {
-
-} // namespace
-
 Climber::Climber(const OpenVolume& volume) : model_(volume.model)
 {
     std::vector<FaceId> ends = volume.faces(Role::source);

@@ -46,10 +46,10 @@ void prove_sealed(const OpenVolume& volume)
                             .remedy("check the faces next to it"));
     }
     if (!(enclosed_volume(volume) > 0)) {
-        throw NotClosed(Message("closure.no_volume",
-                                "the sealed faces enclose a volume of {:.3g}, which is not positive: source "
-                                "and target coincide, or the faces between them are twisted",
-                                found(enclosed_volume(volume))));
+        throw NotClosed("closure.no_volume",
+                        "the sealed faces enclose a volume of {:.3g}, which is not positive: source and "
+                        "target coincide, or the faces between them are twisted",
+                        found(enclosed_volume(volume)));
     }
 }
 
@@ -506,10 +506,10 @@ Closed close_as_asked(const OpenVolume& volume, const matching::Match& match, co
 void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure& closure)
 {
     if (walls.empty()) return;
-    closure.assumptions.push_back(closure.notes.size());
-    closure.notes.push_back({"closure.end_extended",
-                             "an end meets {} smoothly; meshed as part of that end, not as walls",
-                             entities_of(model, walls)});
+    assume(closure,
+           {"closure.end_extended", "an end meets {} smoothly; meshed as part of that end, not as walls",
+            entities_of(model, walls)},
+           1);
 }
 
 } // namespace

@@ -410,11 +410,11 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                std::abs(beside_thin_plate(model, face).above) / enclosed);
     for (const FaceId face : closure.void_faces) {
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
-        closure.assumptions.push_back(closure.notes.size());
-        closure.notes.push_back(Message("closure.rough_rim",
-                                        "the rim of {} is rough and is closed by a smooth face",
-                                        entity_of(model, face))
-                                    .remedy("if the true face bulges otherwise, give it"));
+        assume(closure,
+               Message("closure.rough_rim", "the rim of {} is rough and is closed by a smooth face",
+                       entity_of(model, face))
+                   .remedy("if the true face bulges otherwise, give it"),
+               1);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -19,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <ranges>
@@ -46,7 +46,7 @@ struct Stretch {
 
 double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
 {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i)
         least = std::min(least, geometry::distance_to_segment(p, chain[i], chain[i + 1]));
     return least;

@@ -2,13 +2,13 @@
 #include <lacuna/closure/shared/piece_ends.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -292,7 +292,7 @@ ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context)
     if (all_fit) return {std::move(pieces)};
     // For each choice of the first piece, the best choices of the following pieces.
     std::vector<const Ends*> best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const Ends& first : ways.front()) {
         check_cancelled(context);
         std::vector<const Ends*> chosen{&first};

@@ -154,7 +154,7 @@ std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunCont
         matching::Match match;
         if (!roles.source.empty() && !roles.target.empty() && !free_edges(open).empty())
             match = matching::match(open, {}, context);
-        Sealed sealed{{close_trial(open, match, context), match}};
+        Sealed sealed{{close_trial(open, match, context), std::move(match)}};
         sealed.enclosed = enclosed_volume(sealed.volume);
         return sealed;
     });

@@ -451,7 +451,7 @@ private:
     }
 
     const OpenVolume& volume_;
-    Model model_; ///< with the cuts as soon as all are made
+    Model model_; ///< after all cuts; `builder_` makes it
     ModelBuilder builder_;
     Role stepped_, other_;
     const RunContext& context_;

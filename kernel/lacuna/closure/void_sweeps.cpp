@@ -5,12 +5,12 @@
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -146,7 +146,7 @@ std::vector<RoleCandidate> less_likely(const Model& model, const std::vector<Fac
                                        const std::function<bool(const RoleCandidate&)>& suits,
                                        const RunContext& context)
 {
-    const RoleOptions far{std::numeric_limits<double>::infinity(), most};
+    const RoleOptions far{kInfinity, most};
     const std::vector<RoleCandidate> all = role_candidates(model, faces, far, context);
     const auto first = std::ranges::find_if(all, suits);
     return {first, std::find_if(first, all.end(), [&](const RoleCandidate& candidate) {

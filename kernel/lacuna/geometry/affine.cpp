@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/affine.h>
 
 #include <Eigen/QR>
@@ -115,7 +116,7 @@ double AffineFitter::reach(const Vec3& p) const
         if (k < rank_) {
             squared += (along[k] / spread_[k]) * (along[k] / spread_[k]);
         } else if (std::abs(along[k]) > kUnresolved * spread_[0]) {
-            return std::numeric_limits<double>::infinity();
+            return kInfinity;
         }
     }
     return std::sqrt(squared);

@@ -12,10 +12,6 @@
 
 namespace lacuna::geometry {
 
-namespace {
-
-} // namespace
-
 std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                 Index start, const std::set<Index>& off, const std::set<Index>& ends,
                                 const RunContext& context)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/geometry/shared/facet_tree.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
@@ -367,7 +368,7 @@ FacetTree::RayHit FacetTree::first_along(const Vec3& origin, const Vec3& directi
 bool FacetTree::all_along(const Vec3& origin, const Vec3& direction,
                           const std::function<bool(const RayHit&)>& visit) const
 {
-    return along(origin, direction, std::numeric_limits<double>::infinity(), visit);
+    return along(origin, direction, kInfinity, visit);
 }
 
 double FacetTree::winding_number(const Vec3& p) const
@@ -403,8 +404,7 @@ Vec3 heights_over(const Corners& of, const Corners& plane, const Vec3& normal, d
 /// corners on the plane and of sides that cross it.
 std::pair<double, double> stretch(const Corners& c, const Vec3& heights, const Vec3& origin, const Vec3& line)
 {
-    std::pair<double, double> range{std::numeric_limits<double>::infinity(),
-                                    -std::numeric_limits<double>::infinity()};
+    std::pair<double, double> range{kInfinity, -kInfinity};
     const auto add = [&](double s) { range = {std::min(range.first, s), std::max(range.second, s)}; };
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;

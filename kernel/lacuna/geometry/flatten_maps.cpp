@@ -2,6 +2,7 @@
 #include <lacuna/geometry/detail/flatten_maps.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -222,7 +223,7 @@ Positions as_rigid_as_possible(const Facets& facets, Positions positions, double
     check_solved(solver);
 
     Eigen::MatrixX2d right(size, 2);
-    double before = std::numeric_limits<double>::infinity();
+    double before = kInfinity;
     for (int iteration = 0; iteration < kMostIterations; ++iteration) {
         double energy = 0;
         right.setZero();
@@ -254,7 +255,7 @@ double symmetric_dirichlet(const Facets& facets, const Positions& positions)
     double energy = 0;
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
         const auto [large, small] = stretches(jacobian(facets, t, positions));
-        if (!(small > 0)) return std::numeric_limits<double>::infinity();
+        if (!(small > 0)) return kInfinity;
         energy += facets.shapes[t].area *
                   (large * large + small * small + 1 / (large * large) + 1 / (small * small));
     }

@@ -2,6 +2,7 @@
 #include <lacuna/geometry/shared/triangulate.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/delaunay.h>
 #include <lacuna/geometry/shared/predicates.h>
 
@@ -66,7 +67,7 @@ class Refinement {
 public:
     Refinement(DelaunayMesh& mesh, std::span<const std::vector<Index>> loops,
                const TriangulateOptions& options)
-        : mesh_(mesh), options_(options), size_(mesh.points().size(), std::numeric_limits<double>::infinity())
+        : mesh_(mesh), options_(options), size_(mesh.points().size(), kInfinity)
     {
         rim_sizes(loops);
         grade_rim();
@@ -153,7 +154,7 @@ private:
 
     [[nodiscard]] double wished(const Vec2& p) const
     {
-        if (!options_.size) return std::numeric_limits<double>::infinity();
+        if (!options_.size) return kInfinity;
         const double value = options_.size(p);
         if (value > 0) return value;
         throw InvalidInput("geometry.bad_size",
@@ -187,7 +188,7 @@ private:
         const DelaunayTriangle& tri = mesh_[t];
         if (!tri.inside) return;
         double longest = 0;
-        double shortest = std::numeric_limits<double>::infinity();
+        double shortest = kInfinity;
         double product = 1;
         for (int side = 0; side < 3; ++side) {
             const double length = (mesh_.at(tri.to(side)) - mesh_.at(tri.from(side))).norm();
@@ -225,7 +226,7 @@ private:
     {
         int base = -1;
         double base_length = 0;
-        double shortest = std::numeric_limits<double>::infinity();
+        double shortest = kInfinity;
         const DelaunayTriangle& tri = mesh_[t];
         for (int side = 0; side < 3; ++side) {
             const double length = (mesh_.at(tri.to(side)) - mesh_.at(tri.from(side))).norm();

@@ -230,11 +230,9 @@ void check_left(const FacetSoup& soup, const Facets& facets, double given)
                                     "every facet is smaller than the tolerance of {:.4g}, which is derived "
                                     "from the extent of all points",
                                     found(facets.tolerance))
-                                .remedy("give a smaller tolerance")
                           : Message("topology.small_facets",
-                                    "{} facets are smaller than the tolerance of {:.4g} and {} are not; the "
-                                    "tolerance is derived from the extent of all points, so check for "
-                                    "outlying points, or give a smaller one",
+                                    "{} facets are smaller than the tolerance of {:.4g}, which is derived "
+                                    "from the extent of all points, and {} are not",
                                     found(facets.shrunk), found(facets.tolerance), facets.count());
     throw InvalidInput(std::move(message).remedy(
         "remove the point at {} if it is not part of the shape, or give a tolerance",

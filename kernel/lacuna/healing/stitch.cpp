@@ -485,7 +485,6 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
                                     entity_of(model(), face_b),
                                     greatest_gap(track(a), track(b), tolerance_, context_))
                                 .remedy("to decide this yourself, give a tolerance"));
-    report_.sewn.push_back(report_.notes.back());
     std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
 }
 

@@ -9,10 +9,6 @@
 
 namespace lacuna::healing {
 
-namespace {
-
-} // namespace
-
 std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::span<const Triangle> facets,
                                            const std::vector<bool>& whole, double tolerance,
                                            const RunContext& context)

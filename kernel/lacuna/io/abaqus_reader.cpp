@@ -664,12 +664,12 @@ private:
     // Sets and copies created per byte of the file: about fifty sets of all elements; not measured.
     static constexpr std::size_t kMadePerByte = 16;
 
-    std::size_t budget_ = 100'000; // what even a small deck may create
+    std::size_t budget_ = 100'000; // number of nodes and elements that a small deck may generate
 
     Cursor& main_;
     DeckBuilder& into_;
     DeckFiles files_;
-    std::vector<std::unique_ptr<Scope>> parts_; ///< the first scope holds what is outside all parts
+    std::vector<std::unique_ptr<Scope>> parts_; ///< the first scope holds the entities outside all parts
     Scope* scope_ = nullptr;
     std::map<std::pair<Scope*, std::string>, Index> regions_;
     std::vector<Index> set_instance_; ///< instance of each of the deck's first sets

@@ -13,8 +13,6 @@
 
 namespace lacuna::io {
 
-WriteView abaqus_file;
-
 namespace {
 
 constexpr std::size_t kWidth = 20;   // characters of a coordinate

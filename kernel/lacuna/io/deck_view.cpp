@@ -6,7 +6,6 @@
 #include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 #include <set>
@@ -364,8 +363,10 @@ std::shared_ptr<const MeshView> view_of(const Deck& deck, const Format& format,
         own.members = bulk->members(set, s);
         own.count = set.members.size() + bulk->cells_in(s);
     }
-    view->kept = kept_text(deck, format.deck);
-    if (format.is_numbered) return view;
+    if (format.is_numbered) {
+        view->kept = kept_text(deck, format.deck);
+        return view;
+    }
     EntityFinder(deck, *bulk, *view).find();
     if (deck.format != DeckFormat::msh) view->unnamed = "elements";
     view->boxes = [&deck, bulk, count = view->entities.size()] {

@@ -16,8 +16,6 @@
 
 namespace lacuna::io {
 
-WriteView exodus_file;
-
 namespace {
 
 using mesh::MeshView;

@@ -9,7 +9,6 @@
 
 namespace lacuna::io {
 
-WriteView abaqus_file, exodus_file, msh_file, nastran_file, unv_file, vtk_file, vtu_file;
 /// Write the polyMesh folder of OpenFOAM. @throw InvalidInput  as `WholeFolder`; "io.no_such_element"  cells
 /// with mid-side nodes.
 void write_poly_mesh(const mesh::MeshView& view, const OutputPath& path, const RunContext& context);

@@ -31,9 +31,9 @@ std::vector<DeckTag> cells_of_part(const Deck& deck, std::string_view name);
 /// unchanged, including numbers, order and text.
 ///
 /// A part is a region, an element set, an instance or part of an Abaqus deck, in any case, or the number of a
-/// property if the format has them. Nodes also stay if they are used by elements that are
-/// kept as text, or by cards of constraints or coordinate systems. Sets lose the removed members. Regions and
-/// sets that become empty are recorded in `Deck::gap`, so that a mesh of the same name can replace them.
+/// property if the format has them. Nodes also stay if they are used by elements that are kept as text, or by
+/// cards of constraints or coordinate systems. Sets lose the removed members. Regions and sets that become
+/// empty are recorded in `Deck::gap`, so that a mesh of the same name can replace them.
 /// @throw InvalidInput "io.no_such_part"  no part has this name; lists the existing ones.
 ///                     "io.nothing_left"  the parts are all elements of the deck.
 /// @note  O(n); O(n log n) if tags have large gaps. A copy of the deck is made.

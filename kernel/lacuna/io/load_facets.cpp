@@ -251,10 +251,13 @@ void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& c
     const double share = options.tolerance > 0 ? 0 : healing::kSewnShare;
     healing::StitchReport report = healing::stitch(model, model.tolerance, context, share);
     if (report.changed()) log_line(context, report.summary());
-    move_in(loaded.warnings, report.sewn);
-    topology::ModelBuilder noted(std::move(model));
-    move_in(noted.notes, report.notes);
-    model = std::move(noted).finish();
+    std::ranges::copy_if(report.notes, std::back_inserter(loaded.warnings),
+                         [](const Message& note) { return note.code() == "healing.edges_sewn"; });
+    if (!report.notes.empty()) {
+        topology::ModelBuilder noted(std::move(model));
+        move_in(noted.notes, report.notes);
+        model = std::move(noted).finish();
+    }
     for (const Message& note : model.notes) {
         const bool warns = std::ranges::find(loaded.warnings, note.code(), &Message::code) !=
                            loaded.warnings.end();

@@ -92,6 +92,7 @@ void write_mesh(const Format& format, const mesh::LayeredMesh& layered, const Ou
 /// like those of the meshes. With a partition, whole volumes are parts, with numbers of cells as even as
 /// possible, if there are at least as many volumes as parts; otherwise each volume is one or several parts by
 /// its layers. Quads belong to the part of their cell.
+/// @pre  there is at least one part.
 /// @param options  without fields
 /// @param team  processes that each write their share of the file; each must have all parts.
 void write_parts(const Format& format, std::span<const mesh::LayeredPart> parts, const OutputPath& path,

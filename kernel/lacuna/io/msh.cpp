@@ -21,8 +21,6 @@
 
 namespace lacuna::io {
 
-WriteView msh_file;
-
 namespace {
 
 using mesh::MeshView;

@@ -12,8 +12,6 @@
 
 namespace lacuna::io {
 
-WriteView nastran_file;
-
 namespace {
 
 using mesh::MeshView;
@@ -207,18 +205,20 @@ std::string property_text(const MeshView& view)
 
 DeckFile nastran_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
 {
-    MeshView::KeptText kept{.head = "BEGIN BULK\n", .cards = {}, .tail = "ENDDATA\n"};
-    if (view->kept) kept = *view->kept;
+    static const MeshView::KeptText own{.head = "BEGIN BULK\n", .cards = {}, .tail = "ENDDATA\n"};
+    const MeshView::KeptText& kept = view->kept ? *view->kept : own;
     DeckFile file;
     file.add(kept.head);
     add_nodes(view, file);
     for (std::size_t b = 0; b < view->blocks.size(); ++b) add_elements(view, b, file);
-    std::string text = kept.cards;
+    file.add(kept.cards);
+    std::string text;
     int number = kept.highest_set;
     for (const MeshView::Set& set : view->sets)
         if (set.count > 0) text += set_text(set, ++number);
     if (!view->kept) text += property_text(*view);
-    file.add(text + kept.tail);
+    file.add(std::move(text));
+    file.add(kept.tail);
     return file;
 }
 

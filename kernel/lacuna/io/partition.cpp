@@ -112,19 +112,15 @@ private:
     /// Find the parts of solids, which are stored mesh after mesh in their blocks.
     void find_solids()
     {
-        first_.assign(meshes_.size(), 0);
         for (std::size_t b = 0; b < part_.size(); ++b) {
             if (dimension(b) != 3) continue;
-            const MeshView::Block& block = view_.blocks[b];
-            const bool hexes = mesh::shape_info(block.shape).corners == 8;
+            const mesh::CellShape shape = view_.blocks[b].shape;
+            const std::size_t kind = mesh::shape_info(shape).corners == 8 ? 0 : 1;
             for (std::size_t m = 0; m < meshes_.size(); ++m) {
-                const mesh::CellKinds kinds(meshes_[m].mesh);
-                const std::size_t end = hexes ? kinds.hexes() : meshes_[m].mesh.cell_count();
-                for (std::size_t i = hexes ? 0 : kinds.hexes(); i < end; ++i) {
-                    const std::size_t cell = kinds.cell(i);
-                    first_[m] = block.tags[part_[b].size()] - static_cast<std::int64_t>(cell);
-                    part_[b].push_back(part_of_cell(m, cell));
-                }
+                const SweptCells& cells = meshes_[m].cells;
+                if (cells.shapes()[kind] != shape) continue;
+                for (std::size_t i = 0; i < cells.count[kind]; ++i)
+                    part_[b].push_back(part_of_cell(m, cells.cell(kind, i)));
             }
         }
     }
@@ -138,9 +134,11 @@ private:
             if (dimension(b) != 2) continue;
             const MeshView::Block& block = view_.blocks[b];
             block.tags.each(0, block.count, [&](std::size_t, std::int64_t tag) {
-                const auto m = static_cast<std::size_t>(std::ranges::upper_bound(first_, tag) -
-                                                        first_.begin() - 1);
-                const auto quad = static_cast<std::size_t>(tag - first_[m]) - meshes_[m].mesh.cell_count();
+                const auto first = [](const BulkPart& part) { return part.place.first_cell; };
+                const auto m = static_cast<std::size_t>(std::ranges::upper_bound(meshes_, tag, {}, first) -
+                                                        meshes_.begin() - 1);
+                const auto quad = static_cast<std::size_t>(tag - first(meshes_[m])) -
+                                  meshes_[m].mesh.cell_count();
                 part_[b].push_back(part_of_cell(m, behind[m][quad]));
             });
         }
@@ -233,7 +231,6 @@ private:
     const MeshView& view_;
     std::span<const BulkPart> meshes_;
     std::vector<std::vector<Index>> of_layer_; ///< part of each layer of each mesh
-    std::vector<DeckTag> first_;               ///< number of the first cell of each mesh
     std::vector<std::vector<Index>> part_;     ///< for each element of each block
     /// Ghosts by their own part and the list of the parts that see them, then by block.
     std::map<std::pair<Index, Index>, std::map<std::size_t, mesh::Ranges>> ghosts_;

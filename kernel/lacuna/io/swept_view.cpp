@@ -6,7 +6,6 @@
 #include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string>
 #include <utility>

@@ -14,8 +14,6 @@
 
 namespace lacuna::io {
 
-WriteView unv_file;
-
 namespace {
 
 using mesh::MeshView;

@@ -10,14 +10,11 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <numeric>
 #include <set>
 #include <utility>
 
 namespace lacuna::io {
-
-WriteView vtk_file, vtu_file;
 
 namespace {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/detail/arrange.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/matching/detail/assignment.h>
 
 #include <algorithm>
@@ -31,8 +32,7 @@ double misfit(const Problem& problem, std::size_t s, std::size_t t, const geomet
 double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
                  double scale, double reach)
 {
-    if (problem.forced[s] >= 0 && problem.forced[s] != static_cast<int>(t))
-        return std::numeric_limits<double>::infinity();
+    if (problem.forced[s] >= 0 && problem.forced[s] != static_cast<int>(t)) return kInfinity;
     const double place = misfit(problem, s, t, fit, reach);
     if (problem.forced[s] >= 0) return place;
     const LoopShape& a = problem.source[s];
@@ -55,8 +55,7 @@ std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t an
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < n; ++j) {
             const bool fixed = (i == anchor) != (j == t);
-            cost(at(i), at(j)) = fixed ? std::numeric_limits<double>::infinity()
-                                       : loop_cost(problem, i, j, alignment.fit, scale, reach);
+            cost(at(i), at(j)) = fixed ? kInfinity : loop_cost(problem, i, j, alignment.fit, scale, reach);
         }
     }
     // Lower bound: each row's least cost. Most alignments are rejected before the assignment is solved.
@@ -116,8 +115,7 @@ std::vector<Arrangement> arrange(const Problem& problem)
             for (const Alignment& alignment : alignments_of(problem, anchor, t, with_scale)) {
                 check_cancelled(problem.context);
                 // With three loops or more, only arrangements better than the second best matter.
-                const double limit = n > 2 && best.size() > 1 ? best.back().score
-                                                              : std::numeric_limits<double>::infinity();
+                const double limit = n > 2 && best.size() > 1 ? best.back().score : kInfinity;
                 auto found = arrangement_of(problem, anchor, t, alignment, scale, reach, limit);
                 if (found) keep(problem, std::move(*found), best);
             }

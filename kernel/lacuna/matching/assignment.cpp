@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/matching/detail/assignment.h>
 
 #include <cmath>
-#include <limits>
 
 namespace lacuna::matching {
 
@@ -18,7 +18,7 @@ std::vector<int> assign(const Eigen::MatrixXd& cost)
         const double c = cost(row, column);
         return std::isfinite(c) ? c : finite_sum;
     };
-    const double infinity = std::numeric_limits<double>::infinity();
+    const double infinity = kInfinity;
     std::vector<double> row_potential(n + 1, 0), column_potential(n + 1, 0);
     std::vector<int> row_of(n + 1, 0), way(n + 1, 0);
     for (int row = 1; row <= n; ++row) {

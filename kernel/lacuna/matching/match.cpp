@@ -2,6 +2,7 @@
 #include <lacuna/matching/match.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/matching/detail/arc_pairs.h>
 #include <lacuna/matching/detail/arrange.h>
@@ -36,7 +37,7 @@ constexpr double kTie = 0.1, kAsMuch = 0.05;
 /// Confidence that the best score is right: 1 − best / second best.
 double sureness(double best, double second)
 {
-    return 1 - std::min(1.0, std::max(best, 1e-12) / std::max(second, 1e-12));
+    return 1 - std::min(1.0, std::max(best, kRoundoff) / std::max(second, kRoundoff));
 }
 
 /// Report a second alignment that fits about as well, so that the user can choose.

@@ -90,9 +90,8 @@ void read_options(Problem& problem)
     const Model& model = problem.volume.model;
     for (const int s : problem.options.flip) {
         if (s >= 0 && s < static_cast<int>(problem.source.size())) continue;
-        throw InvalidInput("matching.unknown_loop",
-                           "flip names loop {}, but the loops are numbered from 1 to {}", source_loop(s),
-                           needed(problem.source.size()));
+        throw InvalidInput("matching.unknown_loop", "flip names {}, but the loops are numbered from 1 to {}",
+                           source_loop(s), needed(problem.source.size()));
     }
     for (const auto& [s, t] : problem.options.loops) {
         if (s < 0 || t < 0 || s >= static_cast<int>(problem.source.size()) ||

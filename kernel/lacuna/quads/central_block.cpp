@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/detail/central_block.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace lacuna::quads {
@@ -23,7 +23,7 @@ constexpr double kCornerReach = 0.5, kSideReach = 0.5;
 /// side.
 double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
 {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const Vec2& p : region.points) {
         const Vec2 d = p - centre;
         if (std::abs(std::remainder(std::atan2(d.y(), d.x()) - angle, kPi / 2)) < kPi / 8)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/detail/counted_loop.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quads {
 namespace {
@@ -68,7 +68,7 @@ bool is_within(const CountRange& range, double wanted, int sides)
 double cost_of_sides(double wanted, int sides)
 {
     const double off = sides - wanted;
-    return sides > 0 ? off * off / sides : std::numeric_limits<double>::infinity();
+    return sides > 0 ? off * off / sides : kInfinity;
 }
 
 CountTask::CountTask(const PlanarRegion& of, std::span<const int> segment_of_side,
@@ -147,7 +147,7 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
     };
     while (badness(loop.excess) > 0) {
         check_cancelled(task.context);
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         CountedRun *best = nullptr, *other = nullptr;
         int best_by = 0;
         for (CountedRun& run : loop.runs) {
@@ -185,14 +185,14 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
 
 void change_both(const CountTask& task, CountedLoop& loop, int quarter)
 {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     std::array<CountedRun*, 2> best{};
     int best_by = 0;
     for (const int by : {1, -1}) {
         std::array<CountedRun*, 2> cheapest{};
         double sum = 0;
         for (int back = 0; back < 2; ++back) {
-            double own = std::numeric_limits<double>::infinity();
+            double own = kInfinity;
             for (CountedRun& run : loop.runs) {
                 if (run.quarter != quarter + 2 * back || task.segments[run.segment].fixed ||
                     !may_be(task, sides_of(loop, run.segment), run, run.count + by, kSegment))

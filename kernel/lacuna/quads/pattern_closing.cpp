@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/detail/pattern_loop.h>
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quads {
 namespace {
@@ -46,7 +46,7 @@ std::optional<TurnMove> cheapest_move(const PatternLoop& loop, const std::array<
 {
     const std::size_t n = loop.size();
     std::optional<TurnMove> best;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t i = 0; i < n; ++i) {
         const int turn = loop.turn(i);
         if (turn == 0 || (loop.movable[i] != 0) == hard) continue;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pattern_ring.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 namespace lacuna::quads {
 namespace {
@@ -126,7 +126,7 @@ RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& o
 {
     std::vector<double> width;
     for (const Index p : outer) {
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         for (const Index q : inner)
             least = std::min(least, (points[index(q)] - points[index(p)]).squaredNorm());
         width.push_back(std::sqrt(least));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_attempt.h>
 
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/clean_quads.h>
 #include <lacuna/quads/detail/open_corners.h>

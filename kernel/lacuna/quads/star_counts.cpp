@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/star_counts.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
@@ -8,14 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::quads {
 namespace {
 
 /// Cost of numbers that are not allowed, and of numbers that miss the promised number of quads (within a
 /// quarter). The latter exceeds any cost of sides within their range.
-constexpr double kNever = std::numeric_limits<double>::infinity(), kOffAsked = 1e6;
+constexpr double kOffAsked = 1e6;
 
 /// The segments between the corners of a patch; empty if a side bends or is not one segment.
 std::vector<std::size_t> sides_of_patch(const CountTask& task)
@@ -37,7 +37,7 @@ bool is_balanced(const CountTask& task, const std::vector<std::size_t>& sides)
 {
     constexpr double kBalanced = 0.5; // least width of a grid relative to the widest. Not measured
     const std::size_t n = sides.size();
-    double least = std::numeric_limits<double>::infinity(), most = 0;
+    double least = kInfinity, most = 0;
     for (std::size_t i = 0; i < n; ++i) {
         // Side i is foot[i] + foot[i + 2] long.
         double foot = 0;
@@ -49,7 +49,7 @@ bool is_balanced(const CountTask& task, const std::vector<std::size_t>& sides)
     return least >= kBalanced * most;
 }
 
-/// Cost of numbers of sides; `kNever` if a segment is outside a range.
+/// Cost of numbers of sides; `kInfinity` if a segment is outside a range.
 class StarCost {
 public:
     StarCost(const CountTask& task, std::vector<std::size_t> sides)
@@ -68,12 +68,12 @@ public:
         for (const std::size_t s : sides_) {
             const BoundarySegment& own = task_.segments[s];
             if (!own.fixed && (counts[s] < own.least || !is_within(range, own.wanted, counts[s])))
-                return kNever;
+                return kInfinity;
             cost += cost_of_sides(own.wanted, counts[s]);
             side.side[side.count++] = counts[s];
         }
         std::array<int, kMostSides> foot{};
-        if (!are_alike(counts, pairs_) || !spoke_feet(side, false, foot)) return kNever;
+        if (!are_alike(counts, pairs_) || !spoke_feet(side, false, foot)) return kInfinity;
         double quads = 0;
         for (std::size_t i = 0; i < side.count; ++i) quads += foot[i] * foot[(i + 1) % side.count];
         cost += kQuads * (quads - asked_) * (quads - asked_) / asked_;
@@ -107,7 +107,7 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
                 counts.sides[s] = own.fixed ? task.own[s] : std::max(own.least, near + by);
             }
             counts.cost = cost_of(counts.sides, range);
-            if (counts.cost < (best ? best->cost : kNever)) best = std::move(counts);
+            if (counts.cost < (best ? best->cost : kInfinity)) best = std::move(counts);
         }
     }
     return best;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/submap_grid.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/shared/submap.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <limits>
 
 namespace lacuna::quads {
 namespace {
@@ -61,7 +61,7 @@ void place_hole(const std::vector<Vec2>& goal, GridLoop& hole)
 {
     Vec2 middle = Vec2::Zero();
     for (const Vec2& p : goal) middle += p / static_cast<double>(goal.size());
-    double best_error = std::numeric_limits<double>::infinity();
+    double best_error = kInfinity;
     std::vector<GridPosition> best;
     for (int quarter = 0; quarter < 4; ++quarter) {
         std::vector<GridPosition> positions;

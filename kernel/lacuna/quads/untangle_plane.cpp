@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/untangle_plane.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/minimise.h>
 #include <lacuna/quads/detail/corner_sine.h>
 #include <lacuna/quads/detail/plane_energy.h>
@@ -47,7 +48,7 @@ struct FoldedPart {
 /// Least determinant of the corners of a quad that can change; those of three fixed points are left out.
 double least_movable(std::span<const Vec2> points, const Quad& quad, std::size_t fixed)
 {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t here = index(quad[k]), next = index(quad[(k + 1) % 4]),
                           before = index(quad[(k + 3) % 4]);
@@ -116,7 +117,7 @@ public:
     /// Least determinant over all corners that move, relative to the squared reference lengths.
     [[nodiscard]] double least_determinant(const Eigen::VectorXd& x) const
     {
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         for (const ReferenceQuad& cell : part_.cells) {
             for (std::size_t k = 0; k < 4; ++k) {
                 if (!moves(cell.corners[k]) && !moves(cell.corners[(k + 1) % 4]) &&

@@ -276,7 +276,7 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
     cell.volume = sum / static_cast<double>(kAll);
     cell.bound = cell.volume != 0 ? least / std::abs(cell.volume) : -1;
     cell.scaled_jacobian = scaled;
-    const double floor = kRoundoff * largest;
+    const double floor = kRoundoff * largest; // conversion to Bézier amplifies rounding by less than 1e4
     cell.positive = cell.scaled_jacobian > 0 &&
                     (least > floor || positive_parts(bezier, floor, {max_depth, max_depth, max_depth}));
     return cell;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
 #include <lacuna/quality/detail/text.h>
@@ -231,8 +232,7 @@ Found check_quality(const Quality& quality, double min_scaled_jacobian, int laye
         return Finding(Fault::not_certified,
                        "{} of {} cells have a Jacobian that is positive at their corners but not everywhere. "
                        "The worst cells of the mesh are {}, the first ({}) with scaled Jacobian {:.6g}",
-                       found(quality.uncertified), cells, worst(std::numeric_limits<double>::infinity()),
-                       where, first.scaled_jacobian);
+                       found(quality.uncertified), cells, worst(kInfinity), where, first.scaled_jacobian);
     if (quality.min_scaled_jacobian < min_scaled_jacobian)
         return Finding(Fault::below_limit,
                        "the smallest scaled Jacobian is {:.6g}, below the limit of {:.6g}. The worst are {}, "

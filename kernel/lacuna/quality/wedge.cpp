@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/wedge.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quality/quality.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ WedgeValues evaluate_wedge(const WedgeCorners& corners)
             values.scaled = std::min(values.scaled, scaled_at(corners, level, i));
     const Vec3 a0 = corners[1] - corners[0], b0 = corners[2] - corners[0];
     const Vec3 a1 = corners[4] - corners[3], b1 = corners[5] - corners[3];
-    values.smallest = std::numeric_limits<double>::infinity();
+    values.smallest = kInfinity;
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 along = corners[3 + i] - corners[i];
@@ -77,7 +78,7 @@ std::optional<double> wedge_metric(Metric metric, const WedgeCorners& corners)
     if (metric == Metric::scaled_jacobian) return values.scaled;
     if (metric == Metric::volume) return values.volume;
     if (metric != Metric::jacobian) return std::nullopt;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (const std::array<double, 3>& along : values.coefficients)
         least = std::min({least, along.front(), along.back()});
     return least;

@@ -212,9 +212,10 @@ LayerTables layer_tables(const OpenVolume& volume, std::span<const BoundaryLayer
     for (const BoundaryLayer& layer : layers) {
         for (const FaceId face : faces_named(volume, layer.walls, "boundary_layers")) {
             if (tables.of.try_emplace(face, static_cast<int>(tables.heights.size())).second) continue;
-            throw InvalidInput("surface.two_layers",
-                               "sweep: option 'boundary_layers' contains {} in two tables; name it in one",
-                               entity_of(volume.model, face));
+            throw InvalidInput(Message("surface.two_layers",
+                                       "sweep: option 'boundary_layers' contains {} in two tables",
+                                       entity_of(volume.model, face))
+                                   .remedy("name it in one"));
         }
         check_room(volume.model, layer);
         tables.heights.push_back(row_heights(layer));

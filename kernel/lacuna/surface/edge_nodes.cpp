@@ -10,10 +10,6 @@ namespace lacuna::surface {
 
 using namespace topology;
 
-namespace {
-
-} // namespace
-
 std::vector<Vec3> edge_line(const Model& model, EdgeId edge)
 {
     std::vector<Vec3> line;

@@ -485,7 +485,7 @@ GivenRows given_columns(const OpenVolume& volume, std::span<const LinkingSurface
                 add_column(volume.model, line, columns[b], rows);
             } else {
                 result.notes.push_back(formatted(
-                    "{} came with {} sides from source to target, but there are {} "
+                    "{} was given with {} sides from source to target, but there are {} "
                     "layers: only the ends stay",
                     entity_of(volume.model, line.line.uses.front().edge), own, layers > 0 ? layers : rows));
             }

@@ -6,6 +6,7 @@
 #include <lacuna/surface/shared/imprint.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/surface/detail/alike_ends.h>
 #include <lacuna/surface/detail/closed_edges.h>
@@ -20,7 +21,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 
@@ -278,7 +278,7 @@ private:
         constexpr double kWayIn = 1e-6;
         const Face& on = base_.model[face];
         std::vector<Vec2> line{piece.line.front()};
-        const double step = on.kind == "plane" ? std::numeric_limits<double>::infinity() : facet_side(face);
+        const double step = on.kind == "plane" ? kInfinity : facet_side(face);
         for (std::size_t i = 0; i + 1 < piece.line.size(); ++i) {
             const Vec2 way = piece.line[i + 1] - piece.line[i];
             const int parts = std::max(1, static_cast<int>(std::ceil(way.norm() / step)));
@@ -507,7 +507,7 @@ private:
     std::vector<EdgeId> inner_;
     std::vector<RimPair> pairs_;
     Imprint result_;
-    std::optional<ModelBuilder> builder_; ///< of its model, when the rims are split
+    std::optional<ModelBuilder> builder_; ///< of `result_.volume->model`, while its rims are split
     OpenVolume base_;                     ///< with split rims and whole faces
     std::optional<EndsMap> map_;
     std::vector<ClosedPair> closed_;

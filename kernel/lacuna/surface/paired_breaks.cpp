@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/surface/detail/paired_breaks.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lacuna::surface {
 
@@ -21,7 +21,7 @@ BreakPairs paired(const std::vector<double>& a, const std::vector<double>& b, do
     for (std::size_t i = 0; i <= n; ++i) {
         for (std::size_t j = 0; j <= m; ++j) {
             if (i == 0 && j == 0) continue;
-            double best = std::numeric_limits<double>::infinity();
+            double best = kInfinity;
             if (i > 0) best = std::min(best, cost[i - 1][j] + alone);
             if (j > 0) best = std::min(best, cost[i][j - 1] + alone);
             if (i > 0 && j > 0) best = std::min(best, cost_paired(i, j));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/plane_regions.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/surface/detail/plane_loops.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace lacuna::surface {
@@ -102,7 +102,7 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
         const std::vector<Vec2>& line = chains[use.chain].line;
         const Vec2 at = (line[0] + line[1]) / 2;
         std::size_t round = regions.size();
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         for (std::size_t r = 0; r < regions.size(); ++r) {
             const bool own = std::ranges::any_of(regions[r].loops.front(),
                                                  [&](const PlaneUse& u) { return u.chain == use.chain; });

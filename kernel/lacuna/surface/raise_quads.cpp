@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/raise_quads.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 
@@ -123,7 +123,7 @@ private:
     /// The shortest of the sides at a node.
     [[nodiscard]] double shortest_side(std::size_t p) const
     {
-        double shortest = std::numeric_limits<double>::infinity();
+        double shortest = kInfinity;
         for (const Index q : quads_at_.of(p)) {
             const Quad& quad = mesh_.quads[index(q)];
             const auto k = static_cast<std::size_t>(std::ranges::find(quad, static_cast<Index>(p)) -
@@ -253,7 +253,7 @@ private:
         };
         const auto value = [&](const Vec2& to, double /*floor*/) {
             place(to);
-            return keeps_apart(p) ? worst_of(star) : -std::numeric_limits<double>::infinity();
+            return keeps_apart(p) ? worst_of(star) : -kInfinity;
         };
         Vec2 at(0, 0);
         const geometry::PatternSteps steps{star.shortest, kFirst, kLast, kLeastGain};

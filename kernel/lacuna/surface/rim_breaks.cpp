@@ -234,6 +234,7 @@ bool RimFacets::has_nodes_at(const LinkingSurface& link,
 std::vector<Index> RimFacets::crease_from(Index rim) const
 {
     const Model& model = volume_.model;
+    const double least_cosine = std::cos(kBendBelow * kDegree);
     std::vector<Index> crease{rim};
     while (crease.size() == 1 || end_of_[index(crease.back())] == 0) {
         const auto sides = sides_.find(crease.back());
@@ -247,7 +248,7 @@ std::vector<Index> RimFacets::crease_from(Index rim) const
                 const Vec3 back = here - model.at(crease[crease.size() - 2]);
                 const Vec3 on = model.at(side.to) - here;
                 const double cosine = back.dot(on) / (back.norm() * on.norm());
-                if (cosine < std::cos(kBendBelow * kDegree)) continue;
+                if (cosine < least_cosine) continue;
                 turn *= cosine * cosine;
             }
             if (turn <= most) continue;

@@ -74,9 +74,9 @@ void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
                         "{} was given with {} quads and {} triangles, which cannot be swept to hexahedra",
                         entity_of(task.model, face), quads, found(triangles));
     if (task.style == QuadStyle::automatic)
-        throw NotSweepable(Message(mixed).remedy("use wedges = true to keep them all, quads = \"paved\" to "
-                                                 "remesh the face inside its rim, or load with keep_mesh = "
-                                                 "false"));
+        throw NotSweepable(mixed.remedy("use wedges = true to keep them all, quads = \"paved\" to "
+                                        "remesh the face inside its rim, or load with keep_mesh = "
+                                        "false"));
     seeds.notes.push_back(formatted("{}: it is remeshed inside its rim", mixed.text()));
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/cell_energy.h>
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace lacuna::sweep {
@@ -150,7 +150,7 @@ Vec3 mean_edges(const std::array<Vec3, 8>& corners, CellKind kind)
 
 double least_determinant(const std::array<Vec3, 8>& corners, const Vec3& box, CellKind kind)
 {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     if (kind == CellKind::wedge) {
         each_wedge_corner([&](std::size_t at, std::size_t one, std::size_t other, std::size_t above) {
             const Vec3 &p = corners[at], w = corners[above] - p;

@@ -5,7 +5,6 @@
 // point, or a neighbour of it, is usually below the next point too (`FacetWalk`), and the quad nearest to one
 // point of a facet is usually nearest to the next. Such an answer is used only if it is certain; otherwise a
 // tree is searched.
-// searched.
 #include <lacuna/sweep/detail/compare_face.h>
 
 #include <lacuna/core/shared/criteria.h>

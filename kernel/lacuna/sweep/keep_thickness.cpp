@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/keep_thickness.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/harmonic_spread.h>
 #include <lacuna/sweep/detail/words.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -202,7 +202,7 @@ private:
     }
 
     struct Reached {
-        double asked = 0, least = std::numeric_limits<double>::infinity(), most = 0;
+        double asked = 0, least = kInfinity, most = 0;
         double off = 0; ///< largest relative thickness error
         double off_asked = 0, off_found = 0;
         Vec3 where = Vec3::Zero();

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/near_misses.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -226,7 +226,7 @@ private:
             if (!tree) tree.emplace(other.points, facets);
             const std::vector<double> arc = geometry::arc_lengths(line);
             const double sag = geometry::sag(line);
-            double within = 0, most = 0, all = 0, least = std::numeric_limits<double>::infinity();
+            double within = 0, most = 0, all = 0, least = kInfinity;
             FaceId nearest;
             for (int i = 0; i < kAsked; ++i) {
                 const Vec3 p = geometry::point_at(line, arc, arc.back() * (i + 0.5) / kAsked);
@@ -294,7 +294,7 @@ double corners_apart(const Model& a, FaceId face_a, const Model& b, FaceId face_
     const std::vector<Vec3> own = corners_of(a, face_a), others = corners_of(b, face_b);
     const auto add = [&](const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
         for (const Vec3& p : from) {
-            double nearest = std::numeric_limits<double>::infinity();
+            double nearest = kInfinity;
             for (const Vec3& q : to) nearest = std::min(nearest, (p - q).norm());
             if (nearest <= kCorner * at_least) apart = std::max(apart, nearest);
         }

@@ -3,10 +3,8 @@
 
 #include <lacuna/core/message.h>
 #include <lacuna/surface/shared/imprint.h>
-#include <lacuna/sweep/detail/drawn_layers.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -58,12 +56,13 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
     if (keeps_quads(volume, options)) return {{.keeps_end = true}};
     std::vector<Plan> plans;
     const std::string source = end_of(volume, false), target = end_of(volume, true);
-    if (keeps_quads(links.turned(), options))
+    const bool kept = keeps_quads(links.turned(), options);
+    if (kept)
         plans.push_back(
             {.turned = true,
              .keeps_end = true,
              .why = formatted("swept from the {}, which came with quads; the {} did not", target, source)});
-    const bool turned = options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
+    const bool turned = !kept && options.rows == 0 && !surface::inner_edges(volume, Role::target).empty() &&
                         surface::inner_edges(volume, Role::source).empty();
     Plan first{.turned = turned};
     if (turned)
@@ -74,7 +73,7 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
         plans.push_back({.turned = turned,
                          .turning = surface::Turning::together,
                          .below = options.improving.good_enough});
-    plans.push_back({.turned = !turned});
+    if (!kept) plans.push_back({.turned = !turned});
     if (can_lie_between(volume, options))
         for (const bool way : {turned, !turned}) plans.push_back({.turned = way, .outline = Outline::mean});
     return plans;
@@ -99,8 +98,7 @@ std::vector<Plan> plans(const OpenVolume& volume, const SweepOptions& options, K
             for (Plan plan : ways) {
                 plan.per_turn = sides;
                 plan.wedges = options.wedges;
-                if (thinner) plan.heights = drawn->heights;
-                if (thinner) plan.layers = drawn->report;
+                if (thinner) plan.drawn = drawn;
                 all.push_back(std::move(plan));
             }
         }
@@ -114,7 +112,7 @@ std::string in_words(const Plan& plan, const OpenVolume& volume)
     std::string words = formatted("swept from the {}", end_of(volume, plan.turned));
     if (plan.outline == Outline::mean) words += ", laid out between the outlines of both ends";
     if (plan.turning == surface::Turning::together) words += ", its loops turned as one body";
-    if (!plan.heights.empty()) words += ", layers nearer to each other in the bends";
+    if (plan.drawn) words += ", layers nearer to each other in the bends";
     if (plan.wedges) words += ", with wedges";
     return words + formatted(", {} sides for a full turn", plan.per_turn);
 }

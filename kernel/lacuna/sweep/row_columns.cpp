@@ -2,12 +2,12 @@
 #include <lacuna/sweep/detail/row_columns.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/polyline.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <unordered_map>
 
@@ -121,7 +121,7 @@ Vec3 point_at(const std::vector<Vec3>& line, double place)
 
 Vec3 nearest_on(const Model& model, const surface::Chain& chain, const Vec3& p)
 {
-    double best = std::numeric_limits<double>::infinity(), length = 0;
+    double best = kInfinity, length = 0;
     for (std::size_t u = 0; u < chain.uses().size(); ++u) {
         const std::vector<Index> points = use_points(model, chain.uses()[u]);
         double arc = chain.start(u);

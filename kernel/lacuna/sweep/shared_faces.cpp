@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 
 namespace lacuna::sweep {
@@ -74,7 +74,7 @@ RimOff rim_off(const Side& one, const Side& other)
     for (const std::vector<Vec3>& chain : there) off.sag = std::max(off.sag, geometry::sag(chain));
     for (const std::vector<Vec3>& chain : chains_of(one)) {
         for (const Vec3& p : chain) {
-            double nearest = std::numeric_limits<double>::infinity();
+            double nearest = kInfinity;
             for (const std::vector<Vec3>& line : there)
                 nearest = std::min(nearest, closest_on(line, p).distance);
             if (nearest > off.distance) {

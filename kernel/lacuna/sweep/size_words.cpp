@@ -2,9 +2,9 @@
 #include <lacuna/sweep/detail/size_words.h>
 
 #include <lacuna/core/message.h>
+#include <lacuna/core/shared/constants.h>
 
 #include <cmath>
-#include <limits>
 
 namespace lacuna::sweep {
 
@@ -32,7 +32,7 @@ std::string width_in_words(const Model& model, const surface::SizeCause& cause)
 /// The rim edge whose curvature requires the shortest sides.
 std::string bends_in_words(const Model& model, const surface::Seeds& seeds)
 {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     EdgeId shortest;
     for (const auto& [edge, pieces] : seeds.pieces) {
         for (const surface::SeedPiece& piece : pieces) {

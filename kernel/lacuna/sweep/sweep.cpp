@@ -79,7 +79,8 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     const OpenVolume& way = plan.turned ? links.turned() : volume;
     SweepOptions options = asked;
     options.curvature = plan.per_turn;
-    if (!plan.heights.empty()) options.layers = {.heights = plan.heights};
+    options.wedges = plan.wedges;
+    if (plan.drawn) options.layers = {.heights = plan.drawn->heights};
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
     if (way.turned_round) reverse_heights(heights);
@@ -130,12 +131,13 @@ public:
     ///     attached.
     Swept run(const std::vector<Plan>& plans)
     {
-        for (std::size_t i = 0; i < std::min(plans.size(), kMostTried); ++i) {
-            if (best_ && (plan_->keeps_end || best_->min_scaled_jacobian >= plans[i].below)) continue;
-            if (!is_like_each(plans[i])) attempt(plans[i]);
+        for (const Plan& plan : plans) {
+            if (tried_.size() == kMostTried) break;
+            if (best_ && (plan_->keeps_end || best_->min_scaled_jacobian >= plan.below)) continue;
+            if (!is_like_each(plan)) attempt(plan);
         }
         if (!best_) throw NotSweepable(std::move(*refusal_));
-        if (!plan_->layers.empty()) best_->report.push_back(plan_->layers);
+        if (plan_->drawn) best_->report.push_back(plan_->drawn->report);
         if (tried_.size() > 1)
             tried_.insert(tried_.begin(), formatted("taken: {}", in_words(*plan_, volume_)));
         if (tried_.size() == 1) tried_ = {plan_->why};
@@ -205,8 +207,7 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
 }
 
 /// Plan the numbers of sides and layers, then search for the best plan.
-Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks& links,
-                 const RunContext& context)
+Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     check_cancelled(context);
     report_progress(context, "size");
@@ -215,6 +216,7 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
         throw NotSweepable(Message("sweep.not_closed", "the volume is not sealed")
                                .remedy("close it first with volume:close()"));
     }
+    KnownLinks links(volume);
     SweepOptions options = with_layer_intervals(volume, asked, links, context);
     const surface::SizeField size = options.size ? checked_size(options.size, "size")
                                                  : even_size(surface::default_size(volume).length);
@@ -228,10 +230,9 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, KnownLinks
 /// Mesh with hexahedra only; if that fails and the fallback allows it, with wedges.
 Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
-    KnownLinks links(volume);
     std::optional<Message> why;
     try {
-        return sweep_once(volume, asked, links, context);
+        return sweep_once(volume, asked, context);
     } catch (const NotSweepable& error) {
         if (asked.fallback != Fallback::wedges || asked.wedges) throw;
         why = error.message();
@@ -239,7 +240,7 @@ Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, 
     SweepOptions with_wedges = asked;
     with_wedges.wedges = true;
     try {
-        Swept swept = sweep_once(volume, with_wedges, links, context);
+        Swept swept = sweep_once(volume, with_wedges, context);
         swept.report.push_back(formatted("fallback: meshed with wedges, because {}", why->text()));
         return swept;
     } catch (const NotSweepable& error) { // the error without wedges is more informative

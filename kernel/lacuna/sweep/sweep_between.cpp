@@ -331,14 +331,14 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     if (!keeps_target && !imprint && !surface::inner_edges(volume, Role::target).empty())
         imprint = surface::imprint_target(volume, links, size); // refuses what keeps its quads, by name
     EndFaces ends = end_faces(volume, source, imprint);
-    if (keeps_target) ends.target = given_target.face;
+    if (keeps_target) ends.target = std::move(given_target.face);
     if (!given_target.why.empty()) {
-        result.not_kept.push_back("target: the quads it came with are not kept: " + given_target.why);
+        result.not_kept.push_back("target: its given quads are not kept: " + given_target.why);
         result.report.push_back(result.not_kept.back());
     }
     Morphed morphed;
     if (keeps_target) {
-        morphed.nodes = given_target.nodes;
+        morphed.nodes = std::move(given_target.nodes);
         morphed.report = "its own quads are laid out as the source's and stay";
     } else {
         const OpenVolume& shape = shape_of(volume, options);

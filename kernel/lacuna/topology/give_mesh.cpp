@@ -2,6 +2,7 @@
 #include <lacuna/topology/shared/give_mesh.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/side_points.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -86,7 +86,7 @@ std::vector<std::vector<Index>> cycles_of(std::span<const Quad> quads)
 
 /// The closest position on a chain to a point.
 struct Nearest {
-    double at = 0, distance = std::numeric_limits<double>::infinity();
+    double at = 0, distance = kInfinity;
 };
 Nearest nearest_on(const Model& model, std::span<const Index> points, std::span<const double> at,
                    const Vec3& p, double from = 0)
@@ -328,7 +328,7 @@ private:
         int turned = 0;
         for (const std::vector<Index>& cycle : cycles) {
             std::size_t best = 0;
-            double least = std::numeric_limits<double>::infinity();
+            double least = kInfinity;
             for (std::size_t l = 0; l < chains_.size(); ++l) {
                 double off = 0;
                 for (const Index n : cycle)

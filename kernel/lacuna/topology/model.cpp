@@ -420,10 +420,7 @@ void orient_consistently(Model& model)
         for (std::size_t i = 0; i < front.size(); ++i) {
             const FaceId face = front[i];
             for (const Loop& loop : model[face].loops) {
-                // A flipped face walks its loops backwards.
-                std::vector<EdgeUse> walk = loop.uses;
-                if (flipped[face.index()]) std::ranges::reverse(walk);
-                for (const EdgeUse& use : walk) {
+                for (const EdgeUse& use : loop.uses) {
                     const std::span<const FaceUse> both = model.uses_of_edge(use.edge);
                     open = open || both.size() < 2;
                     if (both.size() < 2) continue;

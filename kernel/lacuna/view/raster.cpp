@@ -2,6 +2,7 @@
 #include <lacuna/view/detail/raster.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/parallel.h>
 
 #include <algorithm>
@@ -107,7 +108,7 @@ std::vector<Placed> place_sides(const Scene& scene, const Projection& project)
         own.hatched = side.hatched;
         const double light = std::min(light_on(seen) * (!side.closed && seen.z() < 0 ? 0.72 : 1.0), 1.0);
         own.colour = mixed({0, 0, 0}, side.colour, light);
-        own.low = Vec2::Constant(std::numeric_limits<double>::infinity());
+        own.low = Vec2::Constant(kInfinity);
         own.high = -own.low;
         double girth = 0;
         for (std::size_t k = 0; k < side.count; ++k) {

@@ -5,7 +5,6 @@
 #include <lacuna/core/message.h>
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace lacuna::closure {

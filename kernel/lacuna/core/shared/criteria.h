@@ -16,7 +16,7 @@ inline constexpr double kRoundoff = 1e-12;
 
 /// Points closer than this share of a related length (a side, an edge, a rim, the diagonal) coincide, and a
 /// bend with a smaller sag counts as straight: projections converge to ten digits, and no side of a mesh is
-/// as short.
+/// as short. Computed directions with a smaller sine are parallel up to rounding.
 inline constexpr double kSamePlace = 1e-9;
 
 /// Relative accuracy of coordinates in files: six to seven digits in single precision. Points this close to
@@ -86,7 +86,7 @@ inline constexpr double kSameVolume = 0.01;
 
 /// A volume difference above this share is reported, whether it is caused by an assumption or by the mesh. It
 /// is twice the difference below which volumes count as equal.
-inline constexpr double kVolumeNoted = 0.02;
+inline constexpr double kVolumeNoted = 2 * kSameVolume;
 
 // Same size, same number
 
@@ -101,11 +101,11 @@ inline constexpr double kCountSlack = 1e-6;
 /// Growth of the size per length away from a place with short sides, in paving and in estimates of quads [-].
 inline constexpr double kGrading = 0.3;
 
-/// A mesh has the number of quads asked if it deviates by no more than this share, which every paving
-/// promises.
+/// A paving may deviate from the requested number of quads by this share.
 inline constexpr double kQuadsOff = 0.25;
 
-/// The promised share of sides with the size asked, and of good rows along the boundary.
+/// A paving is accepted if at least this share of its sides has the requested size, and of its rows along the
+/// boundary is good.
 inline constexpr double kPromisedShare = 0.95;
 
 } // namespace lacuna

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/types.h>
 
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -32,11 +32,10 @@ public:
         Index triangle = -1; ///< index in the constructor's order; -1: none within the distance
         Vec3 point = Vec3::Zero();
         Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, in [0, 1], sum 1
-        double distance2 = std::numeric_limits<double>::infinity(); ///< squared distance
+        double distance2 = kInfinity;    ///< squared distance
     };
     /// Only facets within the squared distance, inclusive, are considered.
-    [[nodiscard]] Hit closest(const Vec3& p,
-                              double max_distance2 = std::numeric_limits<double>::infinity()) const;
+    [[nodiscard]] Hit closest(const Vec3& p, double max_distance2 = kInfinity) const;
 
     /// Call `visit` for every pair (own triangle, triangle of other) whose boxes are within `margin`, until
     /// it returns false. For a tree and itself, each pair of different triangles is
@@ -52,7 +51,7 @@ public:
     /// Intersection of a ray with a facet.
     struct RayHit {
         Index triangle = -1;
-        double t = std::numeric_limits<double>::infinity(); ///< the point is origin + t direction, t >= 0
+        double t = kInfinity; ///< the point is origin + t direction, t >= 0
         Vec3 barycentric = Vec3::Zero();
     };
     /// The first intersection; `triangle` is -1 if there is none. A ray in the plane of

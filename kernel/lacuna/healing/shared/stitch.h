@@ -17,7 +17,6 @@ struct StitchReport {
     int edges_collapsed = 0;    ///< edges no longer than the tolerance
     int faces_left_out = 0;     ///< faces listed twice, or no wider than the tolerance
     std::vector<Message> notes; ///< faces and meshes that were dropped, and gaps that remain
-    std::vector<Message> sewn;  ///< the notes about edges merged across more than the tolerance
 
     [[nodiscard]] bool changed() const
     {

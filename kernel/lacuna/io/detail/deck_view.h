@@ -44,7 +44,7 @@ struct BulkPart {
 Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool interfaces,
                        const RunContext& context);
 
-/// View a deck for the writer of a format. Its cells have regions, and its sets are those of the view.
+/// View a deck for the writer of a format. The view has the regions and sets of the deck.
 ///
 /// For formats that are no decks, an entity is the elements of one dimension and region that are in the same
 /// sets; its groups are these sets and the region. The named lists of the view are those of the groups, where

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-/// Common parts of the writers, and of what adds meshes to decks. Internal to this folder.
+/// Common parts of the writers, and of the code that adds meshes to decks. Internal to this folder.
 namespace lacuna::io {
 
 using View = std::shared_ptr<const mesh::MeshView>;

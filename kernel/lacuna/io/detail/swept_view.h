@@ -36,7 +36,7 @@ public:
     {
         return kinds.skin(kind == 3 ? kinds.skin_quads() + i : i);
     }
-    /// Write the nodes of the cells [begin, end) of a kind. @return  the end of what was written
+    /// Write the nodes of the cells [begin, end) of a kind. @return  the end of the nodes written
     Index* put_nodes(std::size_t kind, std::size_t begin, std::size_t end, Index* out) const;
     [[nodiscard]] std::array<DeckShape, 4> shapes() const
     {

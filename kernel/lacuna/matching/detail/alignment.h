@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/matching/detail/problem.h>
 
-#include <limits>
 #include <vector>
 
 namespace lacuna::matching {
@@ -21,7 +21,7 @@ struct Alignment {
     /// For loops paired by length: share of the target's length where the source's start lies.
     double offset = 0;
     bool backward = true; ///< the target loop is traversed against its own direction
-    double score = std::numeric_limits<double>::infinity();
+    double score = kInfinity;
     geometry::RigidFit fit;
 };
 

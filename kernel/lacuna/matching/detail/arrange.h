@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/matching/detail/alignment.h>
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,7 +15,7 @@ struct Arrangement {
     int anchor = 0;
     Alignment alignment;           ///< of the anchor; its score includes the misfit of the other loops
     std::optional<Alignment> next; ///< the second best alignment with the same pairs
-    double score = std::numeric_limits<double>::infinity();
+    double score = kInfinity;
 };
 
 /// Pair the loops: try every alignment of one source loop with each allowed target loop, and rate where it

@@ -5,6 +5,7 @@
 /// folder include it.
 
 #include <lacuna/quads/detail/pattern_loop.h>
+#include <lacuna/quads/shared/measure_plane.h>
 #include <lacuna/quads/shared/pattern_counts.h>
 
 #include <array>
@@ -42,7 +43,7 @@ struct CountRange {
 /// Ranges for the loops of a ring, and for other segments of four sides or more. In kRing, edges are 0.6 to
 /// 1.6 times as long as asked, the range in which `measure_plane()` counts a size as right. kSegment is the
 /// promised range of sizes. Segments of fewer sides may change by one side.
-inline constexpr CountRange kRing{1 / 1.6, 1 / 0.6}, kSegment{1 / 1.25, 1.25};
+inline constexpr CountRange kRing{1 / kLongestOfSize, 1 / kShortestOfSize}, kSegment{1 / 1.25, 1.25};
 /// Factor by which rounding may exceed a ring's range, so that repeated segments of a loop still get equal
 /// numbers. A larger value keeps more symmetry, but the edges of one loop then miss the size asked.
 inline constexpr double kRingRounding = 1.03;

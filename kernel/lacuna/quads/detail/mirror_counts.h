@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/quads/detail/counted_loop.h>
 #include <lacuna/quads/detail/outline_symmetry.h>
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -45,8 +45,7 @@ auto cheapest_of_parts(const PlanarRegion& region, const std::vector<Symmetry>& 
             auto part = mirror_part(region, symmetries, sizes[s], choice);
             if (!part) break;
             auto made = make(std::move(*part));
-            if (is_last || made.cost < (best ? best->cost : std::numeric_limits<double>::infinity()))
-                best = std::move(made);
+            if (is_last || made.cost < (best ? best->cost : kInfinity)) best = std::move(made);
         }
     }
     return best;

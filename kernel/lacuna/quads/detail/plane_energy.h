@@ -3,11 +3,11 @@
 
 /// The energy minimised by smoothing in the plane.
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/vector_code.h>
 #include <lacuna/quads/detail/plane_stars.h>
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 namespace lacuna::quads {
@@ -231,7 +231,7 @@ public:
     {
         double value = 0;
         for (std::size_t i = 0; i < count_; ++i) {
-            if (!lanes_[i].add_to(value, x, weight, least)) return std::numeric_limits<double>::infinity();
+            if (!lanes_[i].add_to(value, x, weight, least)) return kInfinity;
         }
         return value;
     }

@@ -17,7 +17,7 @@ namespace lacuna::quality {
 /// Bounding box of the points; empty if a point is not finite. Parallel.
 Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext& context);
 
-/// Points closer than this coincide: 1e-9 of the diagonal.
+/// Points closer than this coincide: `kSamePlace` × the diagonal.
 inline double coincidence_tolerance(const Eigen::AlignedBox3d& bounds)
 {
     return kSamePlace * bounds.diagonal().norm();

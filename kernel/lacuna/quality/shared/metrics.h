@@ -2,11 +2,11 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -48,8 +48,8 @@ inline constexpr std::size_t kMetricCount = 22;
 
 /// An interval, both ends included.
 struct Range {
-    double low = -std::numeric_limits<double>::infinity();
-    double high = std::numeric_limits<double>::infinity();
+    double low = -kInfinity;
+    double high = kInfinity;
 
     [[nodiscard]] bool contains(double value) const { return value >= low && value <= high; }
 };

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <lacuna/core/ids.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/types.h>
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -25,7 +25,7 @@ struct FlatEdge {
 
 /// The point of a polyline closest to a point.
 struct Closest {
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = kInfinity;
     double at = 0; ///< share of the edge's length
     Vec2 place = Vec2::Zero();
 };

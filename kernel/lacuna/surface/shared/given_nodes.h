@@ -36,7 +36,7 @@ struct GivenColumns {
     std::vector<GivenStub> stubs;   ///< in order of their running lengths, the source's first
 };
 
-/// What `given_columns()` found.
+/// Rows and columns of the given wall meshes.
 struct GivenRows {
     /// For each linking surface; all have the same number of rows, or none.
     std::vector<GivenColumns> columns;

@@ -4,7 +4,6 @@
 #include <lacuna/surface/shared/given_nodes.h>
 #include <lacuna/surface/shared/source_mesh.h>
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/open_volume.h>
 
-#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -22,11 +22,11 @@ struct OverlapAreas {
 
 /// Overlap of two faces of two volumes.
 struct FaceOverlap {
-    OverlapAreas a, b;                                      ///< as seen from each face
-    double least = std::numeric_limits<double>::infinity(); ///< distance within the window [model length]
-    double gap = 0;                                         ///< maximum distance where they are apart
-    double depth = 0;                                       ///< maximum depth where they overlap
-    Eigen::AlignedBox3d box;                                ///< bounding box of the part within the window
+    OverlapAreas a, b;        ///< as seen from each face
+    double least = kInfinity; ///< distance within the window [model length]
+    double gap = 0;           ///< maximum distance where they are apart
+    double depth = 0;         ///< maximum depth where they overlap
+    Eigen::AlignedBox3d box;  ///< bounding box of the part within the window
 };
 
 using FaceOverlaps = std::map<std::pair<FaceId, FaceId>, FaceOverlap>;

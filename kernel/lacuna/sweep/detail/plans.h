@@ -2,10 +2,12 @@
 #pragma once
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/sweep.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +19,11 @@ struct Plan {
     bool keeps_end = false; ///< the end where it starts has given quads, which are kept
     Outline outline = Outline::source;
     surface::Turning turning = surface::Turning::each;
-    std::vector<double> heights{}; ///< heights of layers that are thinner in bends, as `LayerSpec::heights`
-    int per_turn = 12;             ///< sides for a full turn
-    bool wedges = false;           ///< see `SweepOptions::wedges`
-    double below = kPoorCell;      ///< tried if no mesh has this least scaled Jacobian yet
-    std::string why{};             ///< for the report: why it comes first; may be empty
-    std::string layers{};          ///< for the report: how `heights` were chosen
+    std::optional<DrawnLayers> drawn{}; ///< layers that are thinner in bends; empty: as the options ask
+    int per_turn = 12;                  ///< sides for a full turn
+    bool wedges = false;                ///< see `SweepOptions::wedges`
+    double below = kPoorCell;           ///< tried if no mesh has this least scaled Jacobian yet
+    std::string why{};                  ///< for the report: why it comes first; may be empty
 };
 
 /// The ways to mesh a volume, best first.
@@ -38,7 +39,8 @@ struct Plan {
 std::vector<Plan> plans(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                         const RunContext& context);
 
-/// The plan, for reports and errors: "swept from the target, with its loops turned as one body".
+/// The plan, for reports and errors: "swept from the target, its loops turned as one body, 12 sides
+/// for a full turn".
 std::string in_words(const Plan& plan, const topology::OpenVolume& volume);
 
 } // namespace lacuna::sweep

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/open_volume.h>
 
-#include <limits>
 #include <set>
 #include <span>
 #include <vector>
@@ -16,8 +16,8 @@ std::set<EdgeId> rim_edges(const topology::Model& model, FaceId face);
 
 /// The point of a polyline closest to a position.
 struct OnLine {
-    double at = 0;                                             ///< running length [model length]
-    double distance = std::numeric_limits<double>::infinity(); ///< [model length]
+    double at = 0;               ///< running length [model length]
+    double distance = kInfinity; ///< [model length]
 };
 OnLine closest_on(std::span<const Vec3> line, const Vec3& p);
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/model.h>
 
-#include <limits>
 #include <vector>
 
 namespace lacuna::topology {
@@ -12,7 +12,7 @@ namespace lacuna::topology {
 /// Two close free edges of two unconnected parts of a model.
 struct Gap {
     EdgeId own, other;
-    double width = std::numeric_limits<double>::infinity(); ///< at its widest [model length]
+    double width = kInfinity; ///< at its widest [model length]
 };
 
 /// The gaps between free edges of unconnected parts that are narrow enough to be sewn; the narrowest first,
