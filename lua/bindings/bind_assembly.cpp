@@ -193,13 +193,13 @@ int mesh_to_string(lua_State* L)
 
 const luaL_Reg kAssemblyMeta[] = {{"__tostring", assembly_to_string}, {nullptr, nullptr}};
 const Field kAssemblyFields[] = {{nullptr, nullptr}};
-const luaL_Reg kMethods[] = {{"node", node},
-                             {"hex", hex},
-                             {"wedge", wedge},
-                             {"groups", mesh_groups<AssemblyMeshState>},
-                             {nullptr, nullptr}};
-const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
-const Field kFields[] = {
+const luaL_Reg kAssemblyMeshMethods[] = {{"node", node},
+                                         {"hex", hex},
+                                         {"wedge", wedge},
+                                         {"groups", mesh_groups<AssemblyMeshState>},
+                                         {nullptr, nullptr}};
+const luaL_Reg kAssemblyMeshMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
+const Field kAssemblyMeshFields[] = {
     {"wedges", push_sum<AssemblyMeshState, &mesh::HexMesh::wedge_count>},
     {"order", mesh_order<AssemblyMeshState>},
     {"nodes", mesh_nodes},
@@ -217,8 +217,8 @@ const Field kFields[] = {
 void bind_assembly(lua_State* L)
 {
     make_class<AssemblyState>(L, kAssemblyFields, kAssemblyMeta);
-    make_class<AssemblyMeshState>(L, kFields, kMeta);
-    add_methods(L, kClassName<AssemblyMeshState>, kMethods);
+    make_class<AssemblyMeshState>(L, kAssemblyMeshFields, kAssemblyMeshMeta);
+    add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMeshMethods);
     lua_pushcfunction(L, make_assembly);
     lua_setfield(L, -2, "assembly");
 }

@@ -118,11 +118,14 @@ int sweep_assembly_to(lua_State* L)
     return push_swept_assembly(L, 3, "sweep_to", &written, may_be_layered_of_parts(file, path), host(L).crew);
 }
 
-const luaL_Reg kAssemblyMethods[] = {
+const luaL_Reg kAssemblySweepAssemblyMethods[] = {
     {"sweep", sweep_assembly}, {"sweep_to", sweep_assembly_to}, {nullptr, nullptr}};
 
 } // namespace
 
-void bind_assembly_sweep(lua_State* L) { add_methods(L, kClassName<AssemblyState>, kAssemblyMethods); }
+void bind_assembly_sweep(lua_State* L)
+{
+    add_methods(L, kClassName<AssemblyState>, kAssemblySweepAssemblyMethods);
+}
 
 } // namespace lacuna::lua

@@ -172,21 +172,21 @@ int to_string(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kMethods[] = {{"row", row}, {"each", each}, {"bytes", bytes}, {nullptr, nullptr}};
-const luaL_Reg kMeta[] = {{"__len", length}, {"__tostring", to_string}, {nullptr, nullptr}};
-const Field kFields[] = {{"rows", length}, {"columns", columns}, {"type", type}, {nullptr, nullptr}};
-const luaL_Reg kMeshMethods[] = {{"coordinates", coordinates}, {"cells", cells}, {nullptr, nullptr}};
-const luaL_Reg kAssemblyMethods[] = {
+const luaL_Reg kBufferMethods[] = {{"row", row}, {"each", each}, {"bytes", bytes}, {nullptr, nullptr}};
+const luaL_Reg kBufferMeta[] = {{"__len", length}, {"__tostring", to_string}, {nullptr, nullptr}};
+const Field kBufferFields[] = {{"rows", length}, {"columns", columns}, {"type", type}, {nullptr, nullptr}};
+const luaL_Reg kBufferMeshMethods[] = {{"coordinates", coordinates}, {"cells", cells}, {nullptr, nullptr}};
+const luaL_Reg kBufferAssemblyMethods[] = {
     {"coordinates", assembly_coordinates}, {"cells", assembly_cells}, {nullptr, nullptr}};
 
 } // namespace
 
 void bind_buffer(lua_State* L)
 {
-    make_class<BufferState>(L, kFields, kMeta);
-    add_methods(L, kClassName<BufferState>, kMethods);
-    add_methods(L, kClassName<MeshState>, kMeshMethods);
-    add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMethods);
+    make_class<BufferState>(L, kBufferFields, kBufferMeta);
+    add_methods(L, kClassName<BufferState>, kBufferMethods);
+    add_methods(L, kClassName<MeshState>, kBufferMeshMethods);
+    add_methods(L, kClassName<AssemblyMeshState>, kBufferAssemblyMethods);
 }
 
 } // namespace lacuna::lua

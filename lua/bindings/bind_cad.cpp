@@ -12,7 +12,7 @@ namespace lacuna::lua {
 
 namespace {
 
-const Option<cad::WriteCadOptions> kWriteOptions[] = {
+const Option<cad::WriteCadOptions> kCadWriteOptions[] = {
     {"tolerance", positive<&cad::WriteCadOptions::tolerance>},
     {"deviation", positive<&cad::WriteCadOptions::deviation>},
     {"cad_seconds", read_cad_seconds},
@@ -26,7 +26,7 @@ int write_cad(lua_State* L)
     const auto& state = hold<VolumeState>(L, 1);
     const io::OutputPath& path = push_output_path(L, 2, "write_cad");
     cad::WriteCadOptions options;
-    read_options(L, 3, "write_cad", kWriteOptions, options);
+    read_options(L, 3, "write_cad", kCadWriteOptions, options);
     options.limits.may_raise = !host(L).sandboxed;
     RunContext& context = push_context(L);
     cad::WrittenCad written;
@@ -50,9 +50,9 @@ int gmsh_version(lua_State* L)
 }
 
 namespace {
-const luaL_Reg kVolumeMethods[] = {{"write_cad", write_cad}, {nullptr, nullptr}};
+const luaL_Reg kCadVolumeMethods[] = {{"write_cad", write_cad}, {nullptr, nullptr}};
 } // namespace
 
-void bind_cad(lua_State* L) { add_methods(L, kClassName<VolumeState>, kVolumeMethods); }
+void bind_cad(lua_State* L) { add_methods(L, kClassName<VolumeState>, kCadVolumeMethods); }
 
 } // namespace lacuna::lua

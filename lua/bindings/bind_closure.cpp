@@ -144,7 +144,7 @@ void read_cutting_face(lua_State* L, int index, const Where& where, CutArguments
     });
 }
 
-const Option<CutArguments> kCutOptions[] = {{"plane", read_plane}, {"face", read_cutting_face}};
+const Option<CutArguments> kClosureCutOptions[] = {{"plane", read_plane}, {"face", read_cutting_face}};
 
 /// The faces of a volume as a model of their own, on top of the stack.
 Box<ModelState>& push_model(lua_State* L, const VolumeState& state)
@@ -174,7 +174,7 @@ int cut(lua_State* L)
     auto& arguments = temporary<CutArguments>(L);
     if (!lua_isnil(L, 2)) {
         arguments.model = &push_model(L, state);
-        read_options(L, 2, "cut", kCutOptions, arguments);
+        read_options(L, 2, "cut", kClosureCutOptions, arguments);
         if (arguments.plane.has_value() == (arguments.of != nullptr))
             fail(L, "cut: give either 'plane' or 'face', or no options, for a volume with steps");
     }
@@ -191,14 +191,14 @@ int cut(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kVolumeMethods[] = {{"close", close},
-                                   {"cut", cut},
-                                   {"is_watertight", is_watertight},
-                                   {"model", volume_model},
-                                   {nullptr, nullptr}};
+const luaL_Reg kClosureVolumeMethods[] = {{"close", close},
+                                          {"cut", cut},
+                                          {"is_watertight", is_watertight},
+                                          {"model", volume_model},
+                                          {nullptr, nullptr}};
 
 } // namespace
 
-void bind_closure(lua_State* L) { add_methods(L, kClassName<VolumeState>, kVolumeMethods); }
+void bind_closure(lua_State* L) { add_methods(L, kClassName<VolumeState>, kClosureVolumeMethods); }
 
 } // namespace lacuna::lua

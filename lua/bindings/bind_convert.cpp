@@ -17,11 +17,12 @@ void read_version(lua_State* L, int index, const Where& where, io::MeshFileOptio
     if (options.version != 4.1 && options.version != 2.2) fail_value(L, where, "4.1 or 2.2", index);
 }
 
-const Word<bool> kGroups[] = {{"one", false}, {"all", true}};
+const Word<bool> kConvertGroups[] = {{"one", false}, {"all", true}};
 
-const Option<io::MeshFileOptions> kOptions[] = {{"version", read_version},
-                                                {"binary", boolean<&io::MeshFileOptions::binary>},
-                                                {"groups", word<&io::MeshFileOptions::all_groups, kGroups>}};
+const Option<io::MeshFileOptions> kOptions[] = {
+    {"version", read_version},
+    {"binary", boolean<&io::MeshFileOptions::binary>},
+    {"groups", word<&io::MeshFileOptions::all_groups, kConvertGroups>}};
 
 /// { nodes =, elements = } = lacuna.convert(from, to [, options])
 int convert(lua_State* L)
@@ -48,10 +49,10 @@ int convert(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kFunctions[] = {{"convert", convert}, {nullptr, nullptr}};
+const luaL_Reg kConvertFunctions[] = {{"convert", convert}, {nullptr, nullptr}};
 
 } // namespace
 
-void bind_convert(lua_State* L) { luaL_setfuncs(L, kFunctions, 0); }
+void bind_convert(lua_State* L) { luaL_setfuncs(L, kConvertFunctions, 0); }
 
 } // namespace lacuna::lua

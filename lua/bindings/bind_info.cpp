@@ -283,11 +283,11 @@ int describe_model(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kModelMethods[] = {
+const luaL_Reg kInfoModelMethods[] = {
     {"info", info}, {"cavities", cavities}, {"describe", describe_model}, {nullptr, nullptr}};
 
 } // namespace
 
-void bind_info(lua_State* L) { add_methods(L, kClassName<ModelState>, kModelMethods); }
+void bind_info(lua_State* L) { add_methods(L, kClassName<ModelState>, kInfoModelMethods); }
 
 } // namespace lacuna::lua

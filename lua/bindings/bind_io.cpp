@@ -163,11 +163,11 @@ void read_ghosts(lua_State* L, int index, const Where& where, WriteArguments& ar
     arguments.partition.ghosts = static_cast<int>(read_whole(L, index, where, 0));
 }
 
-const Word<bool> kGroups[] = {{"one", false}, {"all", true}};
+const Word<bool> kIoGroups[] = {{"one", false}, {"all", true}};
 
 void read_groups(lua_State* L, int index, const Where& where, WriteArguments& arguments)
 {
-    arguments.msh.all_groups = read_word(L, index, where, kGroups);
+    arguments.msh.all_groups = read_word(L, index, where, kIoGroups);
     arguments.groups_given = true;
 }
 
@@ -185,7 +185,7 @@ void count_parts(WriteArguments& arguments, const io::OutputPath& path, const Cr
     arguments.msh.partition = arguments.partition;
 }
 
-const Option<WriteArguments> kWriteOptions[] = {
+const Option<WriteArguments> kIoWriteOptions[] = {
     {"version", read_version},
     {"binary", read_binary},
     {"quality", read_quality},
@@ -351,7 +351,7 @@ int write(lua_State* L)
     const auto& state = hold<MeshState>(L, 1);
     const io::OutputPath& path = push_output_path(L, 2, "write");
     auto& arguments = temporary<WriteArguments>(L);
-    read_options(L, 3, "write", kWriteOptions, arguments);
+    read_options(L, 3, "write", kIoWriteOptions, arguments);
     RunContext& context = push_context(L);
     const Host& lent = host(L);
     guard(L, [&] {
@@ -408,7 +408,7 @@ int write_assembly(lua_State* L)
     const auto& state = hold<AssemblyMeshState>(L, 1);
     const io::OutputPath& path = push_output_path(L, 2, "write");
     auto& arguments = temporary<WriteArguments>(L);
-    read_options(L, 3, "write", kWriteOptions, arguments);
+    read_options(L, 3, "write", kIoWriteOptions, arguments);
     RunContext& context = push_context(L);
     const Host& lent = host(L);
     guard(L, [&] {
@@ -420,7 +420,7 @@ int write_assembly(lua_State* L)
 
 const Option<io::FacetFileOptions> kFacetOptions[] = {
     {"binary", boolean<&io::FacetFileOptions::binary>},
-    {"groups", word<&io::FacetFileOptions::all_groups, kGroups>}};
+    {"groups", word<&io::FacetFileOptions::all_groups, kIoGroups>}};
 
 /// volume:write_facets(path [, options])
 int write_facets(lua_State* L)
@@ -550,10 +550,10 @@ int check_file(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kMeshMethods[] = {{"write", write}, {nullptr, nullptr}};
-const luaL_Reg kVolumeMethods[] = {{"write_facets", write_facets}, {nullptr, nullptr}};
+const luaL_Reg kIoMeshMethods[] = {{"write", write}, {nullptr, nullptr}};
+const luaL_Reg kIoVolumeMethods[] = {{"write_facets", write_facets}, {nullptr, nullptr}};
 
-const luaL_Reg kFunctions[] = {{"check", check_file}, {"load", load}, {nullptr, nullptr}};
+const luaL_Reg kIoFunctions[] = {{"check", check_file}, {"load", load}, {nullptr, nullptr}};
 
 } // namespace
 
@@ -624,11 +624,11 @@ void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, Wr
 
 void bind_io(lua_State* L)
 {
-    luaL_setfuncs(L, kFunctions, 0);
-    add_methods(L, kClassName<MeshState>, kMeshMethods);
+    luaL_setfuncs(L, kIoFunctions, 0);
+    add_methods(L, kClassName<MeshState>, kIoMeshMethods);
     const luaL_Reg assembly[] = {{"write", write_assembly}, {nullptr, nullptr}};
     add_methods(L, kClassName<AssemblyMeshState>, assembly);
-    add_methods(L, kClassName<VolumeState>, kVolumeMethods);
+    add_methods(L, kClassName<VolumeState>, kIoVolumeMethods);
 }
 
 } // namespace lacuna::lua

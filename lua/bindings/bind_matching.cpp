@@ -11,8 +11,8 @@ namespace {
 
 using matching::MatchOptions;
 
-const Word<matching::Method> kMethods[] = {{"aligned", matching::Method::aligned},
-                                           {"nearest", matching::Method::nearest}};
+const Word<matching::Method> kMatchingMethods[] = {{"aligned", matching::Method::aligned},
+                                                   {"nearest", matching::Method::nearest}};
 
 /// Pairs of whole numbers from `smallest`, each less by `offset`.
 template <auto Member, int Offset>
@@ -45,7 +45,7 @@ void read_flip(lua_State* L, int index, const Where& where, MatchOptions& option
 
 // Vertices go by tag, loops by number: loops count from 1 here and from 0 in the kernel.
 const Option<MatchOptions> kMatchOptions[] = {
-    {"method", word<&MatchOptions::method, kMethods>},
+    {"method", word<&MatchOptions::method, kMatchingMethods>},
     {"vertices", read_pairs<&MatchOptions::vertices, 0>},
     {"loops", read_pairs<&MatchOptions::loops, 1>},
     {"flip", read_flip},
@@ -91,10 +91,10 @@ int match(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kVolumeMethods[] = {{"match", match}, {nullptr, nullptr}};
+const luaL_Reg kMatchingVolumeMethods[] = {{"match", match}, {nullptr, nullptr}};
 
 } // namespace
 
-void bind_matching(lua_State* L) { add_methods(L, kClassName<VolumeState>, kVolumeMethods); }
+void bind_matching(lua_State* L) { add_methods(L, kClassName<VolumeState>, kMatchingVolumeMethods); }
 
 } // namespace lacuna::lua

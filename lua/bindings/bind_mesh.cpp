@@ -106,9 +106,9 @@ int mesh_to_string(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kMethods[] = {
+const luaL_Reg kMeshMeshMethods[] = {
     {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", mesh_groups<MeshState>}, {nullptr, nullptr}};
-const luaL_Reg kMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
+const luaL_Reg kMeshMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 /// { }: what a volume alone cannot mesh is an error
 int mesh_left_out(lua_State* L)
 {
@@ -117,7 +117,7 @@ int mesh_left_out(lua_State* L)
     return 1;
 }
 
-const Field kFields[] = {
+const Field kMeshFields[] = {
     {"nodes", mesh_nodes},
     {"hexes", push_sum<MeshState, &mesh::HexMesh::hex_count>},
     {"wedges", push_sum<MeshState, &mesh::HexMesh::wedge_count>},
@@ -134,8 +134,8 @@ const Field kFields[] = {
 
 void bind_mesh(lua_State* L)
 {
-    make_class<MeshState>(L, kFields, kMeta);
-    add_methods(L, kClassName<MeshState>, kMethods);
+    make_class<MeshState>(L, kMeshFields, kMeshMeta);
+    add_methods(L, kClassName<MeshState>, kMeshMeshMethods);
 }
 
 } // namespace lacuna::lua

@@ -191,8 +191,8 @@ int volume_to_string(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kModelMethods[] = {{"open_volume", open_volume}, {nullptr, nullptr}};
-const luaL_Reg kVolumeMethods[] = {
+const luaL_Reg kVolumeModelMethods[] = {{"open_volume", open_volume}, {nullptr, nullptr}};
+const luaL_Reg kVolumeVolumeMethods[] = {
     {"classify", classify}, {"override_class", override_class}, {"free_edges", free_edges},
     {"tree", volume_tree},  {"describe", describe_volume},      {nullptr, nullptr},
 };
@@ -204,8 +204,8 @@ const Field kVolumeFields[] = {{"class", volume_class}, {nullptr, nullptr}};
 void bind_open_volume(lua_State* L)
 {
     make_class<VolumeState>(L, kVolumeFields, kVolumeMeta);
-    add_methods(L, kClassName<VolumeState>, kVolumeMethods);
-    add_methods(L, kClassName<ModelState>, kModelMethods);
+    add_methods(L, kClassName<VolumeState>, kVolumeVolumeMethods);
+    add_methods(L, kClassName<ModelState>, kVolumeModelMethods);
 }
 
 } // namespace lacuna::lua

@@ -161,8 +161,8 @@ int assembly_quality(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kMeshMethods[] = {{"quality", mesh_quality}, {nullptr, nullptr}};
-const luaL_Reg kAssemblyMethods[] = {{"quality", assembly_quality}, {nullptr, nullptr}};
+const luaL_Reg kQualityMeshMethods[] = {{"quality", mesh_quality}, {nullptr, nullptr}};
+const luaL_Reg kQualityAssemblyMethods[] = {{"quality", assembly_quality}, {nullptr, nullptr}};
 
 } // namespace
 
@@ -208,8 +208,8 @@ void bind_quality(lua_State* L)
     lua_setfield(L, -2, "sources");
     set_string(L, "__metatable", "Quality");
     lua_pop(L, 1);
-    add_methods(L, kClassName<MeshState>, kMeshMethods);
-    add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMethods);
+    add_methods(L, kClassName<MeshState>, kQualityMeshMethods);
+    add_methods(L, kClassName<AssemblyMeshState>, kQualityAssemblyMethods);
 }
 
 } // namespace lacuna::lua

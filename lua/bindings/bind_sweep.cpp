@@ -51,10 +51,10 @@ int sweep_to(lua_State* L)
     return push_swept_volume(L, "sweep_to", state, arguments, &written, layered_parts);
 }
 
-const luaL_Reg kVolumeMethods[] = {{"sweep", sweep_volume}, {"sweep_to", sweep_to}, {nullptr, nullptr}};
+const luaL_Reg kSweepVolumeMethods[] = {{"sweep", sweep_volume}, {"sweep_to", sweep_to}, {nullptr, nullptr}};
 
 } // namespace
 
-void bind_sweep(lua_State* L) { add_methods(L, kClassName<VolumeState>, kVolumeMethods); }
+void bind_sweep(lua_State* L) { add_methods(L, kClassName<VolumeState>, kSweepVolumeMethods); }
 
 } // namespace lacuna::lua

@@ -213,7 +213,7 @@ int model_to_string(lua_State* L)
 int model_tolerance(lua_State* L) { return give(L, hold_model(L, 1)->model.tolerance); }
 int model_diagonal(lua_State* L) { return give(L, hold_model(L, 1)->model.diagonal); }
 
-const luaL_Reg kModelMethods[] = {
+const luaL_Reg kTopologyModelMethods[] = {
     {"faces", faces}, {"face", face}, {"face_from", face_from}, {"add_face", add_face}, {nullptr, nullptr},
 };
 const luaL_Reg kModelMeta[] = {{"__tostring", model_to_string}, {nullptr, nullptr}};
@@ -369,17 +369,17 @@ const Field kFaceFields[] = {
 };
 const luaL_Reg kFaceMeta[] = {{"__tostring", face_to_string}, {"__eq", face_equal}, {nullptr, nullptr}};
 
-const luaL_Reg kFunctions[] = {{"model", new_model}, {nullptr, nullptr}};
+const luaL_Reg kTopologyFunctions[] = {{"model", new_model}, {nullptr, nullptr}};
 
 } // namespace
 
 void bind_topology(lua_State* L)
 {
     make_class<ModelState>(L, kModelFields, kModelMeta);
-    add_methods(L, kClassName<ModelState>, kModelMethods);
+    add_methods(L, kClassName<ModelState>, kTopologyModelMethods);
     bind_info(L);
     make_class<FaceHandle>(L, kFaceFields, kFaceMeta);
-    luaL_setfuncs(L, kFunctions, 0);
+    luaL_setfuncs(L, kTopologyFunctions, 0);
 }
 
 } // namespace lacuna::lua

@@ -117,8 +117,8 @@ void read_direction(lua_State* L, int index, const Where& where, view::PictureOp
     options.direction = {x, y, z};
 }
 
-const Option<view::CutPlane> kCutOptions[] = {{"point", vector<&view::CutPlane::point>},
-                                              {"normal", vector<&view::CutPlane::normal>}};
+const Option<view::CutPlane> kViewCutOptions[] = {{"point", vector<&view::CutPlane::point>},
+                                                  {"normal", vector<&view::CutPlane::normal>}};
 
 void read_cut(lua_State* L, int index, const Where& where, view::PictureOptions& options)
 {
@@ -130,7 +130,7 @@ void read_cut(lua_State* L, int index, const Where& where, view::PictureOptions&
             fail_option(L, where, "has no '%s': { point = {x, y, z}, normal = {x, y, z} }", key);
         lua_pop(L, 1);
     }
-    read_options(L, index, "picture: cut", kCutOptions, plane);
+    read_options(L, index, "picture: cut", kViewCutOptions, plane);
     options.cut = plane;
 }
 
@@ -262,28 +262,28 @@ int view(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kModelMethods[] = {{"view", view_page<ModelState>},
-                                  {"picture", picture<ModelState, kFacePictureOptions>},
-                                  {nullptr, nullptr}};
-const luaL_Reg kVolumeMethods[] = {{"view", view_page<VolumeState>},
-                                   {"picture", picture<VolumeState, kFacePictureOptions>},
-                                   {nullptr, nullptr}};
-const luaL_Reg kMeshMethods[] = {
+const luaL_Reg kViewModelMethods[] = {{"view", view_page<ModelState>},
+                                      {"picture", picture<ModelState, kFacePictureOptions>},
+                                      {nullptr, nullptr}};
+const luaL_Reg kViewVolumeMethods[] = {{"view", view_page<VolumeState>},
+                                       {"picture", picture<VolumeState, kFacePictureOptions>},
+                                       {nullptr, nullptr}};
+const luaL_Reg kViewMeshMethods[] = {
     {"view", view_page<MeshState>}, {"picture", picture<MeshState, kPictureOptions>}, {nullptr, nullptr}};
-const luaL_Reg kAssemblyMethods[] = {{"view", view_page<AssemblyMeshState>},
-                                     {"picture", picture<AssemblyMeshState, kPictureOptions>},
-                                     {nullptr, nullptr}};
-const luaL_Reg kFunctions[] = {{"view", view}, {nullptr, nullptr}};
+const luaL_Reg kViewAssemblyMethods[] = {{"view", view_page<AssemblyMeshState>},
+                                         {"picture", picture<AssemblyMeshState, kPictureOptions>},
+                                         {nullptr, nullptr}};
+const luaL_Reg kViewFunctions[] = {{"view", view}, {nullptr, nullptr}};
 
 } // namespace
 
 void bind_view(lua_State* L)
 {
-    luaL_setfuncs(L, kFunctions, 0);
-    add_methods(L, kClassName<ModelState>, kModelMethods);
-    add_methods(L, kClassName<VolumeState>, kVolumeMethods);
-    add_methods(L, kClassName<MeshState>, kMeshMethods);
-    add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMethods);
+    luaL_setfuncs(L, kViewFunctions, 0);
+    add_methods(L, kClassName<ModelState>, kViewModelMethods);
+    add_methods(L, kClassName<VolumeState>, kViewVolumeMethods);
+    add_methods(L, kClassName<MeshState>, kViewMeshMethods);
+    add_methods(L, kClassName<AssemblyMeshState>, kViewAssemblyMethods);
 }
 
 } // namespace lacuna::lua

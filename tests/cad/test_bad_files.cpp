@@ -17,7 +17,7 @@ const std::vector<std::string> kEndings{".step", ".stp", ".iges", ".igs", ".brep
                                         ".obj",  ".msh", ".bdf",  ".nas", ".unv",  ".vtk", ".mesh"};
 
 /// The message of the error that loading gives, after its code.
-std::string failure(const std::string& path, const cad::LoadOptions& options = {})
+std::string load_failure(const std::string& path, const cad::LoadOptions& options = {})
 {
     try {
         (void)cad::load({path}, options);
@@ -37,11 +37,11 @@ TEST_CASE("a missing file, a folder and an empty file are told apart, each named
     for (const std::string& ending : kEndings) {
         CAPTURE(ending);
         const std::string missing = folder.path("missing" + ending);
-        CHECK(has(failure(missing), "io.no_file"));
-        CHECK(has(failure(missing), missing));
+        CHECK(has(load_failure(missing), "io.no_file"));
+        CHECK(has(load_failure(missing), missing));
         std::filesystem::create_directory(folder.path("folder" + ending));
-        CHECK(has(failure(folder.path("folder" + ending)), "io.not_a_file"));
-        CHECK(has(failure(folder.write("empty" + ending, "")), "io.empty_file"));
+        CHECK(has(load_failure(folder.path("folder" + ending)), "io.not_a_file"));
+        CHECK(has(load_failure(folder.write("empty" + ending, "")), "io.empty_file"));
     }
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("an unknown ending is answered with the known ones")
 {
     const test::TempFolder folder;
     for (const char* name : {"part.sldprt", "part.docx", "part", "part.step.bak"}) {
-        const std::string message = failure(folder.write(name, "text"));
+        const std::string message = load_failure(folder.write(name, "text"));
         CHECK(has(message, "io.unknown_ending"));
         CHECK(has(message, ".step"));
         CHECK(has(message, ".stl"));
@@ -74,7 +74,7 @@ TEST_CASE("text that is no file of its kind is refused, whatever the ending")
              {std::string("hello world\nfoo bar\n"), std::string(300, '\0'), std::string(5000, 'x')}) {
             CAPTURE(ending);
             const std::string path = folder.write("bad" + ending, text);
-            const std::string message = failure(path);
+            const std::string message = load_failure(path);
             CHECK((has(message, ".unreadable: ") || has(message, ".no_faces: ")));
             CHECK(has(message, path));
         }
@@ -113,12 +113,12 @@ TEST_CASE("a file cut off in the middle is refused or read without harm")
 TEST_CASE("a file without faces says so")
 {
     const test::TempFolder folder;
-    CHECK(has(failure(folder.gmsh("line.brep",
-                                  [] { occ::addLine(occ::addPoint(0, 0, 0), occ::addPoint(1, 0, 0)); })),
+    CHECK(has(load_failure(folder.gmsh("line.brep",
+                                       [] { occ::addLine(occ::addPoint(0, 0, 0), occ::addPoint(1, 0, 0)); })),
               "cad.no_faces"));
-    CHECK(has(failure(folder.write("point.geo", "Point(1) = {0, 0, 0};\n")), "cad.no_faces"));
-    CHECK(has(failure(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n")), "io.no_faces"));
-    CHECK(has(failure(folder.write(
+    CHECK(has(load_failure(folder.write("point.geo", "Point(1) = {0, 0, 0};\n")), "cad.no_faces"));
+    CHECK(has(load_failure(folder.write("points.obj", "v 0 0 0\nv 1 0 0\n")), "io.no_faces"));
+    CHECK(has(load_failure(folder.write(
                   "tetra.bdf",
                   "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n"
                   "CBAR,1,1,1,2\nENDDATA\n")),
@@ -132,8 +132,8 @@ TEST_CASE("a script with an error is refused in Gmsh's own words")
     const std::string script = "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 1, 1};\n"
                                "Rectangle(2) = {0, 0, 1, 1, 1}";
     CHECK(cad::load({folder.write("last.geo", script + ";")}).faces.size() == 2);
-    CHECK(has(failure(folder.write("cut.geo", script)), "cad.unreadable"));
-    const std::string message = failure(folder.write("bad.geo", "Point(1) = {0,0,0};\nnonsense;\n"));
+    CHECK(has(load_failure(folder.write("cut.geo", script)), "cad.unreadable"));
+    const std::string message = load_failure(folder.write("bad.geo", "Point(1) = {0,0,0};\nnonsense;\n"));
     CHECK(has(message, "bad.geo"));
     CHECK(has(message, "line 2"));
 }
@@ -143,8 +143,8 @@ TEST_CASE("options out of range are refused")
     const test::TempFolder folder;
     const std::string path = folder.gmsh("box.step", [] { occ::addBox(0, 0, 0, 1, 1, 1); });
     for (const double scale : {0.0, -1.0, double(NAN), double(INFINITY)})
-        CHECK(has(failure(path, {.scale = scale}), "io.scale"));
+        CHECK(has(load_failure(path, {.scale = scale}), "io.scale"));
     for (const double tolerance : {-1.0, double(NAN)})
-        CHECK(has(failure(path, {.tolerance = tolerance}), "io.tolerance"));
+        CHECK(has(load_failure(path, {.tolerance = tolerance}), "io.tolerance"));
     CHECK_THROWS_AS(cad::load({}), InvalidInput);
 }

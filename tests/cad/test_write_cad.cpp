@@ -31,7 +31,7 @@ namespace occ = gmsh::model::occ;
 
 namespace {
 
-const std::string kShared = std::string(LACUNA_SOURCE_DIR) + "/../shared/data/";
+const std::string kSharedFiles = std::string(LACUNA_SOURCE_DIR) + "/../shared/data/";
 
 /// Faces by tag, as a recipe names them.
 struct Tags {
@@ -183,7 +183,7 @@ TEST_CASE("volumes opened in real CAD files come back as one solid of the volume
 {
     const test::TempFolder folder;
     for (const RealCase& c : kRealCases) {
-        const std::string path = kShared + "cad/" + c.file;
+        const std::string path = kSharedFiles + "cad/" + c.file;
         if (!std::filesystem::exists(path)) {
             MESSAGE("skipped: there is no " << path);
             continue;

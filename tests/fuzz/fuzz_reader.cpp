@@ -51,15 +51,15 @@ void check_deck(const lacuna::io::Deck& deck)
 
 } // namespace
 
-extern "C" const char* const kFuzzEnding = LACUNA_FUZZ_ENDING;
+extern "C" const char* const kFuzzEnding; // of the files' names, which tells the format
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     try {
-        check_deck(lacuna::io::read_deck("/nowhere/fuzz" + std::string(LACUNA_FUZZ_ENDING), bytes));
-        const lacuna::io::FacetFile file = lacuna::io::read_facets(
-            "/nowhere/fuzz" + std::string(LACUNA_FUZZ_ENDING), bytes);
+        check_deck(lacuna::io::read_deck("/nowhere/fuzz" + std::string(kFuzzEnding), bytes));
+        const lacuna::io::FacetFile file = lacuna::io::read_facets("/nowhere/fuzz" + std::string(kFuzzEnding),
+                                                                   bytes);
         check_cells(file.soup.triangles, file.soup.triangle_label, file);
         check_cells(file.soup.quads, file.soup.quad_label, file);
         demand(file.soup.triangles.size() + file.soup.quads.size() > 0);

@@ -14,7 +14,7 @@ using namespace lacuna::geometry;
 
 namespace {
 
-std::vector<Vec3> ring(int count, double radius, const Vec3& centre = Vec3::Zero(), double wave = 0)
+std::vector<Vec3> wavy_ring(int count, double radius, const Vec3& centre = Vec3::Zero(), double wave = 0)
 {
     std::vector<Vec3> points;
     for (int i = 0; i < count; ++i) {
@@ -56,7 +56,7 @@ TEST_CASE("a planar loop's Newell vector is its area along its normal, wherever 
     for (int count = 3; count < 30; ++count) {
         const double area = 0.5 * count * 4 * std::sin(2 * std::numbers::pi / count);
         const auto motion = random_motion(random);
-        auto points = moved(motion, ring(count, 2));
+        auto points = moved(motion, wavy_ring(count, 2));
         const Vec3 expected = area * (motion.linear() * Vec3::UnitZ());
         CHECK((newell_vector(points) - expected).norm() < 1e-12 * area);
         std::rotate(points.begin(), points.begin() + count / 2, points.end());
@@ -71,7 +71,7 @@ TEST_CASE("the Newell vector of a surface's rim is the sum of its triangles' are
     std::mt19937 random(2);
     std::uniform_real_distribution<double> any(-1, 1);
     for (int trial = 0; trial < 20; ++trial) {
-        auto rim = ring(12, 1, Vec3(1e3, -1e3, 0), 0.4);
+        auto rim = wavy_ring(12, 1, Vec3(1e3, -1e3, 0), 0.4);
         const Vec3 tip(1e3 + any(random), -1e3 + any(random), any(random));
         Vec3 sum = Vec3::Zero();
         for (std::size_t i = 0; i < rim.size(); ++i)
@@ -85,7 +85,8 @@ TEST_CASE("to the plane and back is the identity, and the axes are right-handed"
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     for (int trial = 0; trial < 50; ++trial) {
-        const std::vector<std::vector<Vec3>> loops{moved(random_motion(random), ring(9, 3, {1, 2, 3}, 0.5))};
+        const std::vector<std::vector<Vec3>> loops{
+            moved(random_motion(random), wavy_ring(9, 3, {1, 2, 3}, 0.5))};
         const Plane plane = newell_plane(loops);
         check_axes(plane);
         const Vec3 point(normal(random), normal(random), normal(random));
@@ -100,9 +101,9 @@ TEST_CASE("holes leave the normal as it is, and planar loops lie in their plane"
     std::mt19937 random(4);
     for (int trial = 0; trial < 20; ++trial) {
         const auto motion = random_motion(random);
-        auto hole = ring(8, 0.5, {0.7, 0, 0});
+        auto hole = wavy_ring(8, 0.5, {0.7, 0, 0});
         std::reverse(hole.begin(), hole.end());
-        const std::vector<std::vector<Vec3>> loops{moved(motion, ring(20, 2)), moved(motion, hole)};
+        const std::vector<std::vector<Vec3>> loops{moved(motion, wavy_ring(20, 2)), moved(motion, hole)};
         const Plane plane = newell_plane(loops);
         CHECK((plane.normal - motion.linear() * Vec3::UnitZ()).norm() < 1e-13);
         for (const auto& loop : loops)

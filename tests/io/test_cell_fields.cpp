@@ -17,11 +17,12 @@ using namespace lacuna;
 
 namespace {
 
-const std::vector<std::pair<bool, double>> kFormats{{true, 4.1}, {false, 4.1}, {true, 2.2}, {false, 2.2}};
+const std::vector<std::pair<bool, double>> kFieldFormats{
+    {true, 4.1}, {false, 4.1}, {true, 2.2}, {false, 2.2}};
 
 Vec3 crooked(const Vec3& p) { return Vec3(p.x() + p.y() * p.z() / 3, p.y() + p.x() * p.x() / 7, p.z()); }
 
-mesh::HexMesh sample()
+mesh::HexMesh block_with_holes()
 {
     return test::block({.columns = 5, .rows = 4, .layers = 3, .map = crooked, .leave_out = [](int i, int j) {
                             return i == 2 && (j == 1 || j == 2);
@@ -102,9 +103,9 @@ std::vector<ElementData> element_data(const std::string& bytes, bool binary)
 TEST_CASE(
     "every element of a .msh carries the value of its cell, quads of the skin that of the cell they bound")
 {
-    const auto mesh = sample();
+    const auto mesh = block_with_holes();
     const auto fields = fields_of(mesh);
-    for (const auto& [binary, version] : kFormats) {
+    for (const auto& [binary, version] : kFieldFormats) {
         CAPTURE(binary);
         CAPTURE(version);
         const test::Folder folder;
@@ -129,8 +130,8 @@ TEST_CASE(
 
 TEST_CASE("a file without fields is the same as ever, and one with them only longer by them")
 {
-    const auto mesh = sample();
-    for (const auto& [binary, version] : kFormats) {
+    const auto mesh = block_with_holes();
+    for (const auto& [binary, version] : kFieldFormats) {
         const test::Folder folder;
         io::write_msh(mesh, folder.file("plain.msh"), {.binary = binary, .version = version});
         io::write_msh(mesh, folder.file("more.msh"), {binary, version, fields_of(mesh)});
@@ -145,7 +146,7 @@ TEST_CASE("a file without fields is the same as ever, and one with them only lon
 TEST_CASE("files with fields are the same to the byte for any number of threads")
 {
     const auto mesh = test::block({.columns = 50, .rows = 50, .layers = 12, .map = crooked});
-    for (const auto& [binary, version] : kFormats) {
+    for (const auto& [binary, version] : kFieldFormats) {
         const test::Folder folder;
         RunContext context;
         context.threads = 1;
@@ -158,7 +159,7 @@ TEST_CASE("files with fields are the same to the byte for any number of threads"
 
 TEST_CASE("fields become cell arrays of .vtu and .vtk, hexahedra first, then the skin")
 {
-    const auto mesh = sample();
+    const auto mesh = block_with_holes();
     const auto fields = fields_of(mesh);
     const test::Folder folder;
     io::write_vtu(mesh, folder.file("a.vtu"), {fields});
@@ -197,7 +198,7 @@ TEST_CASE("fields become cell arrays of .vtu and .vtk, hexahedra first, then the
 
 TEST_CASE("fields of the wrong length, without a name, with one that cannot be written or twice are refused")
 {
-    const auto mesh = sample();
+    const auto mesh = block_with_holes();
     const test::Folder folder;
     const std::vector<double> values(mesh.hex_count(), 1.0);
     const auto code = [&](const std::vector<io::CellField>& fields) {

@@ -18,11 +18,11 @@ using namespace lacuna;
 
 namespace {
 
-const std::string kShared = std::string(LACUNA_SOURCE_DIR) + "/../shared/data/";
+const std::string kSharedFiles = std::string(LACUNA_SOURCE_DIR) + "/../shared/data/";
 
 using test::has;
 
-std::string failure(const std::string& name, const std::string& bytes)
+std::string deck_failure(const std::string& name, const std::string& bytes)
 {
     try {
         io::read_deck(name, bytes);
@@ -465,7 +465,7 @@ TEST_CASE("parts are put in place instance by instance, and numbers stay findabl
              {"*Instance, name=a, part=b\n", "'b'"},
              {"*Node\n1,0,0,0\n1,0,0,1\n", "a second node 1"}}) {
         CAPTURE(wrong);
-        CHECK_MESSAGE(has(failure("x.inp", wrong), words), failure("x.inp", wrong));
+        CHECK_MESSAGE(has(deck_failure("x.inp", wrong), words), deck_failure("x.inp", wrong));
     }
 }
 
@@ -496,8 +496,8 @@ TEST_CASE("universal nodes in a frame that is turned or moved are refused")
     const std::string rest =
         "    -1\n  2411\n 1 1 1 11\n 0. 0. 0.\n 2 1 1 11\n 1. 0. 0.\n 3 1 1 11\n 0. 1. 0.\n    -1\n"
         "    -1\n  2412\n 1 91 1 1 7 3\n 1 2 3\n    -1\n";
-    CHECK(failure("x.unv", frame + "0. 0. 0.\n    -1\n" + rest).empty());
-    CHECK(has(failure("x.unv", frame + "0. 0. 5.\n    -1\n" + rest), "coordinate system 1"));
+    CHECK(deck_failure("x.unv", frame + "0. 0. 0.\n    -1\n" + rest).empty());
+    CHECK(has(deck_failure("x.unv", frame + "0. 0. 5.\n    -1\n" + rest), "coordinate system 1"));
 }
 
 TEST_CASE("a compressed VTU file is read, and damage in it is found")
@@ -528,7 +528,7 @@ TEST_CASE("a compressed VTU file is read, and damage in it is found")
     for (std::size_t at = text.find("eJx"); at < text.size(); at = text.find("eJ", at + 1)) {
         std::string wrong = text;
         wrong[at + 6] = wrong[at + 6] == 'A' ? 'B' : 'A';
-        CHECK(has(failure("x.vtu", wrong), "io.unreadable"));
+        CHECK(has(deck_failure("x.vtu", wrong), "io.unreadable"));
     }
 }
 
@@ -544,16 +544,16 @@ TEST_CASE("every shared deck has its nodes, elements and sets")
                                  Shared{"fem/contact_model.bdf", 1080, 0, 675, 0, 18},
                                  Shared{"fem/codim_1-tube.inp", 120, 96, 0, 0, 1}}) {
         CAPTURE(shared.file);
-        if (!std::filesystem::exists(kShared + shared.file)) {
-            MESSAGE("skipped: there is no " << kShared + shared.file);
+        if (!std::filesystem::exists(kSharedFiles + shared.file)) {
+            MESSAGE("skipped: there is no " << kSharedFiles + shared.file);
             continue;
         }
-        const io::Deck deck = io::read_deck(kShared + shared.file);
+        const io::Deck deck = io::read_deck(kSharedFiles + shared.file);
         CHECK(deck.points.size() == shared.points);
         CHECK(deck.element_count(2) == shared.shells);
         CHECK(deck.element_count(3) == shared.solids);
         CHECK(deck.sets.size() == shared.sets);
-        const io::LoadedFiles loaded = io::load_files({kShared + shared.file});
+        const io::LoadedFiles loaded = io::load_files({kSharedFiles + shared.file});
         if (shared.faces > 0) CHECK(loaded.model.faces.size() == shared.faces);
         const io::NodesAt nodes = io::nodes_at(deck, loaded.model.points, loaded.model.tolerance);
         for (std::size_t p = 0; p < loaded.model.points.size(); ++p) CHECK(!nodes.at(p).empty());
@@ -618,6 +618,7 @@ TEST_CASE("named continuations of Nastran are found wherever they lie, and kept 
     // One that goes on nowhere is refused; a mark behind a card alone is none.
     const std::string flat = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
     const std::string astray = flat + "CTRIA3,7,1,1,2,3,,,,+W\n+X,1,2\n";
-    CHECK(has(failure("a.bdf", astray), "line 4: CTRIA3: its continuation '+W' is not there, and '+X,1,2'"));
+    CHECK(has(deck_failure("a.bdf", astray),
+              "line 4: CTRIA3: its continuation '+W' is not there, and '+X,1,2'"));
     CHECK(io::read_deck("a.bdf", flat + "CTRIA3,7,1,1,2,3,,,,+Y\nCTRIA3,8,1,1,2,3\n").element_count() == 2);
 }

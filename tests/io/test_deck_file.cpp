@@ -22,7 +22,7 @@ using test::Folder;
 
 namespace {
 
-const std::string kShared = std::string(LACUNA_SOURCE_DIR) + "/../shared/data/fem/";
+const std::string kSharedDecks = std::string(LACUNA_SOURCE_DIR) + "/../shared/data/fem/";
 
 struct Target {
     const char* ending;
@@ -225,12 +225,12 @@ TEST_CASE("real decks written in their own format are the same decks")
     };
     for (const Real& real : {Real{"contact_model.bdf", kTargets[0]}, Real{"wingbox.bdf", kTargets[0]},
                              Real{"codim_1-tube.inp", kTargets[1]}, Real{"salome_cube.unv", kTargets[2]}}) {
-        if (!std::filesystem::exists(kShared + real.name)) {
+        if (!std::filesystem::exists(kSharedDecks + real.name)) {
             MESSAGE("skipped, the decks are not there: ", real.name);
             continue;
         }
         CAPTURE(real.name);
-        const Deck deck = io::read_deck(kShared + real.name);
+        const Deck deck = io::read_deck(kSharedDecks + real.name);
         const Deck again = written(deck, real.target);
         check_same(deck, again, 0);
         REQUIRE(again.texts.size() == deck.texts.size());

@@ -22,7 +22,7 @@ namespace {
 
 using test::has;
 
-std::string failure(const std::string& name, const std::string& bytes)
+std::string dialect_failure(const std::string& name, const std::string& bytes)
 {
     try {
         io::read_facets(name, bytes);
@@ -190,7 +190,7 @@ TEST_CASE("replicated cards of Nastran are what they would be written out")
              {flat + "CTRIA3,7,1,1,2,3,,,,+A\n=,*(1),==\n+A\n",
               "line 5: expected the card that = repeats"}}) {
         CAPTURE(deck);
-        CHECK_MESSAGE(has(failure("x.bdf", deck), words), failure("x.bdf", deck));
+        CHECK_MESSAGE(has(dialect_failure("x.bdf", deck), words), dialect_failure("x.bdf", deck));
     }
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("equations and labels of Nastran cards are text, commas or not, and ar
         CHECK(has(read.texts[1].text, text));
     }
     // A card of fields stays one.
-    CHECK(has(failure("x.bdf", "GRID    1       0.,0.,0.\n"), "io."));
+    CHECK(has(dialect_failure("x.bdf", "GRID    1       0.,0.,0.\n"), "io."));
 }
 
 TEST_CASE("decks that end with END BULK, lines without a name and continuations nobody named are read")
@@ -252,9 +252,9 @@ TEST_CASE("decks that end with END BULK, lines without a name and continuations 
         CHECK(read.texts.back().text == "ENDDATA\n");
     }
     const std::string flat = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
-    CHECK(
-        has(failure("x.bdf", flat + "CTRIA3,7,1,1,2,3,,,,+W\n+X,1,2\n"), "'+X,1,2' is a continuation of no"));
-    CHECK(has(failure("x.bdf", flat + "2.5,7,1,1,2,3\n"), "expected the name of a bulk data card"));
+    CHECK(has(dialect_failure("x.bdf", flat + "CTRIA3,7,1,1,2,3,,,,+W\n+X,1,2\n"),
+              "'+X,1,2' is a continuation of no"));
+    CHECK(has(dialect_failure("x.bdf", flat + "2.5,7,1,1,2,3\n"), "expected the name of a bulk data card"));
 }
 
 TEST_CASE("superelements are one deck where their numbers do not clash, which is a warning")
@@ -288,7 +288,8 @@ TEST_CASE("superelements are one deck where their numbers do not clash, which is
             if (block.cells() < 2 && has(words, "element")) continue;
             CAPTURE(more);
             const std::string own = has(more, "SE") ? more : "BEGIN SUPER=4\n" + more;
-            CHECK_MESSAGE(has(failure("x.bdf", all + own), words), failure("x.bdf", all + own));
+            CHECK_MESSAGE(has(dialect_failure("x.bdf", all + own), words),
+                          dialect_failure("x.bdf", all + own));
         }
     }
 }
@@ -331,15 +332,15 @@ TEST_CASE("MSH files of version 1.0, and physical names of version 2.0, which ha
 
         std::string wrong = old;
         wrong.replace(wrong.find(" 5 7 3 8 "), 9, " 5 7 3 9 ");
-        CHECK(has(failure("x.msh", wrong), "has 8 nodes, not 9"));
+        CHECK(has(dialect_failure("x.msh", wrong), "has 8 nodes, not 9"));
         wrong = old;
         wrong.replace(wrong.find("$ELM\n"), 5 + cells.size(), "$ELM\n999999999\n");
-        CHECK(has(failure("x.msh", wrong), "no room"));
+        CHECK(has(dialect_failure("x.msh", wrong), "no room"));
         wrong = named;
         wrong.replace(wrong.find("2 0 8"), 5, "2.2 0 8");
-        CHECK(has(failure("x.msh", wrong), "expected a small whole number, found"));
+        CHECK(has(dialect_failure("x.msh", wrong), "expected a small whole number, found"));
         for (std::size_t length = 5; length < old.size(); length += 37)
-            CHECK(has(failure("x.msh", old.substr(0, length)), "io."));
+            CHECK(has(dialect_failure("x.msh", old.substr(0, length)), "io."));
     }
 }
 
@@ -364,9 +365,9 @@ TEST_CASE("an STL solid may end in two words, and its loops and facets too")
         CHECK(io::read_facets("x.stl", text).soup.triangles.size() == std::size_t(solids * facets));
         std::string wrong = text;
         wrong.replace(wrong.rfind("end solid"), 9, "end facet");
-        CHECK(has(failure("x.stl", wrong), "expected solid, found 'facet'"));
+        CHECK(has(dialect_failure("x.stl", wrong), "expected solid, found 'facet'"));
         wrong.replace(wrong.rfind("end facet"), 9, "ends");
-        CHECK(has(failure("x.stl", wrong), "expected endsolid, found 'ends'"));
+        CHECK(has(dialect_failure("x.stl", wrong), "expected endsolid, found 'ends'"));
     }
 }
 
@@ -407,9 +408,9 @@ TEST_CASE("lines between the datasets of a universal file are passed over, also 
         CAPTURE(file);
         const io::Deck read = io::read_deck("x.unv", file);
         CHECK(content_of(read) == content_of(block));
-        CHECK(has(failure("x.unv", sets[0] + sets[1].substr(sets[1].find("2412"))),
+        CHECK(has(dialect_failure("x.unv", sets[0] + sets[1].substr(sets[1].find("2412"))),
                   "expected -1, which begins a dataset"));
-        CHECK(has(failure("x.unv", text + "\n"), "io."));
+        CHECK(has(dialect_failure("x.unv", text + "\n"), "io."));
     }
 }
 
@@ -442,14 +443,14 @@ TEST_CASE("nodes that an element lists too many are left out with a warning, one
         REQUIRE(read.warnings.size() == 1);
         CHECK(has(read.warnings[0], "elements C3D8 list more nodes than they have"));
         CHECK(has(read.warnings[0], "up to " + std::to_string(further) + " an element"));
-        if (block.cells() > 1) CHECK(has(failure("x.inp", wrong), "found another count"));
+        if (block.cells() > 1) CHECK(has(dialect_failure("x.inp", wrong), "found another count"));
     }
     // Twenty nodes in two lines are no eight and a second element.
     std::string text = "*NODE\n";
     for (int n = 1; n <= 20; ++n) text += std::to_string(n) + ", " + std::to_string(n * n) + ", 1, 2\n";
     text +=
         "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,\n16, 17, 18, 19, 20\n";
-    CHECK(has(failure("x.inp", text), "found another count"));
+    CHECK(has(dialect_failure("x.inp", text), "found another count"));
 }
 
 TEST_CASE("AVS and HEC-MW files are refused by their names, whatever their ending")
@@ -468,11 +469,11 @@ TEST_CASE("AVS and HEC-MW files are refused by their names, whatever their endin
         }
         const std::string ending = endings[static_cast<std::size_t>(number++) % endings.size()];
         CAPTURE(ending);
-        CHECK(has(failure("x" + ending, avs), "an AVS UCD file, a format that is not supported"));
-        CHECK(has(failure("x" + ending, hec), "a HEC-MW mesh, a format that is not supported"));
+        CHECK(has(dialect_failure("x" + ending, avs), "an AVS UCD file, a format that is not supported"));
+        CHECK(has(dialect_failure("x" + ending, hec), "a HEC-MW mesh, a format that is not supported"));
     }
     // Counts alone are no such file.
-    CHECK(has(failure("x.inp", "1 2 3 4 5\n*NODE\n"), "io.no_faces"));
+    CHECK(has(dialect_failure("x.inp", "1 2 3 4 5\n*NODE\n"), "io.no_faces"));
 }
 
 TEST_CASE("binary AVS files are refused by that name, in either byte order")
@@ -497,9 +498,10 @@ TEST_CASE("binary AVS files are refused by that name, in either byte order")
                 for (int n = 1; n <= block.nodes(); ++n) add(static_cast<float>(block.at(n)[axis]));
             const std::string ending = endings[static_cast<std::size_t>(number++) % endings.size()];
             CAPTURE(ending);
-            CHECK(has(failure("x" + ending, bytes), "a binary AVS UCD file, a format that is not supported"));
+            CHECK(has(dialect_failure("x" + ending, bytes),
+                      "a binary AVS UCD file, a format that is not supported"));
             // One that ends before its counts do is no such file.
-            CHECK(!has(failure("x" + ending, bytes.substr(0, bytes.size() - 1)), "AVS"));
+            CHECK(!has(dialect_failure("x" + ending, bytes.substr(0, bytes.size() - 1)), "AVS"));
         }
     }
 }
@@ -527,6 +529,6 @@ TEST_CASE("OBJ lines go on behind a backslash, comments do not")
         const io::FacetFile a = io::read_facets("x.obj", plain), b = io::read_facets("x.obj", broken);
         CHECK(a.soup.points == b.soup.points);
         CHECK(a.soup.quads == b.soup.quads);
-        CHECK(has(failure("x.obj", plain + "f 1 2 \\\n"), "three corners"));
+        CHECK(has(dialect_failure("x.obj", plain + "f 1 2 \\\n"), "three corners"));
     }
 }

@@ -20,7 +20,7 @@ namespace {
 
 const std::vector<io::MshOptions> kFormats{{true, 4.1}, {false, 4.1}, {true, 2.2}, {false, 2.2}};
 
-Vec3 crooked(const Vec3& p)
+Vec3 far_and_crooked(const Vec3& p)
 {
     return Vec3(p.x() + std::sin(p.y()) / 3, p.y() * 1e-3 - 1e5, p.z() / 7 + p.x() * p.y() * 1e-9);
 }
@@ -45,8 +45,8 @@ TEST_CASE("nodes, cells and skin come back from every format bit for bit, in the
 {
     for (const auto& options : kFormats) {
         for (const auto& mesh :
-             {test::block({.columns = 3, .rows = 2, .layers = 4, .map = crooked}), test::ring(40, 30),
-              test::block({.columns = 60, .rows = 50, .layers = 9, .map = crooked})}) {
+             {test::block({.columns = 3, .rows = 2, .layers = 4, .map = far_and_crooked}), test::ring(40, 30),
+              test::block({.columns = 60, .rows = 50, .layers = 9, .map = far_and_crooked})}) {
             CAPTURE(options.version);
             CAPTURE(options.binary);
             const test::MshCells cells = written_and_read(mesh, options);
@@ -177,7 +177,7 @@ TEST_CASE("a file is the same to the byte for any number of threads and in any l
         char do_thousands_sep() const override { return '.'; }
         std::string do_grouping() const override { return "\3"; }
     };
-    const auto mesh = test::block({.columns = 50, .rows = 50, .layers = 12, .map = crooked});
+    const auto mesh = test::block({.columns = 50, .rows = 50, .layers = 12, .map = far_and_crooked});
     for (const auto& options : kFormats) {
         const test::Folder folder;
         RunContext context;

@@ -22,21 +22,21 @@ std::string code_of(const test::Folder& folder, const std::string& bytes)
     return test::error_code([&] { io::read_deck(folder.file("x.msh")); });
 }
 
-std::string sample(const test::Folder& folder, const io::MshOptions& options)
+std::string msh_sample(const test::Folder& folder, const io::MshOptions& options)
 {
     io::write_msh(test::block({.columns = 2, .rows = 2, .layers = 2}), folder.file("a.msh"), options);
     return test::bytes_of(folder.file("a.msh"));
 }
 
-const std::vector<io::MshOptions> kFormats{{true, 4.1}, {false, 4.1}, {true, 2.2}, {false, 2.2}};
+const std::vector<io::MshOptions> kReadFormats{{true, 4.1}, {false, 4.1}, {true, 2.2}, {false, 2.2}};
 
 } // namespace
 
 TEST_CASE("a file cut off anywhere is refused, never misread")
 {
     const test::Folder folder;
-    for (const auto& options : kFormats) {
-        const std::string whole = sample(folder, options);
+    for (const auto& options : kReadFormats) {
+        const std::string whole = msh_sample(folder, options);
         const std::size_t last = whole.rfind("$EndElements") + std::strlen("$EndElements");
         for (std::size_t length = 1; length < last; length += 1 + length / 97) {
             CAPTURE(length);
@@ -51,8 +51,8 @@ TEST_CASE("files with bytes changed at random are read or refused, and never end
     const test::Folder folder;
     std::mt19937 random(11);
     int refused = 0;
-    for (const auto& options : kFormats) {
-        const std::string whole = sample(folder, options);
+    for (const auto& options : kReadFormats) {
+        const std::string whole = msh_sample(folder, options);
         for (int trial = 0; trial < 400; ++trial) {
             std::string bytes = whole;
             for (unsigned k = 0; k < 1 + random() % 4; ++k)
@@ -76,7 +76,7 @@ TEST_CASE("counts that lie cost no memory")
     CHECK(code_of(folder, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" + huge + "\n$EndNodes\n") ==
           "io.unreadable");
 
-    std::string binary = sample(folder, {true, 4.1});
+    std::string binary = msh_sample(folder, {true, 4.1});
     const std::size_t at = binary.find("$Nodes\n") + 7;
     for (const std::size_t place : {at, at + 8, at + 44}) {
         std::string bytes = binary;

@@ -14,7 +14,7 @@ using namespace lacuna;
 
 namespace {
 
-mesh::HexMesh sample()
+mesh::HexMesh crooked_block()
 {
     auto mesh = test::block({.columns = 5, .rows = 3, .layers = 4, .map = [](const Vec3& p) -> Vec3 {
                                  return p + 0.01 * Vec3(p.y() * p.z(), p.x() / 3, p.x() * p.y());
@@ -74,7 +74,7 @@ std::vector<std::size_t> array_places(const std::string& bytes)
 TEST_CASE("a .vtu holds every node, cell and entity where its head says")
 {
     const test::Folder folder;
-    const auto mesh = sample();
+    const auto mesh = crooked_block();
     io::write_vtu(mesh, folder.file("a.vtu"));
     const std::string bytes = test::bytes_of(folder.file("a.vtu"));
     const auto places = array_places(bytes);
@@ -100,7 +100,7 @@ TEST_CASE("a .vtu holds every node, cell and entity where its head says")
 TEST_CASE("a legacy .vtk holds every node, cell and entity, as text and as bytes alike")
 {
     const test::Folder folder;
-    const auto mesh = sample();
+    const auto mesh = crooked_block();
     io::write_vtk(mesh, folder.file("text.vtk"), {.binary = false});
     io::write_vtk(mesh, folder.file("bytes.vtk"));
     std::istringstream text(test::bytes_of(folder.file("text.vtk")));
@@ -141,7 +141,7 @@ TEST_CASE("a legacy .vtk holds every node, cell and entity, as text and as bytes
 TEST_CASE("skins without patches are refused before a .vtu or .vtk is begun")
 {
     const test::Folder folder;
-    auto mesh = sample();
+    auto mesh = crooked_block();
     mesh.target_patch[1] = -1;
     CHECK(test::error_code([&] { io::write_vtu(mesh, folder.file("a.vtu")); }) == "io.no_patch");
     CHECK(test::error_code([&] { io::write_vtk(mesh, folder.file("a.vtk")); }) == "io.no_patch");

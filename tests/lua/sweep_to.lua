@@ -21,11 +21,11 @@ local formats = {
   { "msh", { partitions = 2, binary = false } },
 }
 
--- Sweep one volume both ways and compare the bytes; the volume is made anew for each.
+-- Sweep one volume both ways and compare the bytes; the volume is made anew for each file of layers.
 local function same(what, make, options, only)
+  local whole = make():sweep(options)
   for i, format in ipairs(only or formats) do
     local ending, write = format[1], format[2]
-    local whole = make():sweep(options)
     whole:write(path("whole." .. ending), write)
     local all = {}
     for key, value in pairs(options) do all[key] = value end
@@ -147,9 +147,9 @@ local part_formats = {
 
 -- Sweep several volumes both ways; all is streamed but where the format has it held, or `held` says so.
 local function same_parts(what, make, options, held)
+  local whole = make():sweep(options)
   for i, format in ipairs(part_formats) do
     local ending, write = format[1], format[2]
-    local whole = make():sweep(options)
     whole:write(path("whole." .. ending), write)
     local all = { write = write }
     for key, value in pairs(options) do all[key] = value end

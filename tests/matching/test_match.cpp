@@ -29,8 +29,6 @@ using test::without;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A plane face with loops of straight sides, and where its corners are.
 struct Plate {
     healing::FacetSoup soup;
@@ -49,7 +47,7 @@ Plate plate(const std::vector<int>& counts, double unlike, std::mt19937& dice)
         // One and two corners: a drop, a lens.
         const int n = counts[l];
         const int cuts = n < 3 ? 12 : 3;
-        const double angle = 2 * kPi * static_cast<double>(l) /
+        const double angle = 2 * std::numbers::pi * static_cast<double>(l) /
                                  static_cast<double>(std::max<std::size_t>(counts.size() - 1, 1)) +
                              0.2;
         const Vec2 centre = l == 0 ? Vec2(0, 0)
@@ -57,7 +55,7 @@ Plate plate(const std::vector<int>& counts, double unlike, std::mt19937& dice)
         const double size = l == 0 ? 10 : 1.2;
         std::vector<Vec2> corner;
         for (int i = 0; i < n; ++i) {
-            const double turn = 2 * kPi * (i + 0.25 * unlike * chance(dice)) / n;
+            const double turn = 2 * std::numbers::pi * (i + 0.25 * unlike * chance(dice)) / n;
             corner.push_back(centre + size * (1 + 0.15 * unlike * chance(dice)) *
                                           Vec2(std::cos(turn), std::sin(turn)));
         }
@@ -74,10 +72,10 @@ Plate plate(const std::vector<int>& counts, double unlike, std::mt19937& dice)
                 }
                 if (n == 1) {
                     // A drop: a round loop that comes to a point at its corner.
-                    const double u = kPi * (2 * f - 1);
+                    const double u = std::numbers::pi * (2 * f - 1);
                     const Vec2 out = a - centre, side(-out.y(), out.x());
-                    p = centre + out * (k == 0 ? 1 : 0.6 * std::cos(u + kPi)) +
-                        side * (k == 0 ? 0 : 0.6 * std::sin(u + kPi));
+                    p = centre + out * (k == 0 ? 1 : 0.6 * std::cos(u + std::numbers::pi)) +
+                        side * (k == 0 ? 0 : 0.6 * std::sin(u + std::numbers::pi));
                 }
                 loop.push_back(static_cast<Index>(flat.size()));
                 flat.push_back(p);
@@ -182,8 +180,8 @@ TEST_CASE("pairs undo a rigid motion with scale, for loops of 1 to 8 vertices, w
                 const auto low = plate({corners}, unlike, dice);
                 // The twist stays below half a step of a regular loop, and the tilt well below a right
                 // angle: beyond, other pairs are as good.
-                const double twist = 0.9 * chance(dice) * kPi / std::max(corners, 2);
-                const double tilt = 0.35 * kPi * chance(dice);
+                const double twist = 0.9 * chance(dice) * std::numbers::pi / std::max(corners, 2);
+                const double tilt = 0.35 * std::numbers::pi * chance(dice);
                 const Vec3 axis = Vec3(chance(dice), chance(dice), 0).normalized();
                 const Eigen::Matrix3d turn = (Eigen::AngleAxisd(tilt, axis) *
                                               Eigen::AngleAxisd(twist, Vec3::UnitZ()))
@@ -219,9 +217,10 @@ TEST_CASE("pairs undo a motion for several loops, each going to its own")
         for (int trial = 0; trial < 12; ++trial) {
             const auto low = plate(counts, 1, dice);
             // Holes in a ring look alike when turned by one: stay below half of that.
-            const double step = kPi / static_cast<double>(std::max<std::size_t>(counts.size() - 1, 2));
-            const double twist = 0.45 * chance(dice) * std::min(step, kPi / counts.front());
-            const double tilt = 0.4 * kPi * chance(dice);
+            const double step = std::numbers::pi /
+                                static_cast<double>(std::max<std::size_t>(counts.size() - 1, 2));
+            const double twist = 0.45 * chance(dice) * std::min(step, std::numbers::pi / counts.front());
+            const double tilt = 0.4 * std::numbers::pi * chance(dice);
             const Eigen::Matrix3d turn =
                 (Eigen::AngleAxisd(tilt, Vec3(chance(dice), chance(dice), 0).normalized()) *
                  Eigen::AngleAxisd(twist, Vec3::UnitZ()))
@@ -320,7 +319,7 @@ TEST_CASE("what the walls join is paired, however far the prism is twisted, and 
                     const Match found = matching::match(volume);
                     REQUIRE(found.hard.size() == found.vertices.size());
                     CHECK(found.confidence == 1);
-                    const Eigen::AngleAxisd turn(twist * kPi / 180, Vec3::UnitZ());
+                    const Eigen::AngleAxisd turn(twist * std::numbers::pi / 180, Vec3::UnitZ());
                     std::size_t wrong = 0, hard = 0;
                     for (std::size_t i = 0; i < found.vertices.size(); ++i) {
                         const auto& [s, t] = found.vertices[i];
@@ -472,7 +471,7 @@ TEST_CASE("a smooth loop goes where it is turned least, wherever its vertex happ
                 CHECK(found.vertices.size() + found.splits.size() == static_cast<std::size_t>(holes) + 1);
                 // With holes to tell the twist it is undone, by itself a circle is not turned at all; to
                 // half a facet and a lay's slack.
-                const double turn = holes > 1 ? twist * kPi / 180 : 0;
+                const double turn = holes > 1 ? twist * std::numbers::pi / 180 : 0;
                 for (const matching::Split& cut : found.splits) {
                     CHECK(cut.on_target);
                     const Vec3 from = volume.model.at(volume.model[cut.vertex].point);

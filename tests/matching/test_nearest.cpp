@@ -22,8 +22,6 @@ using test::two_ends;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 MatchOptions nearest()
 {
     MatchOptions options;
@@ -31,7 +29,7 @@ MatchOptions nearest()
     return options;
 }
 
-std::map<int, int> tags(const OpenVolume& volume, const Match& found)
+std::map<int, int> partners(const OpenVolume& volume, const Match& found)
 {
     std::map<int, int> result;
     for (const auto& [s, t] : found.vertices) result[volume.model[s].tag] = volume.model[t].tag;
@@ -79,7 +77,7 @@ Ends plate(int corners, int holes, std::mt19937& dice)
     Ends ends;
     for (int l = 0; l <= holes; ++l) {
         std::vector<Vec2> outline = regular(l == 0 ? corners : 3 + l, l == 0 ? 10 : 0.6);
-        const double angle = 2 * kPi * l / std::max(holes, 1) + 0.3;
+        const double angle = 2 * std::numbers::pi * l / std::max(holes, 1) + 0.3;
         for (Vec2& p : outline) {
             p *= 1 + 0.1 * chance(dice);
             if (l > 0) p += 2.7 * Vec2(std::cos(angle), std::sin(angle));
@@ -128,8 +126,8 @@ TEST_CASE("nearest undoes every motion that takes no vertex half way to the next
                 check_map(volume, found);
                 // Vertices of both ends are numbered alike.
                 const int half = static_cast<int>(volume.model.vertices.size()) / 2;
-                for (const auto& [s, t] : tags(volume, found)) CHECK(t == s + half);
-                CHECK(tags(volume, found) == tags(volume, matching::match(volume)));
+                for (const auto& [s, t] : partners(volume, found)) CHECK(t == s + half);
+                CHECK(partners(volume, found) == partners(volume, matching::match(volume)));
                 ++combinations;
             }
         }
@@ -187,7 +185,8 @@ TEST_CASE("whatever the motion, nearest gives a map that is one-to-one and in or
         const Ends ends = plate(3 + trial % 7, trial % 4, dice);
         const auto volume = two_ends(ends, ends,
                                      lifted(5 * (1 + chance(dice)), std::exp(chance(dice)),
-                                            kPi * chance(dice), Vec2(15 * chance(dice), 15 * chance(dice))));
+                                            std::numbers::pi * chance(dice),
+                                            Vec2(15 * chance(dice), 15 * chance(dice))));
         const std::string code = refusal(
             [&] {
                 check_map(volume, matching::match(volume, nearest()));
@@ -224,7 +223,7 @@ TEST_CASE("far, turned and concentric ends, which defeat the nearest vertex, are
     CHECK_NOTHROW(matching::match(grown)); // aligned does not mind
     // A turn of a step of a regular loop comes out as no turn: one-to-one, so it cannot know; half a step is
     // a toss-up, and it says so.
-    const auto half = two_ends(square, square, lifted(1, 1, kPi / 4 + 1e-9));
+    const auto half = two_ends(square, square, lifted(1, 1, std::numbers::pi / 4 + 1e-9));
     const std::string code = refusal([&] { CHECK(matching::match(half, nearest()).confidence < 0.01); });
     CHECK((code == "done" || code == "matching.nearest_failed"));
 }
@@ -239,7 +238,7 @@ TEST_CASE("an outlier of distance follows the others of its loop, and a note nam
     const std::string code = refusal([&] {
         const Match found = matching::match(volume, nearest());
         check_map(volume, found);
-        for (const auto& [s, t] : tags(volume, found)) CHECK(t == s + 12);
+        for (const auto& [s, t] : partners(volume, found)) CHECK(t == s + 12);
         REQUIRE(!found.notes.empty());
         CHECK(found.notes.front().code() == "matching.nearest_taken");
         CHECK(found.confidence < 1);
@@ -302,14 +301,14 @@ TEST_CASE("vertices, loops and flip given by hand are obeyed by nearest, and con
     const Ends ends = plate(5, 0, dice);
     const auto volume = two_ends(ends, ends, lifted(2));
     const Match free = matching::match(volume, nearest());
-    const auto as_found = tags(volume, free);
+    const auto as_found = partners(volume, free);
     for (int shift = 0; shift < 5; ++shift) {
         // Every pair of the same turn can be given, and turns the whole loop with it.
         MatchOptions options = nearest();
         for (int i = 0; i < 3; ++i) options.vertices.emplace_back(1 + i, 6 + (i + shift) % 5);
         const Match found = matching::match(volume, options);
         check_map(volume, found);
-        for (const auto& [s, t] : tags(volume, found)) CHECK(t == 6 + (s - 1 + shift) % 5);
+        for (const auto& [s, t] : partners(volume, found)) CHECK(t == 6 + (s - 1 + shift) % 5);
     }
     MatchOptions flip = nearest();
     flip.flip = {0};
@@ -346,14 +345,14 @@ TEST_CASE("vertices, loops and flip given by hand are obeyed by nearest, and con
             result.push_back(holes.model[use_from(holes.model, use)].tag);
         return result;
     };
-    const auto plain_tags = tags(holes, plain);
+    const auto plain_tags = partners(holes, plain);
     swapped.vertices = {{loop_tags(plain, 1)[0], plain_tags.at(loop_tags(plain, 2)[0])},
                         {loop_tags(plain, 2)[0], plain_tags.at(loop_tags(plain, 1)[0])}};
     const Match found = matching::match(holes, swapped);
     check_map(holes, found);
     CHECK(found.loops[1].target == plain.loops[2].target);
     CHECK(found.loops[2].target == plain.loops[1].target);
-    for (const auto& pair : swapped.vertices) CHECK(tags(holes, found).at(pair.first) == pair.second);
+    for (const auto& pair : swapped.vertices) CHECK(partners(holes, found).at(pair.first) == pair.second);
     MatchOptions both = nearest();
     both.loops = {{1, 1}, {2, 1}};
     CHECK(refusal([&] { matching::match(holes, both); }, {"loop"}) != "done");

@@ -30,9 +30,8 @@ using test::two_ends;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// What a round void edge may be twisted by (match.h).
-constexpr double kMostTwist = 2 * kPi / 32;
+constexpr double kMostTwist = 2 * std::numbers::pi / 32;
 
 Vec3 at(const OpenVolume& volume, VertexId v) { return volume.model.at(volume.model[v].point); }
 
@@ -186,7 +185,8 @@ TEST_CASE("two closed circles are joined straight up, wherever their seams are")
         CHECK(found.confidence > 0.5);
         const auto [whole, applied] = matching::apply_splits(volume, found);
         REQUIRE(applied.vertices.size() == 1);
-        const double seams = std::abs(std::remainder(2 * kPi * (seam / 36.0 - 0.1), 2 * kPi));
+        const double seams = std::abs(
+            std::remainder(2 * std::numbers::pi * (seam / 36.0 - 0.1), 2 * std::numbers::pi));
         const double turned = std::abs(twist(whole, applied.vertices.front()));
         // Near seams are joined as they are; others straight up, to where a facet's chord is cut.
         if (seams <= kMostTwist - 1e-2) CHECK(turned == doctest::Approx(seams).epsilon(1e-2));
@@ -219,7 +219,8 @@ TEST_CASE("a round loop that narrows round a bore that does not is joined straig
         const auto [volume, found] = matching::apply_splits(open, matching::match(open));
         REQUIRE(!found.vertices.empty());
         for (const auto& pair : found.vertices) CHECK(std::abs(twist(volume, pair)) <= kMostTwist + 1e-3);
-        const double high = 1 + 2 * narrowed, whole = kPi * (9 + 3 * high + high * high) - 3 * kPi;
+        const double high = 1 + 2 * narrowed,
+                     whole = std::numbers::pi * (9 + 3 * high + high * high) - 3 * std::numbers::pi;
         CHECK(closure::enclosed_volume(closure::close(volume, found).volume) ==
               doctest::Approx(whole).epsilon(0.015));
     }
@@ -329,7 +330,7 @@ TEST_CASE("loops with as many smooth vertices go vertex to vertex when their len
                                         {4 - radius, radius - 3}};
         for (int corner = 0; corner < 4; ++corner) {
             for (int k = 0; k <= 8; ++k) {
-                const double angle = kPi / 2 * (corner + k / 8.0);
+                const double angle = std::numbers::pi / 2 * (corner + k / 8.0);
                 if (k == 0 || k == 8) outline.vertices.push_back(outline.points.size());
                 outline.points.emplace_back(centres[static_cast<std::size_t>(corner)] +
                                             radius * Vec2(std::cos(angle), std::sin(angle)));
@@ -428,7 +429,7 @@ TEST_CASE("a mesh that the target came with is split at its nodes")
         const auto base = static_cast<Index>(soup.points.size());
         for (const double radius : {1.0, 0.5}) {
             for (int i = 0; i < n; ++i) {
-                const double angle = 2 * kPi * (i + (z > 0 ? 7 : 0)) / n;
+                const double angle = 2 * std::numbers::pi * (i + (z > 0 ? 7 : 0)) / n;
                 soup.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
             }
         }

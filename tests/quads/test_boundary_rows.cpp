@@ -19,7 +19,7 @@ using quads::RowTurn;
 
 namespace {
 
-struct Outline {
+struct RowOutline {
     PlanarRegion region;
     BoundaryRows rows;
     std::vector<std::vector<Vec2>> corners; ///< of each loop
@@ -27,7 +27,7 @@ struct Outline {
 
 /// Add a polygon with tables on its sides; nodes near its inner corners stand at the heights of the rows that
 /// end there.
-void add_polygon(Outline& outline, const std::vector<Vec2>& corners, const std::vector<int>& tables,
+void add_polygon(RowOutline& outline, const std::vector<Vec2>& corners, const std::vector<int>& tables,
                  double size)
 {
     const std::size_t n = corners.size();
@@ -68,7 +68,7 @@ void add_polygon(Outline& outline, const std::vector<Vec2>& corners, const std::
 }
 
 /// One node more on the longest side of the last loop without rows in the way, where the sides are odd.
-void make_even(Outline& outline)
+void make_even(RowOutline& outline)
 {
     if (outline.region.points.size() % 2 == 0) return;
     std::vector<Index>& loop = outline.region.loops.back();
@@ -97,7 +97,7 @@ std::vector<Vec2> regular(int sides, double radius, bool clockwise = false, cons
     return corners;
 }
 
-quads::RowsFilling fill(const Outline& outline)
+quads::RowsFilling fill(const RowOutline& outline)
 {
     return quads::fill_with_rows(outline.region, outline.rows, [](const auto& region, const auto& context) {
         return quads::pave(region, {}, context).mesh;
@@ -106,7 +106,7 @@ quads::RowsFilling fill(const Outline& outline)
 
 /// Walk the rows from every side with a table: quads one behind the other, their nodes at its heights over
 /// the side's line.
-void check_rows(const Outline& outline, const quads::PlanarQuads& mesh)
+void check_rows(const RowOutline& outline, const quads::PlanarQuads& mesh)
 {
     for (const auto& loop : outline.region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -135,7 +135,7 @@ void check_rows(const Outline& outline, const quads::PlanarQuads& mesh)
     }
 }
 
-void check_filled(const Outline& outline)
+void check_filled(const RowOutline& outline)
 {
     const quads::RowsFilling filling = fill(outline);
     REQUIRE_FALSE(filling.finding);
@@ -152,7 +152,7 @@ TEST_CASE("rows stand at their heights over any sides of convex polygons")
         for (int chosen = 1; chosen < 1 << sides; ++chosen) {
             CAPTURE(sides);
             CAPTURE(chosen);
-            Outline outline;
+            RowOutline outline;
             outline.rows.heights = {{0.02, 0.05, 0.09}};
             std::vector<int> tables;
             for (int i = 0; i < sides; ++i) tables.push_back((chosen >> i) & 1 ? 0 : -1);
@@ -169,7 +169,7 @@ TEST_CASE("rows go round outward corners, with tables of their own")
         for (int chosen = 1; chosen < 1 << sides; ++chosen) {
             CAPTURE(sides);
             CAPTURE(chosen);
-            Outline outline;
+            RowOutline outline;
             outline.rows.heights = {{0.02, 0.05, 0.09}, {0.03, 0.06}};
             std::vector<int> tables;
             for (int i = 0; i < sides; ++i) tables.push_back((chosen >> i) & 1 ? i % 2 : -1);
@@ -183,7 +183,7 @@ TEST_CASE("rows go round outward corners, with tables of their own")
 
 TEST_CASE("rows go round a coarse hole without corners, and end in the middle of a side")
 {
-    Outline outline;
+    RowOutline outline;
     outline.rows.heights = {{0.05, 0.1}};
     add_polygon(outline, regular(4, 2), {-1, -1, -1, -1}, 0.2);
     add_polygon(outline, regular(6, 0.6, true), {0, 0, 0, 0, 0, 0}, 2);
@@ -197,7 +197,7 @@ TEST_CASE("rows go round a coarse hole without corners, and end in the middle of
 
 TEST_CASE("rows that do not fit are found, with the room there is")
 {
-    Outline narrow;
+    RowOutline narrow;
     narrow.rows.heights = {{0.3, 0.6}};
     add_polygon(narrow, {{0, 0}, {4, 0}, {4, 1}, {0, 1}}, {-1, -1, -1, -1}, 0.25);
     for (std::size_t i = 0; i < narrow.rows.table.size(); ++i) {
@@ -211,12 +211,12 @@ TEST_CASE("rows that do not fit are found, with the room there is")
     CHECK(none.finding->asked == 0.6);
     CHECK(none.finding->found == doctest::Approx(1).epsilon(0.01));
 
-    Outline bent;
+    RowOutline bent;
     bent.rows.heights = {{0.5}};
     add_polygon(bent, regular(16, 0.4), std::vector<int>(16, 0), 1);
     CHECK(fill(bent).finding->why == RowsFinding::Why::sharp_bend);
 
-    Outline off;
+    RowOutline off;
     off.rows.heights = {{0.1}};
     add_polygon(off, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {-1, -1, -1, -1}, 0.25);
     for (std::size_t i = 0; i < 4; ++i) off.rows.table[i] = 0;
@@ -225,7 +225,7 @@ TEST_CASE("rows that do not fit are found, with the room there is")
     CHECK(ends.finding->why == RowsFinding::Why::off_height);
     CHECK(ends.finding->found == doctest::Approx(0.25));
 
-    Outline unlike;
+    RowOutline unlike;
     unlike.rows.heights = {{0.1}, {0.05}};
     add_polygon(unlike, {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {0, 1}}, {0, 1, -1, -1, -1}, 0.25);
     make_even(unlike);

@@ -19,13 +19,11 @@ using quads::PlanarRegion;
 namespace {
 
 using Outline = std::vector<Vec2>;
-constexpr double kPi = std::numbers::pi;
-
 Outline circle(const Vec2& centre, double radius, int sides, bool hole, double phase = 0)
 {
     Outline points;
     for (int i = 0; i < sides; ++i) {
-        const double angle = phase + (hole ? -2 : 2) * kPi * i / sides;
+        const double angle = phase + (hole ? -2 : 2) * std::numbers::pi * i / sides;
         points.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
     }
     return points;
@@ -42,11 +40,12 @@ Outline rounded(const Vec2& half, const std::array<double, 4>& radius, double si
         return std::max(1, static_cast<int>(std::lround(length / size)));
     };
     for (std::size_t c = 0; c < 4; ++c) {
-        const double angle = static_cast<double>(c) * kPi / 2, r = radius[c], s = radius[(c + 1) % 4];
+        const double angle = static_cast<double>(c) * std::numbers::pi / 2, r = radius[c],
+                     s = radius[(c + 1) % 4];
         const Vec2 along(std::cos(angle), std::sin(angle)), inward(-along.y(), along.x());
         const Vec2 centre = corner[c] + r * (along + inward);
-        for (int i = 0, n = steps(r * kPi / 2); r > 0 && i < n; ++i) {
-            const double at = angle - kPi + kPi / 2 * i / n;
+        for (int i = 0, n = steps(r * std::numbers::pi / 2); r > 0 && i < n; ++i) {
+            const double at = angle - std::numbers::pi + std::numbers::pi / 2 * i / n;
             points.push_back(centre + r * Vec2(std::cos(at), std::sin(at)));
         }
         const Vec2 from = corner[c] + r * along, to = corner[(c + 1) % 4] - s * along;
@@ -106,7 +105,8 @@ TEST_CASE("a disc with any even number of sides gets a square within rows: four 
 {
     for (int sides = 12; sides <= 120; sides += 2) {
         CAPTURE(sides);
-        check_pattern(region_of({circle({3, 1}, 1, sides, false)}, 2 * kPi / sides, 0.01 * sides), 4, 0.7);
+        check_pattern(
+            region_of({circle({3, 1}, 1, sides, false)}, 2 * std::numbers::pi / sides, 0.01 * sides), 4, 0.7);
     }
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("a ring whose loops have as many sides each gets rows alone, eccentric
             CAPTURE(off);
             check_pattern(region_of({circle({0, 0}, 1, sides, false, 0.2),
                                      circle({off, off / 2}, 0.55, sides, true, 0.9)},
-                                    2 * kPi * 0.75 / sides),
+                                    2 * std::numbers::pi * 0.75 / sides),
                           0, 0.65);
         }
     }
@@ -133,7 +133,7 @@ TEST_CASE("a ring with unlike numbers of sides gets rows that change: two irregu
             CAPTURE(fewer);
             const PlanarRegion region = region_of(
                 {circle({0, 0}, 1, outer, false, 0.2), circle({0, 0}, 0.5, outer - fewer, true, 0.2)},
-                2 * kPi * 0.75 / outer);
+                2 * std::numbers::pi * 0.75 / outer);
             const auto meshes = quads::fill_patterns(region);
             REQUIRE(!meshes.empty());
             const quads::PlaneQuality quality = quads::measure_plane(meshes[0], region);
@@ -170,10 +170,10 @@ TEST_CASE("few quads of a disc with holes have no worse quads for fewer irregula
     double least = 1;
     for (int holes = 3; holes <= 6; ++holes) {
         for (const int sides : {36, 42, 48, 54}) {
-            const double size = 2 * kPi / sides;
+            const double size = 2 * std::numbers::pi / sides;
             std::vector<Outline> loops{circle({0, 0}, 1, sides, false)};
             for (int k = 0; k < holes; ++k) {
-                const double angle = 2 * kPi * k / holes;
+                const double angle = 2 * std::numbers::pi * k / holes;
                 loops.push_back(circle({0.6 * std::cos(angle), 0.6 * std::sin(angle)}, 0.16, 10, true));
             }
             const PlanarRegion region = region_of(loops, size);
@@ -198,11 +198,14 @@ TEST_CASE("a polygon in a circle, and a circle in a slot, are rings")
         Outline polygon;
         for (int c = 0; c < corners; ++c) {
             const auto at = [&](int k) {
-                return Vec2(0.5 * std::cos(2 * kPi * k / corners), -0.5 * std::sin(2 * kPi * k / corners));
+                return Vec2(0.5 * std::cos(2 * std::numbers::pi * k / corners),
+                            -0.5 * std::sin(2 * std::numbers::pi * k / corners));
             };
             for (int i = 0; i < each; ++i) polygon.push_back(at(c) + (at(c + 1) - at(c)) * i / each);
         }
-        check_pattern(region_of({circle({0, 0}, 1, sides, false), polygon}, 2 * kPi * 0.75 / sides), 0, 0.6);
+        check_pattern(
+            region_of({circle({0, 0}, 1, sides, false), polygon}, 2 * std::numbers::pi * 0.75 / sides), 0,
+            0.6);
     }
     const Outline slot = rounded({2, 0.8}, {0.8, 0.8, 0.8, 0.8}, 0.2);
     Outline hole = rounded({1.5, 0.35}, {0.35, 0.35, 0.35, 0.35}, 0.2 * 0.75);
@@ -355,7 +358,7 @@ TEST_CASE("holes take four irregular nodes each, in straight grids and in rings"
     check_pattern(region_of(plate, 0.1), 12, 0.6);
     std::vector<Outline> flange{circle({0, 0}, 1, 72, false), circle({0, 0}, 0.5, 72, true)};
     for (int k = 0; k < 5; ++k) {
-        const double angle = 0.4 + 2 * kPi * k / 5;
+        const double angle = 0.4 + 2 * std::numbers::pi * k / 5;
         flange.push_back(circle(0.75 * Vec2(std::cos(angle), std::sin(angle)), 0.09, 12, true));
     }
     check_pattern(region_of(flange, 0.06), 20, 0.55);
@@ -370,11 +373,11 @@ TEST_CASE("a symmetric outline gets a mesh that its symmetries map onto itself, 
     };
     std::vector<Outline> flange{circle({0, 0}, 1, 72, false), circle({0, 0}, 0.5, 72, true)};
     for (int k = 0; k < 6; ++k) {
-        const double angle = kPi * k / 3;
+        const double angle = std::numbers::pi * k / 3;
         flange.push_back(circle(0.75 * Vec2(std::cos(angle), std::sin(angle)), 0.1, 16, true, angle));
     }
     const std::vector<Case> cases{
-        {{circle({0, 0}, 1, 24, false, kPi / 24)}, 4, 0.25},
+        {{circle({0, 0}, 1, 24, false, std::numbers::pi / 24)}, 4, 0.25},
         {{circle({0, 0}, 1, 60, false)}, 4, 0.1},
         {{circle({0, 0}, 1, 30, false), circle({0, 0}, 0.5, 30, true)}, 30, 0.15},
         {{rounded({2, 1}, {0.5, 0.5, 0.5, 0.5}, 0.2)}, 2, 0.2},
@@ -395,7 +398,7 @@ TEST_CASE("a symmetric outline gets a mesh that its symmetries map onto itself, 
         for (int k = 1; k < cases[c].fold; ++k) {
             double farthest = 0;
             for (const Vec2& p : mesh.points) {
-                const Vec2 image = Eigen::Rotation2Dd(2 * kPi * k / cases[c].fold) * p;
+                const Vec2 image = Eigen::Rotation2Dd(2 * std::numbers::pi * k / cases[c].fold) * p;
                 double nearest = 1;
                 for (const Vec2& q : mesh.points) nearest = std::min(nearest, (q - image).norm());
                 farthest = std::max(farthest, nearest);

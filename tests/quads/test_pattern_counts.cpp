@@ -21,8 +21,6 @@ using quads::PlanarRegion;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A segment of a loop: points at shares 0…1 of it, and its length.
 struct Piece {
     std::function<Vec2(double)> at;
@@ -106,7 +104,9 @@ TEST_CASE("a ring's loops get as many sides each, up to two and a half times as 
         for (const double size : {0.08, 0.15}) {
             CAPTURE(inner);
             CAPTURE(size);
-            check_counts({{arc({0, 0}, 1, 0, 2 * kPi)}, {arc({0, 0}, inner, 0, -2 * kPi)}}, size, 1.72, 0);
+            check_counts(
+                {{arc({0, 0}, 1, 0, 2 * std::numbers::pi)}, {arc({0, 0}, inner, 0, -2 * std::numbers::pi)}},
+                size, 1.72, 0);
         }
     }
 }
@@ -119,9 +119,10 @@ TEST_CASE("shapes of straight and round sides get numbers that close, whatever t
         const double a = dice.between(1, 2), b = dice.between(1, 1.5), r = dice.between(0.3, 0.5),
                      size = dice.between(0.09, 0.14);
         // A plate with two round corners, as one or with a hole.
-        std::vector<std::vector<Piece>> plate{{line({0, 0}, {a, 0}), line({a, 0}, {a, b - r}),
-                                               arc({a - r, b - r}, r, 0, kPi / 2), line({a - r, b}, {r, b}),
-                                               arc({r, b - r}, r, kPi / 2, kPi), line({0, b - r}, {0, 0})}};
+        std::vector<std::vector<Piece>> plate{
+            {line({0, 0}, {a, 0}), line({a, 0}, {a, b - r}), arc({a - r, b - r}, r, 0, std::numbers::pi / 2),
+             line({a - r, b}, {r, b}), arc({r, b - r}, r, std::numbers::pi / 2, std::numbers::pi),
+             line({0, b - r}, {0, 0})}};
         check_counts(plate, size, 1.25, 2);
         // An L and a T of straight sides.
         const double c = dice.between(0.4, 0.6) * a, d = dice.between(0.4, 0.6) * b;
@@ -143,7 +144,7 @@ TEST_CASE("given numbers of sides are kept, and none are found where they contra
     const Seeded plain = seed(box, 0.12, nullptr);
     CHECK(!quads::pattern_counts(plain.region, plain.segment, plain.segments));
     // A given circle: its turns move.
-    std::vector<std::vector<Piece>> disc{{arc({0, 0}, 1, 0, 2 * kPi)}};
+    std::vector<std::vector<Piece>> disc{{arc({0, 0}, 1, 0, 2 * std::numbers::pi)}};
     disc[0][0].fixed = true;
     for (const int sides : {22, 24, 26, 38}) {
         disc[0][0].given = sides;
@@ -156,9 +157,10 @@ TEST_CASE("a plate with a hole in its middle stays symmetric, whatever the size 
     for (int n = 0; n < 24; ++n) {
         CAPTURE(n);
         const double size = 0.08 + 0.005 * n;
-        const std::vector<std::vector<Piece>> plate{{line({-1.5, -1}, {1.5, -1}), line({1.5, -1}, {1.5, 1}),
-                                                     line({1.5, 1}, {-1.5, 1}), line({-1.5, 1}, {-1.5, -1})},
-                                                    {arc({0, 0}, 0.45, kPi / 4, kPi / 4 - 2 * kPi)}};
+        const std::vector<std::vector<Piece>> plate{
+            {line({-1.5, -1}, {1.5, -1}), line({1.5, -1}, {1.5, 1}), line({1.5, 1}, {-1.5, 1}),
+             line({-1.5, 1}, {-1.5, -1})},
+            {arc({0, 0}, 0.45, std::numbers::pi / 4, std::numbers::pi / 4 - 2 * std::numbers::pi)}};
         const Seeded plain = seed(plate, size, nullptr);
         const auto counts = quads::pattern_counts(plain.region, plain.segment, plain.segments);
         REQUIRE(counts.has_value());
@@ -180,8 +182,9 @@ std::vector<Piece> round(const Vec2& centre, double radius, bool hole, double fr
 {
     std::vector<Piece> pieces;
     for (int k = 0; k < 4; ++k) {
-        const double start = from + (hole ? -k : k) * kPi / 2;
-        pieces.push_back(arc(centre, radius, start, start + (hole ? -kPi / 2 : kPi / 2)));
+        const double start = from + (hole ? -k : k) * std::numbers::pi / 2;
+        pieces.push_back(
+            arc(centre, radius, start, start + (hole ? -std::numbers::pi / 2 : std::numbers::pi / 2)));
     }
     return pieces;
 }
@@ -241,9 +244,10 @@ TEST_CASE("plates with rows of holes, slots and flanges are mirrored about both 
             }
             if (n % 2 == 0) loops.push_back(round({0, 0}, r, true));
         } else if (n % 3 == 1) {
-            loops = {{line({-a, -b}, {a, -b}), arc({a, 0}, b, -kPi / 2, 0), arc({a, 0}, b, 0, kPi / 2),
-                      line({a, b}, {-a, b}), arc({-a, 0}, b, kPi / 2, kPi),
-                      arc({-a, 0}, b, kPi, 3 * kPi / 2)}};
+            loops = {{line({-a, -b}, {a, -b}), arc({a, 0}, b, -std::numbers::pi / 2, 0),
+                      arc({a, 0}, b, 0, std::numbers::pi / 2), line({a, b}, {-a, b}),
+                      arc({-a, 0}, b, std::numbers::pi / 2, std::numbers::pi),
+                      arc({-a, 0}, b, std::numbers::pi, 3 * std::numbers::pi / 2)}};
             if (n % 2 == 0) loops.push_back(round({0, 0}, 2 * r, true));
         } else {
             loops = {round({0, 0}, a, false)};
@@ -256,7 +260,7 @@ TEST_CASE("plates with rows of holes, slots and flanges are mirrored about both 
         CHECK(quads::find_fault(mesh, made.region) == "");
         CAPTURE(mesh.how);
         CAPTURE(asked);
-        for (const double axis : {0.0, kPi / 2}) CHECK(mirror_error(mesh, axis) < 1e-9);
+        for (const double axis : {0.0, std::numbers::pi / 2}) CHECK(mirror_error(mesh, axis) < 1e-9);
         const quads::PlaneQuality quality = quads::measure_plane(mesh, made.region);
         ++all;
         as_asked += std::abs(static_cast<double>(quality.quads) - asked) <= asked / 4 ? 1 : 0;
@@ -297,7 +301,7 @@ TEST_CASE(
     // Eight holes about a bore.
     std::vector<std::vector<Piece>> flange{round({0, 0}, 2, false), round({0, 0}, 0.8, true)};
     for (int k = 0; k < 8; ++k) {
-        const double angle = kPi * k / 4;
+        const double angle = std::numbers::pi * k / 4;
         flange.push_back(round(1.4 * Vec2(std::cos(angle), std::sin(angle)), 0.2, true, angle));
     }
     for (const double size : {0.1, 0.13, 0.17}) {
@@ -311,7 +315,7 @@ TEST_CASE(
             const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
             CHECK(quads::find_fault(mesh, made.region) == "");
             CHECK(quads::measure_plane(mesh, made.region).min_scaled_jacobian > 0.7);
-            for (const double axis : {0.0, kPi / 2}) CHECK(mirror_error(mesh, axis) < 1e-9);
+            for (const double axis : {0.0, std::numbers::pi / 2}) CHECK(mirror_error(mesh, axis) < 1e-9);
         }
     }
 }
@@ -332,7 +336,8 @@ TEST_CASE("flanges with four holes are mirrored about the axes between their hol
         const quads::PlanarQuads mesh = quads::pave(made.region).mesh;
         CAPTURE(mesh.how);
         CHECK(quads::find_fault(mesh, made.region) == "");
-        for (const double axis : {0.0, kPi / 4, kPi / 2, 3 * kPi / 4}) CHECK(mirror_error(mesh, axis) < 1e-9);
+        for (const double axis : {0.0, std::numbers::pi / 4, std::numbers::pi / 2, 3 * std::numbers::pi / 4})
+            CHECK(mirror_error(mesh, axis) < 1e-9);
         const quads::PlaneQuality quality = quads::measure_plane(mesh, made.region);
         CHECK(quality.min_scaled_jacobian > 0.7);
         CHECK(quality.mean_scaled_jacobian > 0.95);
@@ -368,9 +373,9 @@ TEST_CASE("few quads of plates and flanges with holes are well shaped and nearly
         CHECK(quads::find_fault(mesh, made.region) == "");
         // A flange may be so about the axes through its holes alone.
         const auto error = [&](double axis) {
-            return std::max(mirror_error(mesh, axis), mirror_error(mesh, axis + kPi / 2));
+            return std::max(mirror_error(mesh, axis), mirror_error(mesh, axis + std::numbers::pi / 2));
         };
-        symmetric += error(0) < 1e-9 || (n % 2 != 0 && error(kPi / 4) < 1e-9) ? 1 : 0;
+        symmetric += error(0) < 1e-9 || (n % 2 != 0 && error(std::numbers::pi / 4) < 1e-9) ? 1 : 0;
         const quads::PlaneQuality quality = quads::measure_plane(mesh, made.region);
         CHECK(quality.min_scaled_jacobian > 0.5);
         ++all;
@@ -388,7 +393,8 @@ TEST_CASE("few quads about a bore with many teeth outside are mostly rings alone
     for (int n = 0; n < 8; ++n) {
         CAPTURE(n);
         const int teeth = 8 + 2 * n;
-        const double root = dice.between(0.75, 0.85), bore = dice.between(0.3, 0.4), pitch = 2 * kPi / teeth;
+        const double root = dice.between(0.75, 0.85), bore = dice.between(0.3, 0.4),
+                     pitch = 2 * std::numbers::pi / teeth;
         std::vector<Piece> rim;
         for (int k = 0; k < teeth; ++k) {
             const auto at = [&](double r, double part) {
@@ -462,7 +468,7 @@ TEST_CASE("a plate with one sharp corner is a grid with a node of three quads at
         if (n % 2 == 0)
             rim.push_back(line({a - b, 0}, {a, b}));
         else
-            rim.push_back(arc({a - b, b}, b, -kPi / 2, 0));
+            rim.push_back(arc({a - b, b}, b, -std::numbers::pi / 2, 0));
         rim.push_back(line({a, b}, {a, 1 - c}));
         rim.push_back(line({a, 1 - c}, {a - c, 1}));
         rim.push_back(line({a - c, 1}, {d, 1}));
@@ -502,8 +508,8 @@ TEST_CASE("a grid goes on behind a notch whose sides begin where its rows end")
                 rim.push_back(line({x + half, 1}, {x, 1 - deep}));
                 rim.push_back(line({x, 1 - deep}, {x - half, 1}));
             } else {
-                rim.push_back(arc({x, 1}, half, 0, -kPi / 2));
-                rim.push_back(arc({x, 1}, half, -kPi / 2, -kPi));
+                rim.push_back(arc({x, 1}, half, 0, -std::numbers::pi / 2));
+                rim.push_back(arc({x, 1}, half, -std::numbers::pi / 2, -std::numbers::pi));
             }
             rim.push_back(line({x - half, 1}, {0, 1}));
             rim.push_back(line({0, 1}, {0, 0}));
@@ -530,7 +536,7 @@ TEST_CASE("numbers of sides of an outline with many corners stop within half a s
     // A ring of 61 corners within and without, of which every segment wants dozens of sides.
     std::vector<std::vector<Piece>> loops(2);
     const auto corner = [](int i) {
-        const double angle = 2 * kPi * i / 61;
+        const double angle = 2 * std::numbers::pi * i / 61;
         return Vec2(std::cos(angle), std::sin(angle));
     };
     for (int i = 0; i < 61; ++i) {

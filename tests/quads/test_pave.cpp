@@ -20,8 +20,6 @@ using quads::PlanarRegion;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Sides of a polygon cut to a length.
 void add_polygon(PlanarRegion& region, const std::vector<Vec2>& corners, double size)
 {
@@ -39,11 +37,11 @@ void add_polygon(PlanarRegion& region, const std::vector<Vec2>& corners, double 
 /// A circle of an even number of nodes; clockwise where it is a hole.
 void add_circle(PlanarRegion& region, const Vec2& centre, double radius, double size)
 {
-    const int n = 2 * std::max(3, static_cast<int>(std::lround(kPi * radius / size)));
+    const int n = 2 * std::max(3, static_cast<int>(std::lround(std::numbers::pi * radius / size)));
     const double way = region.loops.empty() ? 1 : -1;
     std::vector<Index>& loop = region.loops.emplace_back();
     for (int i = 0; i < n; ++i) {
-        const double angle = way * 2 * kPi * i / n;
+        const double angle = way * 2 * std::numbers::pi * i / n;
         loop.push_back(static_cast<Index>(region.points.size()));
         region.points.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
     }
@@ -102,7 +100,7 @@ PlanarRegion gear(int teeth, double size)
     region.size = [size](const Vec2&) { return size; };
     std::vector<Vec2> outline;
     for (int i = 0; i < 4 * teeth; ++i) {
-        const double angle = 2 * kPi *
+        const double angle = 2 * std::numbers::pi *
                              (i / 4 + std::array{0.0, 0.06, 0.44, 0.5}[static_cast<std::size_t>(i % 4)]) /
                              teeth;
         const double radius = i % 4 == 1 || i % 4 == 2 ? 1.15 : 0.9;
@@ -151,13 +149,14 @@ PlanarRegion random_region(std::uint32_t seed)
     for (int i = 0; i < n; ++i) at.push_back(at.back() + dice(0.5, 1.5));
     std::vector<Vec2> outline;
     for (int i = 0; i < n; ++i) {
-        const double angle = 2 * kPi * at[static_cast<std::size_t>(i)] / at.back(), radius = dice(0.8, 1.2);
+        const double angle = 2 * std::numbers::pi * at[static_cast<std::size_t>(i)] / at.back(),
+                     radius = dice(0.8, 1.2);
         outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
     }
     add_polygon(region, outline, size * dice(0.5, 1.5));
     // The outline comes no nearer than the chord over its widest step.
     for (int k = 0; n >= 8 && k < holes; ++k) {
-        const double angle = 2 * kPi * k / holes, far = holes == 1 ? 0 : 0.3;
+        const double angle = 2 * std::numbers::pi * k / holes, far = holes == 1 ? 0 : 0.3;
         add_circle(region, far * Vec2(std::cos(angle), std::sin(angle)), dice(0.03, 0.12),
                    size * dice(0.3, 1));
     }
@@ -260,7 +259,7 @@ TEST_CASE("a four-sided region of equal opposite counts is a grid, however it is
         side({2, 0}, {2, 1}, 10);
         side({2, 1}, {0, 1}, 20);
         side({0, 1}, {0, 0}, 10);
-        for (Vec2& p : outline) p.y() += bend * std::sin(kPi * p.x() / 2);
+        for (Vec2& p : outline) p.y() += bend * std::sin(std::numbers::pi * p.x() / 2);
         add_polygon(region, outline, 1);
         CAPTURE(bend);
         const quads::Paved paved = quads::pave(region);
@@ -282,7 +281,8 @@ TEST_CASE("loops of 4, 6 and 8 nodes are filled")
             PlanarRegion region;
             std::vector<Index>& loop = region.loops.emplace_back();
             for (int i = 0; i < n; ++i) {
-                const double angle = 2 * kPi * (i + dice(-0.2, 0.2)) / n, radius = dice(0.7, 1.3);
+                const double angle = 2 * std::numbers::pi * (i + dice(-0.2, 0.2)) / n,
+                             radius = dice(0.7, 1.3);
                 loop.push_back(i);
                 region.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
             }

@@ -22,15 +22,13 @@ using namespace lacuna::quads;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A round loop of so many nodes; clockwise where it is a hole.
 void add_round(PlanarRegion& region, const Vec2& centre, double radius, int nodes)
 {
     const double way = region.loops.empty() ? 1 : -1;
     std::vector<Index>& loop = region.loops.emplace_back();
     for (int i = 0; i < nodes; ++i) {
-        const double angle = way * 2 * kPi * i / nodes;
+        const double angle = way * 2 * std::numbers::pi * i / nodes;
         loop.push_back(static_cast<Index>(region.points.size()));
         region.points.push_back(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
     }
@@ -56,11 +54,11 @@ PlanarRegion disc_with_holes(int outer, const std::vector<int>& holes)
 {
     PlanarRegion region;
     add_round(region, Vec2::Zero(), 1, outer);
-    const double size = 2 * kPi / outer;
+    const double size = 2 * std::numbers::pi / outer;
     for (std::size_t h = 0; h < holes.size(); ++h) {
         const double angle = 2.4 * static_cast<double>(h);
-        add_round(region, 0.5 * Vec2(std::cos(angle), std::sin(angle)), size * holes[h] / (2 * kPi),
-                  holes[h]);
+        add_round(region, 0.5 * Vec2(std::cos(angle), std::sin(angle)),
+                  size * holes[h] / (2 * std::numbers::pi), holes[h]);
     }
     region.size = [size](const Vec2&) { return size; };
     return region;

@@ -25,7 +25,7 @@ std::vector<Vec2> stepped(const std::vector<Vec2>& corners)
     return points;
 }
 
-PlanarRegion region_of(const std::vector<std::vector<Vec2>>& loops)
+PlanarRegion plain_region(const std::vector<std::vector<Vec2>>& loops)
 {
     PlanarRegion region;
     for (const auto& loop : loops) {
@@ -82,7 +82,7 @@ TEST_CASE("a polygon of squares is filled with those squares, whichever way it i
         // Any node may be the first.
         std::rotate(outline.begin(), outline.begin() + seed % static_cast<unsigned>(outline.size()),
                     outline.end());
-        const PlanarRegion region = region_of({outline});
+        const PlanarRegion region = plain_region({outline});
         const auto mesh = quads::submap(region);
         REQUIRE(mesh.has_value());
         CHECK(static_cast<double>(mesh->quads.size()) == area);
@@ -104,7 +104,7 @@ TEST_CASE("holes of right angles find their place in the grid, bent as the regio
             for (Vec2& p : loop)
                 p = Vec2(p.x() + bend * p.y() * p.y(), p.y() + bend * p.x() * (14 - p.x()) / 4);
         }
-        const PlanarRegion region = region_of(loops);
+        const PlanarRegion region = plain_region(loops);
         const auto mesh = quads::submap(region);
         REQUIRE(mesh.has_value());
         CHECK(mesh->quads.size() == 14 * 9 - 9 - (5 * 4 - 2 * 2));
@@ -120,18 +120,18 @@ TEST_CASE("what is no polygon of squares is not submapped")
     std::vector<Vec2> disc;
     for (int i = 0; i < 32; ++i)
         disc.emplace_back(std::cos(i * std::numbers::pi / 16), std::sin(i * std::numbers::pi / 16));
-    CHECK(!quads::submap(region_of({disc})));
+    CHECK(!quads::submap(plain_region({disc})));
     // A hole that is round; counts that do not close; a hole outside.
     std::vector<Vec2> hole;
     for (int i = 0; i < 12; ++i)
         hole.emplace_back(5 + std::cos(-i * std::numbers::pi / 6), 4 + std::sin(-i * std::numbers::pi / 6));
-    CHECK(!quads::submap(region_of({stepped({{0, 0}, {10, 0}, {10, 8}, {0, 8}}), hole})));
+    CHECK(!quads::submap(plain_region({stepped({{0, 0}, {10, 0}, {10, 8}, {0, 8}}), hole})));
     std::vector<Vec2> more = stepped({{0, 0}, {10, 0}, {10, 8}, {0, 8}});
     more.insert(more.begin() + 1, Vec2(0.5, 0));
-    CHECK(!quads::submap(region_of({more})));
-    CHECK(!quads::submap(
-        region_of({stepped({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), stepped({{6, 1}, {6, 3}, {8, 3}, {8, 1}})})));
+    CHECK(!quads::submap(plain_region({more})));
+    CHECK(!quads::submap(plain_region(
+        {stepped({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), stepped({{6, 1}, {6, 3}, {8, 3}, {8, 1}})})));
     // But a notch one square wide is a grid's.
     const std::vector<Vec2> slit = stepped({{0, 0}, {6, 0}, {6, 6}, {0, 6}, {0, 4}, {4, 4}, {4, 3}, {0, 3}});
-    CHECK(quads::submap(region_of({slit})).has_value());
+    CHECK(quads::submap(plain_region({slit})).has_value());
 }

@@ -11,13 +11,13 @@ using namespace lacuna;
 
 namespace {
 
-struct Outline {
+struct SymmetricOutline {
     std::vector<Vec2> corners;
     std::vector<std::size_t> alike; ///< of each side the least that it is mapped onto
 };
 
 /// Nodes at even shares of every side, turned and moved.
-quads::PlanarRegion region_of(const Outline& outline, int per_side, std::vector<int>& segment)
+quads::PlanarRegion region_of(const SymmetricOutline& outline, int per_side, std::vector<int>& segment)
 {
     quads::PlanarRegion region;
     region.loops.emplace_back();
@@ -38,7 +38,7 @@ quads::PlanarRegion region_of(const Outline& outline, int per_side, std::vector<
 
 TEST_CASE("sides of an outline are alike where its symmetries map them onto each other")
 {
-    const std::vector<Outline> outlines{
+    const std::vector<SymmetricOutline> outlines{
         {{{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {0, 1, 0, 1}},
         {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {0, 0, 0, 0}},
         {{{0, 0}, {3, 0}, {2, 1}, {1, 1}}, {0, 1, 2, 1}},
@@ -47,7 +47,7 @@ TEST_CASE("sides of an outline are alike where its symmetries map them onto each
         {{{0, 0}, {2, 0}, {0, 1}}, {0, 1, 2}},
         {{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}, {0, 1, 2, 3, 4, 5}},
     };
-    for (const Outline& outline : outlines) {
+    for (const SymmetricOutline& outline : outlines) {
         for (const int per_side : {1, 4}) {
             CAPTURE(outline.corners.size());
             CAPTURE(per_side);
@@ -62,7 +62,7 @@ TEST_CASE("a symmetry that maps the end of a segment into another makes none ali
 {
     // A square of which one side is two segments.
     std::vector<int> segment;
-    const Outline square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}};
+    const SymmetricOutline square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}};
     const quads::PlanarRegion region = region_of(square, 4, segment);
     for (std::size_t p = 3; p < segment.size(); ++p) ++segment[p];
     CHECK(quads::segments_alike(region, segment) == std::vector<std::size_t>{0, 1, 2, 3, 4});

@@ -28,7 +28,7 @@ Corners box(const Vec3& sides)
     return corners;
 }
 
-Corners shaken(std::mt19937& random, double amount)
+Corners shaken_box(std::mt19937& random, double amount)
 {
     std::uniform_real_distribution<double> shift(-amount, amount);
     Corners corners = box({1, 1, 1});
@@ -63,7 +63,7 @@ Cells shaken_cells(std::size_t count, double amount)
 {
     std::mt19937 random(3);
     Cells cells;
-    for (std::size_t i = 0; i < count; ++i) cells.add(shaken(random, amount));
+    for (std::size_t i = 0; i < count; ++i) cells.add(shaken_box(random, amount));
     return cells;
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("metrics do not change when a cell is moved, turned or, but for those 
 {
     std::mt19937 random(5);
     for (int trial = 0; trial < 200; ++trial) {
-        const Corners corners = shaken(random, 0.25);
+        const Corners corners = shaken_box(random, 0.25);
         Corners moved = corners;
         const double size = trial % 2 == 0 ? 1e-3 : 40.0;
         const Eigen::AngleAxisd turn(0.1 * trial, Vec3(1, 2, 3).normalized());
@@ -157,7 +157,7 @@ TEST_CASE("our scaled Jacobian is the corners' alone, bit for bit that of `scale
     std::mt19937 random(9);
     int lower = 0;
     for (int trial = 0; trial < 2000; ++trial) {
-        const Corners corners = shaken(random, 0.9);
+        const Corners corners = shaken_box(random, 0.9);
         const double ours = quality::metric(Metric::scaled_jacobian, corners);
         CHECK(ours == quality::scaled_jacobian(corners));
         const double with_centre = quality::metric(Metric::scaled_jacobian_with_centre, corners);

@@ -17,18 +17,18 @@ using namespace lacuna;
 
 namespace {
 
-using Corners = std::array<Vec3, 6>;
+using WedgeCorners = std::array<Vec3, 6>;
 
-Corners even_wedge(double height)
+WedgeCorners even_wedge(double height)
 {
     const double h = std::sqrt(0.75);
-    Corners c{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, h, 0)};
+    WedgeCorners c{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, h, 0)};
     for (std::size_t i = 0; i < 3; ++i) c[3 + i] = c[i] + Vec3(0, 0, height);
     return c;
 }
 
 /// Determinant of the map's derivatives at barycentric (1 - u - v, u, v) and height w.
-double jacobian(const Corners& c, double u, double v, double w)
+double jacobian(const WedgeCorners& c, double u, double v, double w)
 {
     Eigen::Matrix3d d;
     d.col(0) = (1 - w) * (c[1] - c[0]) + w * (c[4] - c[3]);
@@ -37,7 +37,7 @@ double jacobian(const Corners& c, double u, double v, double w)
     return d.determinant();
 }
 
-double least_sampled(const Corners& c)
+double least_sampled(const WedgeCorners& c)
 {
     double least = std::numeric_limits<double>::infinity();
     constexpr int n = 12;
@@ -48,7 +48,7 @@ double least_sampled(const Corners& c)
     return least;
 }
 
-Vec3 bent(const Vec3& p)
+Vec3 bent_place(const Vec3& p)
 {
     return {p.x() + 0.1 * std::sin(3 * p.y()), p.y() * (1 + 0.2 * p.x()), p.z() * (1 + 0.3 * p.x() * p.y())};
 }
@@ -74,7 +74,7 @@ TEST_CASE("an even triangle times a height has scaled Jacobian 1, whatever its h
     for (const double height : {1e-6, 0.5, 1.0, 40.0}) {
         CHECK(quality::wedge_scaled_jacobian(even_wedge(height)) == doctest::Approx(1));
         CHECK(quality::wedge_certified_positive(even_wedge(height)));
-        Corners folded = even_wedge(height);
+        WedgeCorners folded = even_wedge(height);
         std::swap(folded[0], folded[1]);
         CHECK(quality::wedge_scaled_jacobian(folded) < 0);
         CHECK_FALSE(quality::wedge_certified_positive(folded));
@@ -87,7 +87,7 @@ TEST_CASE("a wedge is certified only where its Jacobian is positive at every sam
     std::normal_distribution<double> move(0, 1);
     int certified = 0, positive = 0, corners_alone = 0;
     for (int i = 0; i < 4000; ++i) {
-        Corners c = even_wedge(1);
+        WedgeCorners c = even_wedge(1);
         const double size = 0.1 + 0.5 * (i % 10) / 10.0;
         for (Vec3& p : c) p += size * Vec3(move(random), move(random), move(random));
         const bool proved = quality::wedge_certified_positive(c);
@@ -108,7 +108,7 @@ TEST_CASE("a mesh with wedges is proved, as swept and as a list, and measured as
 {
     for (const std::size_t every : {1, 3, 7}) {
         for (const mesh::HexMesh& plain :
-             {test::block({.columns = 4, .rows = 5, .layers = 3, .map = bent}), test::ring(9, 2)}) {
+             {test::block({.columns = 4, .rows = 5, .layers = 3, .map = bent_place}), test::ring(9, 2)}) {
             const mesh::HexMesh mesh = test::with_wedges(plain, every);
             test::check_valid(mesh);
             const quality::Proof proof = quality::prove(mesh);

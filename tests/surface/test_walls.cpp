@@ -22,7 +22,7 @@ using test::without;
 
 namespace {
 
-struct Meshed {
+struct MeshedWalls {
     std::vector<LinkingSurface> links;
     std::vector<LinkingNodes> nodes;
     std::vector<surface::WallMesh> walls;
@@ -35,9 +35,9 @@ std::vector<double> levels(int layers)
     return heights;
 }
 
-Meshed meshed(const OpenVolume& volume, const std::vector<double>& heights, int sides_each)
+MeshedWalls meshed(const OpenVolume& volume, const std::vector<double>& heights, int sides_each)
 {
-    Meshed result;
+    MeshedWalls result;
     result.links = surface::linking_surfaces(volume);
     for (const LinkingSurface& link : result.links) {
         std::vector<double> even;
@@ -50,7 +50,7 @@ Meshed meshed(const OpenVolume& volume, const std::vector<double>& heights, int 
 }
 
 /// Rows first and last lie on the rims, every node on a wall, no quad turned over against its neighbours.
-void check_walls(const OpenVolume& volume, const Meshed& mesh, std::size_t layers, double closeness)
+void check_walls(const OpenVolume& volume, const MeshedWalls& mesh, std::size_t layers, double closeness)
 {
     for (std::size_t b = 0; b < mesh.walls.size(); ++b) {
         const auto& wall = mesh.walls[b];

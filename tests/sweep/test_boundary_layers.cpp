@@ -134,7 +134,7 @@ void check_rows(const Swept& swept, const std::vector<FaceId>& faces, const surf
     }
 }
 
-SweepOptions with(std::vector<surface::BoundaryLayer> layers, double size = 0.3, int count = 3)
+SweepOptions with_rows(std::vector<surface::BoundaryLayer> layers, double size = 0.3, int count = 3)
 {
     SweepOptions options = test::layers_of(count, size);
     options.boundary_layers = std::move(layers);
@@ -176,7 +176,7 @@ TEST_CASE("rows have their thickness along any walls of straight prisms, tapered
                     const OpenVolume volume = test::sealed(how);
                     const std::vector<FaceId> walls = walls_of(volume, prism, 0, chosen);
                     const auto layer = layer_on(volume, walls, 0.01, 1.4, 3);
-                    const Swept swept = sweep::sweep(volume, with({layer}));
+                    const Swept swept = sweep::sweep(volume, with_rows({layer}));
                     test::check_valid(swept.mesh);
                     CHECK(swept.min_scaled_jacobian > 0.2);
                     check_rows(swept, walls, layer, 1e-6);
@@ -186,7 +186,7 @@ TEST_CASE("rows have their thickness along any walls of straight prisms, tapered
     }
 }
 
-TEST_CASE("rows run round holes, with corners and round")
+TEST_CASE("rows run round holes, with_rows corners and round")
 {
     for (const int hole_sides : {0, 3, 4, 6}) {
         for (const int holes : {1, 3}) {
@@ -202,7 +202,7 @@ TEST_CASE("rows run round holes, with corners and round")
                 const OpenVolume volume = test::sealed(how);
                 const std::vector<FaceId> walls = walls_of(volume, prism, 1, {});
                 const auto layer = layer_on(volume, walls, 0.006, 1.3, 3);
-                const Swept swept = sweep::sweep(volume, with({layer}, 0.2));
+                const Swept swept = sweep::sweep(volume, with_rows({layer}, 0.2));
                 test::check_valid(swept.mesh);
                 // Heights are the mean over the quads at a node; those of a cone are warped, and turn to it.
                 check_rows(swept, walls, layer, hole_sides == 0 ? 0.1 : 1e-6);
@@ -240,7 +240,7 @@ TEST_CASE("rows keep their thickness along walls that turn, bulge and bend, what
                         const auto layer = layer_on(volume, walls, 0.02, 1.3, 3);
                         ++tried;
                         try {
-                            const Swept swept = sweep::sweep(volume, with({layer}, 0.25, 8));
+                            const Swept swept = sweep::sweep(volume, with_rows({layer}, 0.25, 8));
                             test::check_valid(swept.mesh);
                             // Heights over single quads, where the sweep goes by the mean of those at a node.
                             check_rows(swept, walls, layer, 0.25);
@@ -276,7 +276,7 @@ TEST_CASE("rows lie along walls of every class, given and void")
         layer.first = 0.02;
         layer.growth = 1.2;
         layer.count = 3;
-        const Swept swept = sweep::sweep(volume, with({layer}));
+        const Swept swept = sweep::sweep(volume, with_rows({layer}));
         test::check_valid(swept.mesh);
         check_rows(swept, volume.faces(Role::wall), layer, 1e-6);
     }
@@ -296,7 +296,7 @@ TEST_CASE("walls that meet in a corner may have tables of their own")
         const std::vector<surface::BoundaryLayer> layers{
             layer_on(volume, a, 0.01, 1.5, 4), layer_on(volume, b, 0.03, 1, 2),
             layer_on(volume, c, 0.01, 1.2, 3), layer_on(volume, d, 0.02, 1.1, 2)};
-        const Swept swept = sweep::sweep(volume, with(layers, 0.2));
+        const Swept swept = sweep::sweep(volume, with_rows(layers, 0.2));
         test::check_valid(swept.mesh);
         check_rows(swept, a, layers[0], 1e-6);
         check_rows(swept, b, layers[1], 1e-6);
@@ -326,7 +326,7 @@ TEST_CASE("layers along ends have their heights, whatever columns do between")
                 layer.first = 0.05;
                 layer.growth = 1.5;
                 layer.count = 3;
-                const Swept swept = sweep::sweep(volume, with({layer}, 0.3, 9));
+                const Swept swept = sweep::sweep(volume, with_rows({layer}, 0.3, 9));
                 test::check_valid(swept.mesh);
                 REQUIRE(swept.mesh.layers == 9);
                 const std::vector<double> heights = surface::row_heights(layer);
@@ -352,7 +352,7 @@ TEST_CASE("layers along ends have their heights, whatever columns do between")
     }
 }
 
-TEST_CASE("rows without room are refused by wall and edge, with the room there is")
+TEST_CASE("rows without room are refused by wall and edge, with_rows the room there is")
 {
     PrismOptions how;
     how.sides = 4;
@@ -360,7 +360,7 @@ TEST_CASE("rows without room are refused by wall and edge, with the room there i
     const OpenVolume volume = test::sealed(how);
     const auto walls = walls_of(volume, prism, 0, {0, 2});
     const auto thick = layer_on(volume, walls, 0.4, 1.2, 3);
-    CHECK(test::refusal([&] { sweep::sweep(volume, with({thick})); },
+    CHECK(test::refusal([&] { sweep::sweep(volume, with_rows({thick})); },
                         {name_of(volume.model, walls[0]), "edge", "room for"}) == "surface.layers_room");
 
     how.sides = 0;
@@ -369,11 +369,11 @@ TEST_CASE("rows without room are refused by wall and edge, with the room there i
     const test::Prism ring = test::prism(how);
     const OpenVolume tube = test::sealed(how);
     const auto all = layer_on(tube, tube.faces(Role::wall), 0.2, 1.2, 3);
-    CHECK(test::refusal([&] { sweep::sweep(tube, with({all})); },
+    CHECK(test::refusal([&] { sweep::sweep(tube, with_rows({all})); },
                         {"edge", "0.728", "up to the opposite side"}) == "surface.layers_room");
 
     const auto ends = layer_on(volume, volume.faces(Role::source), 3, 1, 1);
-    CHECK(test::refusal([&] { sweep::sweep(volume, with({ends})); }, {"apart"}) == "sweep.layers_room");
+    CHECK(test::refusal([&] { sweep::sweep(volume, with_rows({ends})); }, {"apart"}) == "sweep.layers_room");
 }
 
 TEST_CASE("boundary layers that say nothing, or twice, are refused")
@@ -384,7 +384,7 @@ TEST_CASE("boundary layers that say nothing, or twice, are refused")
     const auto walls = walls_of(volume, prism, 0, {0});
     const auto good = layer_on(volume, walls, 0.1, 1, 1);
     const auto refused = [&](surface::BoundaryLayer layer) {
-        return test::refusal([&] { sweep::sweep(volume, with({std::move(layer)})); });
+        return test::refusal([&] { sweep::sweep(volume, with_rows({std::move(layer)})); });
     };
     auto layer = good;
     layer.first = 0;
@@ -400,8 +400,8 @@ TEST_CASE("boundary layers that say nothing, or twice, are refused")
     CHECK(refused(layer) == "surface.no_such_face");
     layer.walls = {};
     CHECK(refused(layer) == "sweep.boundary_layers");
-    CHECK(test::refusal([&] { sweep::sweep(volume, with({good, good})); }) == "surface.two_layers");
-    SweepOptions rows = with({good});
+    CHECK(test::refusal([&] { sweep::sweep(volume, with_rows({good, good})); }) == "surface.two_layers");
+    SweepOptions rows = with_rows({good});
     rows.rows = 1;
     CHECK(test::refusal([&] { sweep::sweep(volume, rows); }) == "sweep.boundary_layers");
 }
@@ -419,15 +419,15 @@ TEST_CASE("walls that go on into each other without a corner must have one table
                other = layer_on(volume, {walls[1]}, 0.1, 1, 2);
     CHECK(test::refusal(
               [&] {
-                  sweep::sweep(volume, with({one, other}));
+                  sweep::sweep(volume, with_rows({one, other}));
               },
               {name_of(volume.model, walls[0])}) == "surface.layers_meet");
     const auto both = layer_on(volume, walls, 0.05, 1, 2);
-    const Swept swept = sweep::sweep(volume, with({both}));
+    const Swept swept = sweep::sweep(volume, with_rows({both}));
     test::check_valid(swept.mesh);
     check_rows(swept, walls, both, 1e-6);
     // One of them alone: its rows end in the middle of the side.
-    const Swept half = sweep::sweep(volume, with({one}));
+    const Swept half = sweep::sweep(volume, with_rows({one}));
     test::check_valid(half.mesh);
     check_rows(half, {walls[0]}, one, 1e-6);
 }
@@ -446,7 +446,7 @@ TEST_CASE("rows cross and end on edges between the faces of an end, on leaning w
         layer.first = 0.02;
         layer.growth = 1.5;
         layer.count = 3;
-        const Swept swept = sweep::sweep(volume, with({layer}, 0.3));
+        const Swept swept = sweep::sweep(volume, with_rows({layer}, 0.3));
         test::check_valid(swept.mesh);
         CHECK(swept.min_scaled_jacobian > 0.3);
         check_rows(swept, volume.faces(Role::wall), layer, 1e-3);
@@ -465,7 +465,7 @@ TEST_CASE("the same rows come out for any number of threads")
     for (const int threads : {1, 3}) {
         RunContext context;
         context.threads = threads;
-        nodes.push_back(sweep::sweep(volume, with({layer}), context).mesh.nodes);
+        nodes.push_back(sweep::sweep(volume, with_rows({layer}), context).mesh.nodes);
     }
     CHECK(nodes[0] == nodes[1]);
 }

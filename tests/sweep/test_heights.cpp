@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <doctest/doctest.h>
@@ -16,7 +17,6 @@ using sweep::Spacing;
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 LayerSpec spec_of(int count, double bias = 1, Spacing spacing = Spacing::geometric)
 {

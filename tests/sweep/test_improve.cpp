@@ -17,7 +17,7 @@ using namespace lacuna;
 
 namespace {
 
-std::vector<char> skin_of(const mesh::HexMesh& mesh)
+std::vector<char> skin_nodes_of(const mesh::HexMesh& mesh)
 {
     std::vector<char> skin(mesh.nodes.size(), 0);
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
@@ -38,7 +38,7 @@ double cell_size(const mesh::HexMesh& mesh)
 mesh::HexMesh shaken(double share, unsigned seed, std::array<int, 3> cells = {6, 6, 6})
 {
     mesh::HexMesh mesh = test::block({cells[0], cells[1], cells[2]});
-    const std::vector<char> skin = skin_of(mesh);
+    const std::vector<char> skin = skin_nodes_of(mesh);
     const double size = cell_size(mesh);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> throws(-share * size, share * size);
@@ -158,7 +158,7 @@ TEST_CASE("skin nodes that may slide stay on their surfaces, all others where th
         test::check_valid(mesh);
         locked = sweep::improve(locked).mesh;
         CHECK(quality::measure(locked).min_scaled_jacobian < quality::measure(mesh).min_scaled_jacobian);
-        const std::vector<char> skin = skin_of(mesh);
+        const std::vector<char> skin = skin_nodes_of(mesh);
         for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
             if (sliding.surface[i] >= 0) {
                 Vec3 p = mesh.nodes[i];
@@ -219,7 +219,7 @@ TEST_CASE("a corner that cannot move holds up no other cell")
         mesh::HexMesh mesh = shaken(0.2, seed, {8, 8, 8});
         // Pull the block's last corner towards its inside: the cell there is poor by its locked nodes alone.
         Vec3& corner = mesh.nodes.back();
-        const std::vector<char> skin = skin_of(mesh);
+        const std::vector<char> skin = skin_nodes_of(mesh);
         REQUIRE(skin[mesh.nodes.size() - 1] == 1);
         corner -= 0.29 * cell_size(test::block({8, 8, 8})) * Vec3(1, 1, 1);
         const quality::Quality before = quality::measure(mesh);

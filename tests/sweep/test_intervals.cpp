@@ -50,7 +50,7 @@ Interval along_sweep(int count, double bias = 1)
     return interval;
 }
 
-SweepOptions with(std::vector<Interval> intervals, double size = 0.4)
+SweepOptions with_intervals(std::vector<Interval> intervals, double size = 0.4)
 {
     SweepOptions options = test::layers_of(0, size);
     options.intervals = std::move(intervals);
@@ -110,7 +110,8 @@ TEST_CASE("edges of either end have as many sides as are asked for, spread by th
                     const OpenVolume volume = test::sealed(how);
                     const EdgeId edge = edges_of(volume, end).front();
                     const Edge& asked = volume.model[edge];
-                    const Swept swept = sweep::sweep(volume, with({on_edge(asked.tag, count, bias)}));
+                    const Swept swept = sweep::sweep(volume,
+                                                     with_intervals({on_edge(asked.tag, count, bias)}));
                     test::check_valid(swept.mesh);
                     check_lengths(lengths_on(swept.mesh, volume, asked.from, asked.to), count, bias);
                     // The edge it is swept to has the same.
@@ -126,7 +127,7 @@ TEST_CASE("edges of either end have as many sides as are asked for, spread by th
                                   count, bias);
                     // And so it has by its vertices, from the first to the second.
                     const Swept other = sweep::sweep(
-                        volume, with({between(volume, asked.to, asked.from, count, bias)}));
+                        volume, with_intervals({between(volume, asked.to, asked.from, count, bias)}));
                     test::check_valid(other.mesh);
                     check_lengths(lengths_on(other.mesh, volume, asked.to, asked.from), count, bias);
                 }
@@ -151,7 +152,7 @@ TEST_CASE("layers are as many as the sweep, or an edge up the walls, is asked to
             for (const Interval& asked :
                  {along_sweep(count, bias), between(volume, line.source, line.target, count, bias),
                   on_edge(edge.tag, count, line.uses.front().reversed ? 1 / bias : bias)}) {
-                const Swept swept = sweep::sweep(volume, with({asked}));
+                const Swept swept = sweep::sweep(volume, with_intervals({asked}));
                 test::check_valid(swept.mesh);
                 CHECK(swept.mesh.layers == count);
                 check_lengths(lengths_on(swept.mesh, volume, line.source, line.target), count, bias);
@@ -176,7 +177,7 @@ TEST_CASE("a wall has as many columns as it is asked for, over all of its edges"
             asked.of = Interval::Of::wall;
             const FaceId wall = prism.face({Role::wall, 1, 0, 0, 0});
             asked.walls.tags = {prism.model[wall].tag};
-            const Swept swept = sweep::sweep(volume, with({asked}));
+            const Swept swept = sweep::sweep(volume, with_intervals({asked}));
             test::check_valid(swept.mesh);
             int columns = 0;
             for (std::size_t w = 0; w < swept.mesh.rim.size(); ++w) {
@@ -188,7 +189,7 @@ TEST_CASE("a wall has as many columns as it is asked for, over all of its edges"
     }
 }
 
-TEST_CASE("intervals that contradict each other are refused, both named with their counts")
+TEST_CASE("intervals that contradict each other are refused, both named with_intervals their counts")
 {
     PrismOptions how;
     how.sides = 4;
@@ -200,22 +201,23 @@ TEST_CASE("intervals that contradict each other are refused, both named with the
     const auto refused = [&](const SweepOptions& options, const std::vector<std::string>& words) {
         return test::refusal([&] { sweep::sweep(volume, options); }, words);
     };
-    CHECK(refused(with({on_edge(a, 4), on_edge(b, 6)}), {"4 sides", "6"}) == "surface.sides_asked");
-    CHECK(refused(with({along_sweep(4), along_sweep(5)}), {"4 layers", "5"}) == "surface.sides_asked");
-    SweepOptions layers = with({along_sweep(4)});
+    CHECK(refused(with_intervals({on_edge(a, 4), on_edge(b, 6)}), {"4 sides", "6"}) == "surface.sides_asked");
+    CHECK(refused(with_intervals({along_sweep(4), along_sweep(5)}), {"4 layers", "5"}) ==
+          "surface.sides_asked");
+    SweepOptions layers = with_intervals({along_sweep(4)});
     layers.layers.count = 6;
     CHECK(refused(layers, {"4 layers", "6"}) == "surface.sides_asked");
 
     std::vector<Interval> odd;
     for (std::size_t i = 0; i < 4; ++i) odd.push_back(on_edge(volume.model[low[i].edge].tag, i == 0 ? 5 : 4));
-    CHECK(refused(with(odd), {"odd", "17 sides"}) == "surface.sides_asked");
-    SweepOptions mapped = with({on_edge(a, 4), on_edge(volume.model[low[2].edge].tag, 6)});
+    CHECK(refused(with_intervals(odd), {"odd", "17 sides"}) == "surface.sides_asked");
+    SweepOptions mapped = with_intervals({on_edge(a, 4), on_edge(volume.model[low[2].edge].tag, 6)});
     mapped.quads = sweep::Quads::mapped;
     CHECK(refused(mapped, {"4 (", "6 ("}) == "surface.kept_side");
 
-    CHECK(refused(with({on_edge(9999, 4)}), {"9999"}) == "surface.no_such_edge");
+    CHECK(refused(with_intervals({on_edge(9999, 4)}), {"9999"}) == "surface.no_such_edge");
     Interval nothing = on_edge(a, 0);
-    CHECK(refused(with({nothing}), {"count"}) == "sweep.intervals");
+    CHECK(refused(with_intervals({nothing}), {"count"}) == "sweep.intervals");
 }
 
 TEST_CASE("sides asked for and rows that end on an edge add up, or are refused")
@@ -241,7 +243,7 @@ TEST_CASE("sides asked for and rows that end on an edge add up, or are refused")
     while (wall_of(uses[own].edge) != layer.walls.tags.front()) ++own;
     const EdgeId beside = uses[(own + 1) % 4].edge;
     for (const int count : {4, 8}) {
-        SweepOptions options = with({on_edge(volume.model[beside].tag, count)});
+        SweepOptions options = with_intervals({on_edge(volume.model[beside].tag, count)});
         options.boundary_layers = {layer};
         const Swept swept = sweep::sweep(volume, options);
         test::check_valid(swept.mesh);
@@ -250,9 +252,10 @@ TEST_CASE("sides asked for and rows that end on an edge add up, or are refused")
         REQUIRE(lengths.size() == static_cast<std::size_t>(count));
         CHECK(std::min(lengths.front(), lengths.back()) == doctest::Approx(0.05));
     }
-    SweepOptions few = with({on_edge(volume.model[beside].tag, 3)});
+    SweepOptions few = with_intervals({on_edge(volume.model[beside].tag, 3)});
     few.boundary_layers = {layer};
-    CHECK(test::refusal([&] { sweep::sweep(volume, few); }, {"end with 3 sides"}) == "surface.sides_asked");
+    CHECK(test::refusal([&] { sweep::sweep(volume, few); }, {"end with_intervals 3 sides"}) ==
+          "surface.sides_asked");
 }
 
 TEST_CASE("layers follow a size that changes along the sweep, and are even where it does not")

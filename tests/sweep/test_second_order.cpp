@@ -39,7 +39,7 @@ SweepOptions second(double size, int curvature, int layers, bool serendipity)
     return options;
 }
 
-Swept swept_valid(const OpenVolume& volume, const SweepOptions& options)
+Swept swept_to_order(const OpenVolume& volume, const SweepOptions& options)
 {
     Swept swept = sweep::sweep(volume, options);
     CHECK(swept.mesh.order() == options.order);
@@ -130,7 +130,7 @@ TEST_CASE(
                     SweepOptions options = second(10, around, 2, serendipity);
                     options.order = order;
                     options.second_order.serendipity = serendipity && order == 2;
-                    const Swept swept = swept_valid(volume, options);
+                    const Swept swept = swept_to_order(volume, options);
                     errors[static_cast<std::size_t>(order - 1)].push_back(
                         std::abs(swept.fidelity.volume / exact_volume - 1));
                 }
@@ -148,7 +148,7 @@ TEST_CASE("middle nodes of exact walls and rims lie on them to rounding")
 {
     const OpenVolume volume = exact(test::sealed({.sides = 0, .radius = 1, .height = 1}));
     for (const bool serendipity : {false, true}) {
-        const Swept swept = swept_valid(volume, second(10, 8, 2, serendipity));
+        const Swept swept = swept_to_order(volume, second(10, 8, 2, serendipity));
         CHECK(worst_off_radius(swept.mesh, 1, 1) < 1e-12);
     }
 }
@@ -158,10 +158,10 @@ TEST_CASE("a mesh with straight walls is the mesh of order 1 with nodes in the m
     for (const bool serendipity : {false, true}) {
         const auto volume = test::sealed({.sides = 6, .holes = 1});
         SweepOptions options = second(0.3, 12, 3, serendipity);
-        const Swept curved = swept_valid(volume, options);
+        const Swept curved = swept_to_order(volume, options);
         options.order = 1;
         options.second_order = {};
-        const Swept plain = swept_valid(volume, options);
+        const Swept plain = swept_to_order(volume, options);
         CHECK(curved.mesh.nodes == plain.mesh.nodes);
         CHECK(curved.min_scaled_jacobian == plain.min_scaled_jacobian);
         for (std::size_t c = 0; c < curved.mesh.hex_count(); ++c)
@@ -218,7 +218,7 @@ void for_each_bent(const Visit& visit)
 TEST_CASE("bent, barrelled, twisted and domed volumes with parts left out are valid at order 2")
 {
     for_each_bent([](const OpenVolume& volume, const SweepOptions& options) {
-        CHECK(swept_valid(volume, options).min_scaled_jacobian > 0.02);
+        CHECK(swept_to_order(volume, options).min_scaled_jacobian > 0.02);
     });
 }
 
@@ -304,7 +304,7 @@ TEST_CASE("given middle nodes stay bit for bit, and one that turns a cell over i
         };
     };
     options.second_order.given = moved(0.05);
-    const Swept swept = swept_valid(volume, options);
+    const Swept swept = swept_to_order(volume, options);
     for (std::size_t i = 0; i < swept.mesh.skin_count(); ++i) {
         const mesh::CellNodes nodes = mesh::skin_nodes(swept.mesh, i);
         for (std::size_t k = 0; k < 4; ++k) {
@@ -349,7 +349,7 @@ TEST_CASE(
             };
             bool moved = false;
             const std::string code = test::refusal([&] {
-                const Swept swept = swept_valid(volume, options);
+                const Swept swept = swept_to_order(volume, options);
                 for (const std::string& line : swept.report)
                     moved = moved || line.find("moved to make them valid") != std::string::npos;
             });

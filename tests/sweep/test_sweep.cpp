@@ -91,7 +91,7 @@ Swept check_swept(const OpenVolume& volume, const SweepOptions& options, double 
     return swept;
 }
 
-std::string refusal(const std::function<void()>& work)
+std::string refusal_of(const std::function<void()>& work)
 {
     try {
         work();
@@ -507,30 +507,30 @@ TEST_CASE("bad options are refused")
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  infinity = std::numeric_limits<double>::infinity();
     for (const int count : {-1, -7})
-        CHECK(refusal([&] { sweep::sweep(volume, layers_of(count, 0.3)); }) == "sweep.layers");
+        CHECK(refusal_of([&] { sweep::sweep(volume, layers_of(count, 0.3)); }) == "sweep.layers");
     for (const double size : {0.0, -1.0, nan, infinity})
-        CHECK(refusal([&] { sweep::sweep(volume, layers_of(2, size)); }) == "sweep.size");
+        CHECK(refusal_of([&] { sweep::sweep(volume, layers_of(2, size)); }) == "sweep.size");
     for (const double bias : {0.0, -2.0, nan, infinity}) {
         SweepOptions options = layers_of(3, 0.3);
         options.layers.bias = bias;
-        CHECK(refusal([&] { sweep::sweep(volume, options); }) != "done");
+        CHECK(refusal_of([&] { sweep::sweep(volume, options); }) != "done");
     }
     SweepOptions strict = layers_of(2, 0.3);
     strict.min_scaled_jacobian = 0.999;
-    CHECK(refusal([&] {
+    CHECK(refusal_of([&] {
               sweep::sweep(test::sealed({.sides = 4, .twist = 30}), strict);
           }).rfind("quality.", 0) == 0);
     SweepOptions no_mesher = layers_of(2, 0.3);
     no_mesher.quads = sweep::Quads::gmsh;
-    CHECK(refusal([&] { sweep::sweep(test::sealed({.sides = 5}), no_mesher); }) == "surface.no_mesher");
+    CHECK(refusal_of([&] { sweep::sweep(test::sealed({.sides = 5}), no_mesher); }) == "surface.no_mesher");
     SweepOptions mapped = layers_of(2, 0.3);
     mapped.quads = sweep::Quads::mapped;
-    CHECK(refusal([&] { sweep::sweep(test::sealed({.sides = 5}), mapped); }) == "surface.not_four_sided");
-    CHECK(refusal([&] {
+    CHECK(refusal_of([&] { sweep::sweep(test::sealed({.sides = 5}), mapped); }) == "surface.not_four_sided");
+    CHECK(refusal_of([&] {
               sweep::sweep(test::prism({.drop = without(false, false, true)}).open(), layers_of(2, 0.3));
           }) == "sweep.not_closed");
     // So fine that the counts would not fit.
-    CHECK(refusal([&] { sweep::sweep(volume, layers_of(2, 1e-300)); }) != "done");
+    CHECK(refusal_of([&] { sweep::sweep(volume, layers_of(2, 1e-300)); }) != "done");
 }
 
 TEST_CASE("every option out of range is refused by name, before and by the sweep")
@@ -577,13 +577,13 @@ TEST_CASE("every option out of range is refused by name, before and by the sweep
         REQUIRE_NOTHROW(sweep::check(options));
         wrong.set(options);
         CAPTURE(wrong.code);
-        CHECK(refusal([&] { sweep::check(options); }) == wrong.code);
-        CHECK(refusal([&] { sweep::sweep(volume, options); }) == wrong.code);
+        CHECK(refusal_of([&] { sweep::check(options); }) == wrong.code);
+        CHECK(refusal_of([&] { sweep::sweep(volume, options); }) == wrong.code);
     }
     for (const int threads : {-1, 1025, std::numeric_limits<int>::max()}) {
         RunContext context;
         context.threads = threads;
-        CHECK(refusal([&] { sweep::sweep(volume, layers_of(3, 0.5), context); }) == "sweep.threads");
+        CHECK(refusal_of([&] { sweep::sweep(volume, layers_of(3, 0.5), context); }) == "sweep.threads");
     }
     SweepOptions rows = layers_of(3, 0.5);
     rows.rows = 1;
@@ -647,7 +647,8 @@ TEST_CASE("the quality a sweep tells is that of its cells, however they were pla
     check(straight, rows);
 }
 
-TEST_CASE("where a rim and an edge of the walls lie in one line, the refusal names the vertex and both edges")
+TEST_CASE(
+    "where a rim and an edge of the walls lie in one line, the refusal_of names the vertex and both edges")
 {
     for (const double height : {0.3, 0.5, 0.8}) {
         for (const double size : {0.5, 0.2}) {
