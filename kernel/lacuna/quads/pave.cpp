@@ -5,7 +5,6 @@
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/quads/detail/mesh_symmetry.h>
-#include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_choice.h>
 #include <lacuna/quads/detail/pave_rows.h>
 #include <lacuna/quads/detail/pave_size.h>

@@ -2,6 +2,7 @@
 #include <lacuna/quads/detail/region_loops.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace lacuna::quads {
 
@@ -84,6 +85,24 @@ void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQ
 {
     const std::span<const Vec2> all = filling.points; // empty if there is no filling
     add_filling(mesh.points, mesh.quads, own, all.subspan(std::min(own.size(), all.size())), filling.quads);
+}
+
+void drop_loose_points(PlanarQuads& mesh, std::size_t fixed)
+{
+    std::vector<Index> number(mesh.points.size(), -1);
+    std::iota(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(fixed), Index{0});
+    std::vector<Vec2> points(mesh.points.begin(), mesh.points.begin() + static_cast<std::ptrdiff_t>(fixed));
+    for (Quad& quad : mesh.quads) {
+        for (Index& p : quad) {
+            Index& own = number[index(p)];
+            if (own < 0) {
+                own = static_cast<Index>(points.size());
+                points.push_back(mesh.points[index(p)]);
+            }
+            p = own;
+        }
+    }
+    mesh.points = std::move(points);
 }
 
 } // namespace lacuna::quads

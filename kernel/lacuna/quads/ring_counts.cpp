@@ -60,25 +60,6 @@ int repeats(const CountTask& task, std::size_t l)
     return 1;
 }
 
-/// Number of further holes if they all have the same size and the same distance from the hole that the grid
-/// follows; otherwise 1. A multiple of it keeps the holes alike.
-int alike(const CountTask& task, const std::vector<CountedLoop>& others, std::size_t about)
-{
-    constexpr double kAlike = 0.01; // relative tolerance; larger treats less similar holes as equal
-    const Vec2 centre = centre_of(task.region.points, task.region.loops[about]);
-    double first = 0;
-    for (std::size_t l = 1; l < task.region.loops.size(); ++l) {
-        if (l == about) continue;
-        const double distance = (centre_of(task.region.points, task.region.loops[l]) - centre).norm();
-        if (first == 0) first = distance;
-        if (std::abs(distance - first) > kAlike * first) return 1;
-    }
-    const bool same = std::ranges::all_of(others, [&](const CountedLoop& loop) {
-        return std::abs(loop.wanted - others.front().wanted) <= kAlike * others.front().wanted;
-    });
-    return same && !others.empty() ? static_cast<int>(others.size()) : 1;
-}
-
 /// Number of wanted sides around a ring.
 double wanted_along(const CountedLoop& loop)
 {
@@ -193,16 +174,15 @@ std::optional<std::vector<int>> ring_counts(const CountTask& task)
     if (about == 0) return std::nullopt;
     const auto ring = ring_loops(task, about);
     if (!ring) return std::nullopt;
-    const int fold = alike(task, ring->others, about);
     // Prefer numbers that preserve the symmetry of the loops.
-    const int symmetric = std::lcm(fold, std::lcm(repeats(task, 0), repeats(task, about)));
+    const int symmetric = std::lcm(repeats(task, 0), repeats(task, about));
     std::optional<std::vector<CountedLoop>> best;
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
     const double size = mean_size(task);
     const bool alone = ring->others.empty();
     const int steps = alone ? widths.steps(size) : 0;
     // Prefer an even number, so that quads alone can fill the area beyond a loop.
-    for (const int multiple : {std::lcm(alone ? symmetric : fold, 2), std::lcm(fold, 2), fold}) {
+    for (const int multiple : {std::lcm(alone ? symmetric : 1, 2), 2, 1}) {
         if (!best)
             best = ring_ends(task, ring->ends, ring->along, multiple, std::array{2 * steps},
                              alone ? kRingSegment : kRingWithHoles);

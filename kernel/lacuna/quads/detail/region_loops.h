@@ -77,4 +77,7 @@ void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std:
                  std::span<const Vec2> inner, std::span<const Quad> filling);
 void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQuads& filling);
 
+/// Remove points that no quad uses, except the first `fixed` ones. Points are renumbered by first use.
+void drop_loose_points(PlanarQuads& mesh, std::size_t fixed);
+
 } // namespace lacuna::quads

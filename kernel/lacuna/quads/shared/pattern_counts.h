@@ -65,8 +65,7 @@ inline constexpr double kFewestEven = 8;
 /// The equations of a loop have coefficients of 1 and -1, and a number occurs in two equations only if its
 /// segment turns. So the wanted numbers are rounded and then changed by one, the cheapest first, until all
 /// equations hold. Holes then get one column more or less if this keeps their centre at its place in the
-/// outer loop's grid, which preserves symmetry (below 200 quads both are tried). A ring with equal holes
-/// around it gets a number that is a multiple of the number of these holes.
+/// outer loop's grid, which preserves symmetry (below 200 quads both are tried).
 /// @param region   with its current nodes; their number does not matter.
 /// @param segment  segment of the side from each boundary node to the next.
 /// @return  the number of sides of every segment; empty if no grid fits.
