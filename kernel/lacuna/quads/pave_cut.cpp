@@ -3,7 +3,6 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/predicates.h>
-#include <lacuna/quads/detail/cut_bounds.h>
 #include <lacuna/quads/detail/patch_template.h>
 
 namespace lacuna::quads::paving {
@@ -85,8 +84,12 @@ public:
 
     std::optional<Cut> find()
     {
-        places_ = candidates();
-        line_up();
+        const std::vector<std::size_t> places = candidates();
+        for (std::size_t t = 1; t < places.size(); ++t) {
+            for (std::size_t s = 0; s < t; ++s) {
+                if (auto line = line_between(places[s], places[t])) lines_.push_back(*line);
+            }
+        }
         // Limit of a line's length relative to the outline that it cuts off. A longer line is seldom good, so
         // it is tried only if there is no other.
         constexpr double kShort = 0.85;
@@ -103,17 +106,16 @@ private:
         // used.
         constexpr double kAway = 0.5;
         std::optional<Choice> best, near_miss;
-        // In order of their lower bounds, so the search ends after few lines.
-        std::vector<CutBound> bounds = bound_cuts(columns_, partial_.weights, longest, kLeastAngle, arc_[n_]);
-        const auto later = [](const CutBound& a, const CutBound& b) { return a.cost > b.cost; };
-        std::make_heap(bounds.begin(), bounds.end(), later);
-        for (auto end = bounds.end(); end != bounds.begin();) {
-            std::pop_heap(bounds.begin(), end, later);
-            const CutBound& next = *--end;
+        // In order of their costs without edges, so the search ends after few lines.
+        const auto later = [](const Line& a, const Line& b) { return a.cost > b.cost; };
+        std::ranges::make_heap(lines_, later);
+        for (auto end = lines_.end(); end != lines_.begin();) {
+            std::pop_heap(lines_.begin(), end, later);
+            const Line& next = *--end;
             if (best && next.cost >= best->cost) break;
-            const std::size_t i = places_[next.from], j = places_[next.to];
-            const auto choice = judge(i, j, best ? best->cost : kInfinity);
-            if (!choice || !is_clear(partial_, cycle_, cycle_[i], cycle_[j])) continue;
+            if (next.reach > longest) continue;
+            const auto choice = judge(next, best ? best->cost : kInfinity);
+            if (!choice || !is_clear(partial_, cycle_, cycle_[next.from], cycle_[next.to])) continue;
             if (keeps_away(*choice, kAway))
                 best = choice;
             else if (!near_miss || choice->cost < near_miss->cost)
@@ -129,21 +131,13 @@ private:
         double cost = 0;
     };
 
-    /// Fill the columns that `bound_cuts()` reads.
-    void line_up()
-    {
-        columns_.reserve(places_.size());
-        for (const std::size_t i : places_) {
-            const Vec2 from_first = at(i) - at(0);
-            columns_.x.push_back(static_cast<float>(from_first.x()));
-            columns_.y.push_back(static_cast<float>(from_first.y()));
-            columns_.arc.push_back(static_cast<float>(arc_[i]));
-            columns_.heading.push_back(static_cast<float>(heading_[i]));
-            columns_.angle.push_back(static_cast<float>(angles_[i]));
-            columns_.gain.push_back(static_cast<float>(gain(i)));
-            columns_.firm.push_back(static_cast<float>(firmness(i)));
-        }
-    }
+    /// A line that may be cut along, without its edges.
+    struct Line {
+        std::size_t from = 0, to = 0;
+        double reach = 0;                  ///< length relative to the outline that it cuts off
+        double cost = 0;                   ///< of the length and of the angles at its ends
+        double part_from = 0, part_to = 0; ///< angles between the outline and the line
+    };
 
     /// Reduction of a line's cost if it ends at a node.
     [[nodiscard]] double gain(std::size_t i) const
@@ -186,26 +180,33 @@ private:
         return places;
     }
 
-    /// @return empty if no line is possible, or none that costs less than `most`
-    [[nodiscard]] std::optional<Choice> judge(std::size_t i, std::size_t j, double most) const
+    /// @return empty if the line would run too close to the outline
+    [[nodiscard]] std::optional<Line> line_between(std::size_t i, std::size_t j) const
     {
         if (cycle_[i] == cycle_[j]) return std::nullopt;
         const CutWeights& weights = partial_.weights;
         const Vec2 along = at(j) - at(i);
-        const double length = along.norm(), arc = arc_[j] - arc_[i];
-        Choice choice{{i, j, 0}, weights.length * length / std::min(arc, arc_[n_] - arc)};
-        choice.cost -= gain(i) + gain(j);
-        if (choice.cost >= most) return std::nullopt;
         const double heading = std::atan2(along.y(), along.x());
         const double part_i = whole_turn(heading - heading_[i]);
         if (part_i < kLeastAngle || part_i > angles_[i] - kLeastAngle) return std::nullopt;
         const double part_j = whole_turn(heading + std::numbers::pi - heading_[j]);
         if (part_j < kLeastAngle || part_j > angles_[j] - kLeastAngle) return std::nullopt;
-        choice.cost += end_cost(angles_[i], part_i, weights) * firmness(i) +
-                       end_cost(angles_[j], part_j, weights) * firmness(j);
+        const double arc = arc_[j] - arc_[i], reach = along.norm() / std::min(arc, arc_[n_] - arc);
+        const double cost = weights.length * reach - (gain(i) + gain(j)) +
+                            end_cost(angles_[i], part_i, weights) * firmness(i) +
+                            end_cost(angles_[j], part_j, weights) * firmness(j);
+        return Line{i, j, reach, cost, part_i, part_j};
+    }
+
+    /// @return empty if the line cannot have edges, or costs `most` or more with them
+    [[nodiscard]] std::optional<Choice> judge(const Line& line, double most) const
+    {
+        const auto& [i, j, reach, cost, part_i, part_j] = line;
+        Choice choice{{i, j, 0}, cost};
         if (choice.cost >= most) return std::nullopt;
         // The number of edges is proportional to the mean of 1 / size.
-        const double wanted = length * (pace_[i] + 1 / partial_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
+        const double wanted = (at(j) - at(i)).norm() *
+                              (pace_[i] + 1 / partial_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
         const std::size_t between = j - i, rest = n_ - between;
         auto edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
         edges = std::min(edges, n_);
@@ -222,7 +223,7 @@ private:
         choice.cut.edges = edges;
         choice.cost += ratio * ratio / 2;
         if (choice.cost >= most) return std::nullopt;
-        choice.cost += weights.mismatch * mismatch(choice.cut, part_i, part_j);
+        choice.cost += partial_.weights.mismatch * mismatch(choice.cut, part_i, part_j);
         if (choice.cost >= most) return std::nullopt;
         return choice;
     }
@@ -285,7 +286,8 @@ private:
         const auto consider = [&](std::size_t one, std::size_t other) {
             const auto [i, j] = std::minmax({one % n_, other % n_});
             if (i == j) return;
-            const auto choice = judge(i, j, best.cost);
+            const auto line = line_between(i, j);
+            const auto choice = line ? judge(*line, best.cost) : std::nullopt;
             if (choice && is_clear(partial_, cycle_, cycle_[i], cycle_[j]) &&
                 (away == 0 || keeps_away(*choice, away)))
                 best = *choice;
@@ -314,8 +316,7 @@ private:
     std::vector<double> heading_; ///< direction of the side that leaves each node [radians]
     std::vector<double> pace_;    ///< 1 / size at each node
     std::vector<std::size_t> corners_;
-    std::vector<std::size_t> places_; ///< nodes between which lines are tried
-    CutPlaces columns_;               ///< the same in columns
+    std::vector<Line> lines_; ///< those tried first
     std::size_t stride_ = 1;
 };
 
