@@ -31,11 +31,9 @@ public:
             rim_[start] = static_cast<Index>(side);
         }
         if (std::ranges::find(rim_, -1) != rim_.end()) return found;
-        find_row_ends();
         for (Symmetry& symmetry : outline) {
             symmetry.to.resize(mesh_.points.size(), -1);
-            if (is_product(symmetry, found) || (maps_rows(symmetry) && maps_quads(symmetry)))
-                found.push_back(std::move(symmetry));
+            if (maps_quads(symmetry)) found.push_back(std::move(symmetry));
         }
         return found;
     }
@@ -45,45 +43,6 @@ private:
     struct SidePair {
         Index own, image;
     };
-
-    /// Whether a symmetry is a known one followed by the first of them. Then its images need no search, which
-    /// saves time for rings with hundreds of symmetries.
-    [[nodiscard]] bool is_product(Symmetry& symmetry, const std::vector<Symmetry>& found) const
-    {
-        const auto& loop = region_.loops[0];
-        const auto product = std::ranges::find_if(found, [&](const Symmetry& other) {
-            // One side determines the symmetry.
-            return std::all_of(loop.begin(), loop.begin() + 2, [&](Index p) {
-                return found[0].to[index(other.to[index(p)])] == symmetry.to[index(p)];
-            });
-        });
-        if (product == found.end()) return false;
-        for (std::size_t p = 0; p < symmetry.to.size(); ++p)
-            symmetry.to[p] = found[0].to[index(product->to[p])];
-        return true;
-    }
-
-    /// Find the boundary side at which the row of quads from each boundary side ends.
-    void find_row_ends()
-    {
-        row_end_.assign(opposite_.size(), -1);
-        for (const Index start : rim_) {
-            for (Index side = start; side >= 0; side = opposite_[index(beyond(side, 2))])
-                row_end_[index(start)] = beyond(side, 2);
-        }
-    }
-
-    /// Whether rows of quads end where the rows of their images end. Most candidates that are no symmetry
-    /// fail at the first row.
-    [[nodiscard]] bool maps_rows(const Symmetry& symmetry) const
-    {
-        const auto image = [&](Index side) {
-            const Index own = symmetry.map.mirrors ? beyond(side, 1) : side;
-            return rim_[index(symmetry.to[index(mesh_.quads[index(own) / 4][index(own) % 4])])];
-        };
-        return std::ranges::all_of(
-            rim_, [&](Index side) { return image(row_end_[index(side)]) == row_end_[index(image(side))]; });
-    }
 
     /// Map the quads from the boundary inward. @return false if a quad has no image
     [[nodiscard]] bool maps_quads(Symmetry& symmetry) const
@@ -133,7 +92,6 @@ private:
     const PlanarRegion& region_;
     std::vector<Index> opposite_; ///< for each side, numbered 4 × quad + place
     std::vector<Index> rim_;      ///< the boundary side that starts at each boundary node
-    std::vector<Index> row_end_;  ///< for each boundary side, the boundary side at the other end of its row
 };
 
 } // namespace
