@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
+#include <lacuna/geometry/shared/pattern_search.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/mesh/shared/incidence.h>
 #include <lacuna/quads/shared/measure_plane.h>
@@ -121,13 +122,11 @@ private:
         return worst;
     }
 
-    /// Move a node to the mean of its neighbours, or by a step in one of eight directions, whichever is best.
+    /// Move a node to the mean of its neighbours, if that is better, and on to where the worst cell is best.
     bool move(Index n)
     {
-        constexpr int kDirections = 8;
-        // Steps as shares of the mean side; a smaller last step gains little.
-        constexpr std::array kSteps{0.2, 0.05, 0.0125};
-        constexpr double kGain = 1e-3; // a smaller gain is not worth a move
+        // First and last step as shares of the mean side, and the least gain; a smaller step gains little.
+        constexpr double kFirst = 0.2, kLast = 0.01, kGain = 1e-3;
         Vec2 mean = Vec2::Zero();
         double side = 0, count = 0;
         for (const Index q : at_.of(index(n))) {
@@ -141,29 +140,20 @@ private:
                 ++count;
             }
         }
-        mean /= count;
-        side /= count;
         Vec2 best = points_[index(n)];
-        const Vec2 old = best;
-        double worst = worst_at(n, -1);
-        bool moved = false;
-        const auto offer = [&](const Vec2& place) {
+        const auto value = [&](const Vec2& place, double floor) {
             points_[index(n)] = place;
-            const double found = worst_at(n, worst + kGain);
-            if (found <= worst + kGain) return;
-            worst = found;
-            best = place;
-            moved = true;
+            return worst_at(n, floor);
         };
-        offer(mean);
-        for (const double step : kSteps) {
-            for (int d = 0; d < kDirections; ++d) {
-                const double angle = kFullTurn * d / kDirections;
-                offer(old + step * side * Vec2(std::cos(angle), std::sin(angle)));
-            }
-        }
+        const double before = worst_at(n, -1);
+        double worst = value(mean / count, before + kGain);
+        if (worst > before + kGain)
+            best = mean / count;
+        else
+            worst = before;
+        worst = geometry::pattern_search(best, worst, {side / count, kFirst, kLast, kGain}, value);
         points_[index(n)] = best;
-        return moved;
+        return worst > before + kGain;
     }
 
     Closed& closed_;

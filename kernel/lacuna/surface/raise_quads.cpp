@@ -194,41 +194,38 @@ private:
         return lines_[e];
     }
 
+    /// Move a node to where the worst quad around it is better. @return whether it moved
+    /// @param place  puts the node at a distance from its position [length]; false if it may not be there
+    template <class Place>
+    bool search(std::size_t p, const Star& star, std::span<const Vec2> directions, const Place& place)
+    {
+        const double before = worst_of(star);
+        const auto value = [&](const Vec2& to, double /*floor*/) {
+            return place(to) && keeps_apart(p) ? worst_of(star) : -kInfinity;
+        };
+        Vec2 at(0, 0);
+        const geometry::PatternSteps steps{star.shortest, kFirst, kLast, kLeastGain};
+        const bool better = geometry::pattern_search(at, before, steps, value, directions) >
+                            before + kWorthIt;
+        place(better ? at : Vec2::Zero());
+        return better;
+    }
+
     /// Move a node along its edge. @return whether it moved
     bool slide(std::size_t p, const Star& star)
     {
+        static const std::array<Vec2, 2> kBothWays{Vec2(-1, 0), Vec2(1, 0)};
         const Line& line = line_of(home_[p].number);
         std::vector<double>& at = at_[home_[p].number];
         const std::size_t i = home_[p].place;
-        const double low = at[i - 1] + kApart * (at[i] - at[i - 1]),
-                     high = at[i + 1] - kApart * (at[i + 1] - at[i]);
-        const double length = line.arc.back(), before = worst_of(star);
-        const Vec3 start = nodes_[p];
-        const double start_at = at[i];
-        double best = before;
-        for (double step = kFirst * star.shortest; step > kLast * star.shortest; step /= 2) {
-            for (bool better = true; better;) {
-                better = false;
-                for (const double way : {-step, step}) {
-                    const double to = at[i] + way / length;
-                    if (to < low || to > high) continue;
-                    const Vec3 old = nodes_[p];
-                    nodes_[p] = geometry::point_at(line.points, line.arc, to * length);
-                    const double found = worst_of(star);
-                    if (found > best + kLeastGain * step / star.shortest && keeps_apart(p)) {
-                        best = found;
-                        at[i] = to;
-                        better = true;
-                    } else {
-                        nodes_[p] = old;
-                    }
-                }
-            }
-        }
-        if (best > before + kWorthIt) return true;
-        nodes_[p] = start;
-        at[i] = start_at;
-        return false;
+        const double start = at[i], low = at[i - 1] + kApart * (start - at[i - 1]),
+                     high = at[i + 1] - kApart * (at[i + 1] - start), length = line.arc.back();
+        const Vec3 old = nodes_[p];
+        return search(p, star, kBothWays, [&](const Vec2& to) {
+            at[i] = start + to.x() / length;
+            nodes_[p] = to.x() == 0 ? old : geometry::point_at(line.points, line.arc, at[i] * length);
+            return at[i] >= low && at[i] <= high;
+        });
     }
 
     [[nodiscard]] const Ground& ground_of(std::size_t f)
@@ -246,23 +243,11 @@ private:
         const Vec3 normal = star.normals.front().stableNormalized();
         if (!(normal.squaredNorm() > 0)) return false;
         const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u), start = nodes_[p];
-        const double before = worst_of(star);
-        const auto place = [&](const Vec2& to) {
+        return search(p, star, geometry::all_around(), [&](const Vec2& to) {
             nodes_[p] = start + to.x() * u + to.y() * v;
-            if (ground) nodes_[p] = ground->closest(nodes_[p]).point;
-        };
-        const auto value = [&](const Vec2& to, double /*floor*/) {
-            place(to);
-            return keeps_apart(p) ? worst_of(star) : -kInfinity;
-        };
-        Vec2 at(0, 0);
-        const geometry::PatternSteps steps{star.shortest, kFirst, kLast, kLeastGain};
-        const bool better = geometry::pattern_search(at, before, steps, value) > before + kWorthIt;
-        if (better)
-            place(at);
-        else
-            nodes_[p] = start;
-        return better;
+            if (ground && to != Vec2::Zero()) nodes_[p] = ground->closest(nodes_[p]).point;
+            return true;
+        });
     }
 
     /// Project the moved nodes onto the exact edges and faces. If the worst quad around them is then worse
