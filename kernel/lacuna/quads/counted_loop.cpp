@@ -33,14 +33,6 @@ bool improves(const CountedLoop& loop, const CountedRun& run, int by, const Coun
     return badness(now) < badness(loop.excess);
 }
 
-double area_of(const PlanarRegion& region, const std::vector<Index>& loop)
-{
-    double twice = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        twice += cross(point_of(region.points, loop, i), point_of(region.points, loop, i + 1));
-    return twice / 2;
-}
-
 /// The runs into which a loop's headings divide its segments.
 std::vector<CountedRun> runs_of(const CountTask& task, const PatternLoop& loop, double share)
 {
@@ -95,7 +87,7 @@ double quads_asked(const CountTask& task)
 {
     const PlanarRegion& region = task.region;
     double area = 0, density = 0;
-    for (const auto& loop : region.loops) area += area_of(region, loop);
+    for (const auto& loop : region.loops) area += twice_area(region.points, loop) / 2;
     if (!region.size) {
         const double size = mean_size(task);
         return area / (size * size);
@@ -234,6 +226,22 @@ std::vector<int> counts_of(const CountTask& task, const std::vector<CountedLoop>
         for (const CountedRun& run : loop.runs) counts[run.segment] += run.count;
     }
     return counts;
+}
+
+std::vector<Vec2> divided_loop(const CountTask& task, const Cycle& loop, std::span<const int> counts)
+{
+    const std::size_t n = loop.size();
+    const auto own = [&](std::size_t i) { return task.segment_of(loop[i % n]); };
+    // Start at the start of a segment; if the loop is a single segment, start at its first node.
+    std::size_t start = 0;
+    while (start < n && own(start) == own(start + n - 1)) ++start;
+    if (start == n) start = 0;
+    std::vector<Vec2> points;
+    for (std::size_t from = start, to = start; from < start + n; from = to) {
+        while (to < start + n && own(to) == own(from)) ++to;
+        add_divided(task.region.points, loop, from, to, counts[own(from)], points);
+    }
+    return points;
 }
 
 } // namespace lacuna::quads

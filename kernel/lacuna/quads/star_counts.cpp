@@ -2,8 +2,8 @@
 #include <lacuna/quads/detail/star_counts.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/quads/detail/partial_mesh.h>
-#include <lacuna/quads/detail/patch_template.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
 
 #include <algorithm>
@@ -32,81 +32,55 @@ std::vector<std::size_t> sides_of_patch(const CountTask& task)
     return sides;
 }
 
-/// Whether no grid of the patch would be much narrower than another if the sides had the wanted numbers.
-bool is_balanced(const CountTask& task, const std::vector<std::size_t>& sides)
+/// The wanted length of each grid along the side that it begins: side i is feet i and i + 2 long, in sum.
+std::vector<double> wanted_feet(const CountTask& task, const std::vector<std::size_t>& sides)
 {
-    constexpr double kBalanced = 0.5; // least width of a grid relative to the widest. Not measured
     const std::size_t n = sides.size();
-    double least = kInfinity, most = 0;
+    std::vector<double> feet(n, 0);
     for (std::size_t i = 0; i < n; ++i) {
-        // Side i is foot[i] + foot[i + 2] long.
-        double foot = 0;
         for (std::size_t k = 0; k < n; ++k)
-            foot += (k % 2 == 0 ? 0.5 : -0.5) * task.segments[sides[(i + 2 * k) % n]].wanted;
-        least = std::min(least, foot);
-        most = std::max(most, foot);
+            feet[i] += (k % 2 == 0 ? 0.5 : -0.5) * task.segments[sides[(i + 2 * k) % n]].wanted;
     }
-    return least >= kBalanced * most;
+    return feet;
 }
 
-/// Cost of numbers of sides; `kInfinity` if a segment is outside a range.
-class StarCost {
-public:
-    StarCost(const CountTask& task, std::vector<std::size_t> sides)
-        : task_(task),
-          sides_(std::move(sides)),
-          pairs_(mirrored_segments(task.region, task.segment)),
-          asked_(quads_asked(task))
-    {
-    }
-
-    [[nodiscard]] double operator()(const std::vector<int>& counts, const CountRange& range) const
-    {
-        constexpr double kQuads = 0.25; // weight of the number of quads, as in `straight_counts()`
-        double cost = 0;
-        SideCounts side;
-        for (const std::size_t s : sides_) {
-            const BoundarySegment& own = task_.segments[s];
-            if (!own.fixed && (counts[s] < own.least || !is_within(range, own.wanted, counts[s])))
-                return kInfinity;
-            cost += cost_of_sides(own.wanted, counts[s]);
-            side.side[side.count++] = counts[s];
-        }
-        std::array<int, kMostSides> foot{};
-        if (!are_alike(counts, pairs_) || !spoke_feet(side, false, foot)) return kInfinity;
-        double quads = 0;
-        for (std::size_t i = 0; i < side.count; ++i) quads += foot[i] * foot[(i + 1) % side.count];
-        cost += kQuads * (quads - asked_) * (quads - asked_) / asked_;
-        return cost + (std::abs(quads - asked_) > asked_ / 4 ? kOffAsked : 0);
-    }
-
-private:
-    const CountTask& task_;
-    std::vector<std::size_t> sides_;
-    std::vector<SegmentPair> pairs_;
-    double asked_;
-};
-
-/// The best numbers near several multiples of the wanted ones; empty if none are allowed.
+/// The best numbers whose feet are near several multiples of the wanted ones; empty if none are allowed.
 std::optional<Counts> best_near(const CountTask& task, const std::vector<std::size_t>& sides,
-                                const StarCost& cost_of, const CountRange& range)
+                                const std::vector<double>& feet, const CountRange& range)
 {
     constexpr std::array<double, 11> kShares{1, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 1.05, 1.1, 1.15, 1.2};
+    constexpr double kQuads = 0.25; // weight of the number of quads, as in `straight_counts()`
+    const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
+    const double asked = quads_asked(task);
+    const std::size_t n = sides.size();
     std::optional<Counts> best;
     std::size_t choices = 1;
-    for (std::size_t k = 0; k < sides.size(); ++k) choices *= 3;
+    for (std::size_t k = 0; k < n; ++k) choices *= 3;
     for (const double share : kShares) {
         for (std::size_t choice = 0; choice < choices; ++choice) {
-            Counts counts{std::vector<int>(task.segments.size()), 0};
+            std::vector<int> foot;
             std::size_t left = choice;
-            for (const std::size_t s : sides) {
-                const BoundarySegment& own = task.segments[s];
-                const int near = static_cast<int>(std::lround(share * own.wanted)),
-                          by = static_cast<int>(left % 3) - 1;
+            for (const double wanted : feet) {
+                foot.push_back(std::max(1, static_cast<int>(std::lround(share * wanted)) +
+                                               static_cast<int>(left % 3) - 1));
                 left /= 3;
-                counts.sides[s] = own.fixed ? task.own[s] : std::max(own.least, near + by);
             }
-            counts.cost = cost_of(counts.sides, range);
+            Counts counts{std::vector<int>(task.segments.size()), 0};
+            double quads = 0;
+            bool is_allowed = true;
+            for (std::size_t i = 0; i < n; ++i) {
+                const BoundarySegment& own = task.segments[sides[i]];
+                const int count = foot[i] + foot[(i + 2) % n];
+                is_allowed = is_allowed &&
+                             (own.fixed ? count == task.own[sides[i]]
+                                        : count >= own.least && is_within(range, own.wanted, count));
+                counts.sides[sides[i]] = count;
+                counts.cost += cost_of_sides(own.wanted, count);
+                quads += foot[i] * foot[(i + 1) % n];
+            }
+            if (!is_allowed || !are_alike(counts.sides, pairs)) continue;
+            counts.cost += kQuads * (quads - asked) * (quads - asked) / asked;
+            if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOffAsked;
             if (counts.cost < (best ? best->cost : kInfinity)) best = std::move(counts);
         }
     }
@@ -117,12 +91,14 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
 
 std::optional<std::vector<int>> star_counts(const CountTask& task)
 {
+    constexpr double kBalanced = 0.5; // least width of a grid relative to the widest. Not measured
     const std::vector<std::size_t> sides = sides_of_patch(task);
-    if ((sides.size() != 3 && sides.size() != 5) || !is_balanced(task, sides)) return std::nullopt;
-    const StarCost cost_of(task, sides);
+    if (sides.size() != 3 && sides.size() != 5) return std::nullopt;
+    const std::vector<double> feet = wanted_feet(task, sides);
+    if (std::ranges::min(feet) < kBalanced * std::ranges::max(feet)) return std::nullopt;
     std::optional<Counts> best;
     for (const CountRange& range : {kSegment, kRingSegment}) {
-        auto found = best_near(task, sides, cost_of, range);
+        auto found = best_near(task, sides, feet, range);
         if (found && (!best || found->cost < best->cost)) best = std::move(found);
         if (best && best->cost < kOffAsked) break;
     }

@@ -2,9 +2,11 @@
 #include <lacuna/quads/detail/straight_counts.h>
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/quads/detail/count_trial.h>
+#include <lacuna/quads/detail/face_pattern.h>
 #include <lacuna/quads/detail/partial_mesh.h>
 #include <lacuna/quads/detail/pattern_ring.h>
+#include <lacuna/quads/detail/pave_choice.h>
+#include <lacuna/quads/detail/pave_size.h>
 #include <lacuna/quads/detail/segment_symmetry.h>
 
 #include <algorithm>
@@ -69,17 +71,12 @@ struct LoopGrid {
 std::optional<LoopGrid> loop_grid(const CountTask& task, std::size_t l, const CountedLoop& counted,
                                   const HeadedLoops& as, int rows)
 {
-    const std::vector<Index>& loop = task.region.loops[l];
-    const std::vector<Vec2>& points = task.region.points;
-    LoopGrid made;
+    const Cycle& loop = task.region.loops[l];
+    LoopGrid made{divided_loop(task, loop, counts_of(task, {counted})), {}};
     double length = 0;
-    for (std::size_t from = 0, to = 0; from < loop.size(); from = to) {
-        const std::size_t own = task.segment_of(loop[from]);
-        while (to < loop.size() && task.segment_of(loop[to]) == own) ++to;
-        add_divided(points, loop, from, to, sides_of(counted, own), made.points);
-        for (std::size_t i = from; i < to; ++i)
-            length += (point_of(points, loop, i + 1) - point_of(points, loop, i)).norm();
-    }
+    for_sides_of({loop}, [&](Index a, Index b) {
+        length += (task.region.points[index(b)] - task.region.points[index(a)]).norm();
+    });
     std::vector<Index> nodes(made.points.size());
     std::iota(nodes.begin(), nodes.end(), 0);
     auto headed = head_loop(made.points, nodes, as.frame, as.style);
@@ -266,6 +263,35 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
 
 bool is_cheaper(const Counts& a, const Counts& b) { return a.cost < b.cost; }
 
+/// Score of the best grid that `fill_patterns()` makes with these numbers of sides: its `paving::score_of()`,
+/// minus a penalty for a number of quads other than asked. Nodes are spaced evenly along the region's own
+/// sides, so round segments become slightly flatter. Empty if no grid can be made.
+std::optional<double> score_of_counts(const CountTask& task, std::span<const int> counts)
+{
+    // Penalty for the number of quads: kWorth at a deviation of a quarter from the number asked, and
+    // quadratic in the deviation. Mean scaled Jacobians usually differ by less than kWorth.
+    constexpr double kWorth = 0.2;
+    const double asked = quads_asked(task);
+    PlanarRegion made;
+    made.size = task.region.size;
+    made.row_height = task.region.row_height;
+    for (const Cycle& loop : task.region.loops) {
+        Cycle& nodes = made.loops.emplace_back();
+        for (const Vec2& p : divided_loop(task, loop, counts)) {
+            nodes.push_back(static_cast<Index>(made.points.size()));
+            made.points.push_back(p);
+        }
+    }
+    const std::vector<PlanarQuads> meshes = fill_patterns(made);
+    made.size = paving::sizes_with_boundary(made).ring;
+    std::optional<double> best;
+    for (const PlanarQuads& mesh : meshes) {
+        const double off = (static_cast<double>(mesh.quads.size()) / asked - 1) / kQuadsOff;
+        best = std::max(best.value_or(-1), paving::score_of(measure_plane(mesh, made)) - kWorth * off * off);
+    }
+    return best;
+}
+
 /// The solution that a grid fills with the best measured quality. They are tried from the cheapest on until
 /// one is good. Empty if no grid is valid or there is only one solution.
 std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all)
@@ -281,7 +307,7 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
     std::optional<Counts> best;
     double most = -kInfinity;
     for (std::size_t i = 0; i < std::min(kMost, all.size()) && most < kGood; ++i) {
-        const auto score = score_of_counts(task.region, task.segment, all[i].sides, quads_asked(task));
+        const auto score = score_of_counts(task, all[i].sides);
         if (!score || *score <= most) continue;
         most = *score;
         best = all[i];

@@ -101,4 +101,7 @@ int sides_of(const CountedLoop& loop, std::size_t segment);
 /// Number of sides of every segment on the given loops.
 std::vector<int> counts_of(const CountTask& task, const std::vector<CountedLoop>& loops);
 
+/// The points of a loop after dividing each of its segments into its number of sides.
+std::vector<Vec2> divided_loop(const CountTask& task, const Cycle& loop, std::span<const int> counts);
+
 } // namespace lacuna::quads

@@ -13,9 +13,9 @@ namespace lacuna::quads {
 ///
 /// Such grids have more quads than the size asks for over a triangle and fewer over a pentagon, so the sides
 /// are made longer or shorter. If there are still too many or too few quads, the sides may deviate as far as
-/// those of a ring. Candidates are numbers near several multiples of the wanted numbers that respect all
-/// reflections. The best minimises the sum of (n − wanted)² / n over the sides plus a quarter of (quads −
-/// asked)² / asked.
+/// those of a ring. Candidates are grids whose sides are near several multiples of the wanted ones and whose
+/// numbers respect all reflections. The best minimises the sum of (n − wanted)² / n over the sides plus a
+/// quarter of (quads − asked)² / asked.
 /// @return empty if the region is no such patch, a grid would be narrow, or no numbers fit.
 std::optional<std::vector<int>> star_counts(const CountTask& task);
 
