@@ -135,32 +135,13 @@ struct Axis {
     std::size_t symmetry = 0;
 };
 
-/// Number of samples of the size along a line, which is divided by their integral.
-constexpr int kSteps = 64;
-
-/// Cumulative integral of 1 / size along a line, up to each sample.
-std::vector<double> sizes_to(const Vec2& from, const Vec2& to, const SizeField& size)
+/// Number of sides along a line that the size asks for.
+double sides_along(const Vec2& from, const Vec2& to, const SizeField& size)
 {
-    std::vector<double> run{0};
-    for (int i = 0; i < kSteps; ++i)
-        run.push_back(run.back() + 1 / size(from + (i + 0.5) / kSteps * (to - from)));
-    return run;
-}
-
-/// Points along a line, both ends included, spaced in proportion to the size asked.
-std::vector<Vec2> divided(const Vec2& from, const Vec2& to, int sides, const SizeField& size)
-{
-    const std::vector<double> run = sizes_to(from, to, size);
-    std::vector<Vec2> points;
-    std::size_t step = 0;
-    for (int k = 0; k <= sides; ++k) {
-        const double at = run.back() * k / sides;
-        while (step + 2 < run.size() && run[step + 1] < at) ++step;
-        const double part = (static_cast<double>(step) + (at - run[step]) / (run[step + 1] - run[step])) /
-                            kSteps;
-        points.push_back(k == sides ? to : Vec2(from + part * (to - from)));
-    }
-    return points;
+    constexpr int kSamples = 64;
+    double sum = 0;
+    for (int i = 0; i < kSamples; ++i) sum += 1 / size(from + (i + 0.5) / kSamples * (to - from));
+    return sum * (to - from).norm() / kSamples;
 }
 
 /// Cuts a region between two rays from its centre; rays half a turn apart form one line.
@@ -306,11 +287,10 @@ private:
     void walk_axis(const Vec2& from, const Vec2& to, char ray, const SizeField& size)
     {
         const auto axis = static_cast<int>(part_.wanted.size());
-        part_.wanted.push_back(sizes_to(from, to, size).back() * (to - from).norm() / kSteps);
-        const int sides = std::max(1, static_cast<int>(std::lround(part_.wanted.back())));
+        part_.wanted.push_back(sides_along(from, to, size));
         part_.axis.back() = axis;
-        const std::vector<Vec2> points = divided(from, to, sides, size);
-        for (std::size_t k = 1; k + 1 < points.size(); ++k) part_.add(points[k], -1, axis, ray);
+        const auto sides = static_cast<std::size_t>(std::max(1L, std::lround(part_.wanted.back())));
+        for (const Vec2& p : points_between(from, to, sides, size)) part_.add(p, -1, axis, ray);
     }
 
     /// Put the outer loop first. @return false unless there is exactly one
@@ -484,10 +464,10 @@ void divide_axes(MirrorPart& part, const std::vector<int>& sides, const SizeFiel
                 const Index last = loop[(first + end) % n];
                 // Nodes inside the piece lie on the ray of the end that is not the centre.
                 const char ray = part.ray[index(here)] == 3 ? part.ray[index(last)] : part.ray[index(here)];
-                const std::vector<Vec2> points = divided(part.region.points[index(here)],
-                                                         part.region.points[index(last)],
-                                                         sides[static_cast<std::size_t>(axis)], size);
-                for (std::size_t i = 1; i + 1 < points.size(); ++i) made.add(points[i], -1, axis, ray);
+                for (const Vec2& p :
+                     points_between(part.region.points[index(here)], part.region.points[index(last)],
+                                    static_cast<std::size_t>(sides[static_cast<std::size_t>(axis)]), size))
+                    made.add(p, -1, axis, ray);
             }
             k = end;
         }

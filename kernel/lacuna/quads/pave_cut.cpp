@@ -419,23 +419,9 @@ Cut blind_cut(const PartialMesh& partial, const Cycle& cycle)
 
 Cycle nodes_along(PartialMesh& partial, Index from, Index to, std::size_t edges)
 {
-    // At even steps of the sampled integral of 1 / size along the line.
-    const Vec2 a = partial.at(from), b = partial.at(to);
-    const std::size_t samples = std::max<std::size_t>(2 * edges, 16);
-    std::vector<double> sum(samples + 1, 0);
-    for (std::size_t k = 0; k < samples; ++k) {
-        const double f = (static_cast<double>(k) + 0.5) / static_cast<double>(samples);
-        sum[k + 1] = sum[k] + 1 / partial.size((1 - f) * a + f * b);
-    }
     Cycle line{from};
-    std::size_t k = 0;
-    for (std::size_t i = 1; i < edges; ++i) {
-        const double goal = sum.back() * static_cast<double>(i) / static_cast<double>(edges);
-        while (sum[k + 1] < goal) ++k;
-        const double f = (static_cast<double>(k) + (goal - sum[k]) / (sum[k + 1] - sum[k])) /
-                         static_cast<double>(samples);
-        line.push_back(partial.add((1 - f) * a + f * b));
-    }
+    for (const Vec2& p : points_between(partial.at(from), partial.at(to), edges, partial.size))
+        line.push_back(partial.add(p));
     line.push_back(to);
     return line;
 }

@@ -22,6 +22,27 @@ void add_divided(std::span<const Vec2> points, const Cycle& loop, std::size_t fr
             point_along(points, loop, from, static_cast<double>(k) / sides * static_cast<double>(to - from)));
 }
 
+std::vector<Vec2> points_between(const Vec2& a, const Vec2& b, std::size_t sides, const SizeField& size)
+{
+    // At even steps of the sampled integral of 1 / size along the line.
+    const std::size_t samples = std::max<std::size_t>(2 * sides, 16);
+    std::vector<double> sum(samples + 1, 0);
+    for (std::size_t k = 0; k < samples; ++k) {
+        const double f = (static_cast<double>(k) + 0.5) / static_cast<double>(samples);
+        sum[k + 1] = sum[k] + 1 / size((1 - f) * a + f * b);
+    }
+    std::vector<Vec2> points;
+    std::size_t k = 0;
+    for (std::size_t i = 1; i < sides; ++i) {
+        const double goal = sum.back() * static_cast<double>(i) / static_cast<double>(sides);
+        while (sum[k + 1] < goal) ++k;
+        const double f = (static_cast<double>(k) + (goal - sum[k]) / (sum[k + 1] - sum[k])) /
+                         static_cast<double>(samples);
+        points.push_back((1 - f) * a + f * b);
+    }
+    return points;
+}
+
 double corner_angle(std::span<const Vec2> points, const Cycle& loop, std::size_t place)
 {
     const Vec2& p = point_of(points, loop, place);
