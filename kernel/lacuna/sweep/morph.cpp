@@ -164,7 +164,6 @@ Candidate smoothed(const mesh::QuadMesh& source, const RimColumns& columns, cons
         found = bulged_start(source, columns, guess, spreader().spread, smoother, std::move(found), context);
     }
     found.nodes = smoother.relax(std::move(found.nodes), good_enough, context);
-    found.nodes = smoother.polish(std::move(found.nodes), good_enough, context);
     found.worst = worst_quad(source.quads, found.nodes, context);
     return found;
 }
