@@ -43,8 +43,6 @@ CleanMesh::CleanMesh(const PlanarQuads& mesh, std::size_t fixed, const CleanOpti
       net_(mesh.points.size(), mesh.quads),
       fixed_(fixed),
       ideal_(mesh.points.size(), 4),
-      loss_(mesh.quads.size()),
-      loss_known_(mesh.quads.size(), 0),
       version_(mesh.quads.size(), 0)
 {
     for (Index p = 0; p < static_cast<Index>(points_.size()); ++p) {
@@ -79,14 +77,6 @@ int CleanMesh::right_angles(Index p) const
     return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));
 }
 
-const QuadLoss& CleanMesh::loss(Index q)
-{
-    const auto i = index(q);
-    if (loss_known_[i] == 0) loss_[i] = loss_of(points_, net_.quad(q), options_);
-    loss_known_[i] = 1;
-    return loss_[i];
-}
-
 void CleanMesh::remove_doublets()
 {
     std::vector<Index> left;
@@ -116,22 +106,11 @@ Index CleanMesh::add_point(const Vec2& position)
     return net_.add_point();
 }
 
-void CleanMesh::move(Index p, const Vec2& position)
-{
-    points_[index(p)] = position;
-    net_.for_sides(p, [&](Index side) { loss_known_[index(side / 4)] = 0; });
-}
-
 void CleanMesh::replace(std::span<const Index> removed, std::span<const Quad> added)
 {
     const std::vector<Index> numbers = net_.replace(removed, added);
     version_.resize(net_.quad_slots(), 0);
-    loss_.resize(net_.quad_slots());
-    loss_known_.resize(net_.quad_slots(), 0);
-    for (const Index q : numbers) {
-        ++version_[index(q)];
-        loss_known_[index(q)] = 0;
-    }
+    for (const Index q : numbers) ++version_[index(q)];
 }
 
 PlanarQuads CleanMesh::result() const

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_core.h>
 
-#include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/quads/detail/pave_cut.h>
 #include <lacuna/quads/detail/pave_fit.h>
 #include <lacuna/quads/detail/pave_patch.h>
@@ -11,93 +10,46 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Finds the best bridge between any two loops. Bridges are cached, because only one loop changes at a time.
-/// Pairs of loops farther apart than the best bridge costs are skipped, because no bridge costs less than its
-/// length.
-class BridgeFinder {
-public:
-    BridgeFinder(const PartialMesh& partial, const std::vector<Cycle>& loops)
-        : partial_(partial), loops_(loops)
-    {
-        for (const Cycle& loop : loops) {
-            box_.emplace_back();
-            for (const Index p : loop) box_.back().extend(partial.at(p));
-        }
-        known_.resize(loops.size() * loops.size());
-    }
-
-    [[nodiscard]] std::optional<LoopBridge> find()
-    {
-        std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
-        for (std::size_t a = 0; a < loops_.size(); ++a) {
-            for (std::size_t b = a + 1; b < loops_.size(); ++b) {
-                if (!loops_[a].empty() && !loops_[b].empty())
-                    pairs.emplace_back(box_[a].exteriorDistance(box_[b]), a, b);
-            }
-        }
-        std::ranges::sort(pairs);
-        std::optional<LoopBridge> best;
-        for (const auto& [gap, a, b] : pairs) {
-            if (best && gap > best->cost) break;
-            Known& known = known_[a * loops_.size() + b];
-            if (!known.looked) known = {best_bridge(partial_, loops_, a, b), true};
-            if (!known.bridge) continue;
-            const LoopBridge& bridge = *known.bridge;
-            if (!best || std::tie(bridge.cost, a, b) < std::tie(best->cost, best->loop_a, best->loop_b))
-                best = bridge;
-        }
-        return best;
-    }
-
-    /// Record that loop a has absorbed loop b, which is now empty, by a line between two nodes.
-    void joined(std::size_t a, std::size_t b, Index from, Index to)
-    {
-        box_[a].extend(box_[b]);
-        for (std::size_t i = 0; i < loops_.size(); ++i) {
-            for (std::size_t j = i + 1; j < loops_.size(); ++j) {
-                Known& known = known_[i * loops_.size() + j];
-                if (i == a || j == a || (known.bridge && i != b && j != b && meets(*known.bridge, from, to)))
-                    known.looked = false;
-            }
+/// The best bridge between any two loops. Pairs of loops farther apart than the best bridge costs are skipped,
+/// because no bridge costs less than its length.
+/// @param boxes  around the loops.
+std::optional<LoopBridge> nearest_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops,
+                                         const std::vector<Eigen::AlignedBox2d>& boxes)
+{
+    std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+    for (std::size_t a = 0; a < loops.size(); ++a) {
+        for (std::size_t b = a + 1; b < loops.size(); ++b) {
+            if (!loops[a].empty() && !loops[b].empty())
+                pairs.emplace_back(boxes[a].exteriorDistance(boxes[b]), a, b);
         }
     }
-
-private:
-    struct Known {
-        std::optional<LoopBridge> bridge;
-        bool looked = false;
-    };
-
-    /// Whether a bridge crosses or touches a line between two nodes.
-    [[nodiscard]] bool meets(const LoopBridge& bridge, Index from, Index to) const
-    {
-        const Vec2 &a = partial_.at(loops_[bridge.loop_a][bridge.cut.from]),
-                   &b = partial_.at(loops_[bridge.loop_b][bridge.cut.to]), &c = partial_.at(from),
-                   &d = partial_.at(to);
-        const auto apart = [](double u, double v) { return (u > 0 && v > 0) || (u < 0 && v < 0); };
-        return !apart(geometry::orient2d(a, b, c), geometry::orient2d(a, b, d)) &&
-               !apart(geometry::orient2d(c, d, a), geometry::orient2d(c, d, b));
+    std::ranges::sort(pairs);
+    std::optional<LoopBridge> best;
+    for (const auto& [gap, a, b] : pairs) {
+        if (best && gap > best->cost) break;
+        const std::optional<LoopBridge> found = best_bridge(partial, loops, a, b);
+        if (found &&
+            (!best || std::tie(found->cost, a, b) < std::tie(best->cost, best->loop_a, best->loop_b)))
+            best = found;
     }
-
-    const PartialMesh& partial_;
-    const std::vector<Cycle>& loops_;
-    std::vector<Eigen::AlignedBox2d> box_;
-    std::vector<Known> known_;
-};
+    return best;
+}
 
 /// Join all loops into one, the nearest first.
 Cycle join_all(PartialMesh& partial, std::vector<Cycle> loops)
 {
-    BridgeFinder finder(partial, loops);
+    std::vector<Eigen::AlignedBox2d> boxes(loops.size());
+    for (std::size_t l = 0; l < loops.size(); ++l)
+        for (const Index p : loops[l]) boxes[l].extend(partial.at(p));
     for (std::size_t left = loops.size(); left > 1; --left) {
-        std::optional<LoopBridge> best = finder.find();
+        std::optional<LoopBridge> best = nearest_bridge(partial, loops, boxes);
         if (!best) best = blind_bridge(partial, loops);
-        const Index from = loops[best->loop_a][best->cut.from], to = loops[best->loop_b][best->cut.to];
-        const Cycle line = nodes_along(partial, from, to, best->cut.edges);
+        const Cycle line = nodes_along(partial, loops[best->loop_a][best->cut.from],
+                                       loops[best->loop_b][best->cut.to], best->cut.edges);
         if (best->cut.edges == 1) partial.link(line.front(), line.back());
         loops[best->loop_a] = join(loops[best->loop_a], loops[best->loop_b], best->cut, line);
         loops[best->loop_b].clear();
-        finder.joined(best->loop_a, best->loop_b, from, to);
+        boxes[best->loop_a].extend(boxes[best->loop_b]);
     }
     return std::move(loops.front());
 }

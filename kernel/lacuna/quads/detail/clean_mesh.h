@@ -20,7 +20,7 @@ struct QuadLoss {
 
 QuadLoss loss_of(std::span<const Vec2> points, const Quad& quad, const CleanOptions& options);
 
-/// Quads with their neighbours, ideal valences of points and cached losses of quads.
+/// Quads with their neighbours and ideal valences of points.
 class CleanMesh {
 public:
     /// @param options  kept by reference
@@ -40,7 +40,7 @@ public:
     {
         return net_.is_used(p) && net_.valence(p) != ideal_valence(p);
     }
-    [[nodiscard]] const QuadLoss& loss(Index q);
+    [[nodiscard]] QuadLoss loss(Index q) const { return loss_of(points_, net_.quad(q), options_); }
     /// An identifier of a quad that no later quad gets.
     [[nodiscard]] std::uint64_t name(Index q) const
     {
@@ -50,7 +50,7 @@ public:
     /// Remove doublets: merge the two quads at every interior point of valence two.
     void remove_doublets();
     Index add_point(const Vec2& position);
-    void move(Index p, const Vec2& position);
+    void move(Index p, const Vec2& position) { points_[index(p)] = position; }
     /// Replace quads by others with the same outline.
     void replace(std::span<const Index> removed, std::span<const Quad> added);
 
@@ -62,8 +62,6 @@ private:
     QuadNet net_;
     std::size_t fixed_;
     std::vector<int> ideal_;
-    std::vector<QuadLoss> loss_;         ///< for each quad, if known
-    std::vector<char> loss_known_;       ///< for each quad
     std::vector<std::uint32_t> version_; ///< for each quad; counts how often its number was reused
 };
 
