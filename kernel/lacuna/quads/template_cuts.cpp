@@ -35,85 +35,6 @@ bool needs_no_cut(const SideCounts& counts)
     return (counts.count == 3 || counts.count == 5) && spoke_feet(counts, false, foot);
 }
 
-/// A range of numbers of edges, both ends included.
-struct EdgeRange {
-    int low, high;
-};
-
-/// The numbers of edges that a cut between two sides of a patch may have so that both parts can be filled
-/// without another cut.
-///
-/// The cut starts `a` edges along the first side and ends `b` edges along the second. The conditions of
-/// `spoke_feet()` on either part are linear in a, b and the number of the cut's edges, with factors 1 or -1,
-/// so each is a lower or an upper bound on that number.
-class EdgeBounds {
-public:
-    EdgeBounds(const SideCounts& counts, std::size_t side, std::size_t between)
-    {
-        const std::size_t n = counts.count;
-        const auto along = [&](std::size_t i) { return counts.side[(side + i) % n]; };
-        // The sides of the parts with a = b = 0 and no edges, and how they change with a and b.
-        SideCounts first{{}, between + 2}, second{{}, n - between + 2};
-        for (std::size_t i = 0; i < between; ++i) first.side[i] = along(i);
-        for (std::size_t i = between; i < n; ++i) second.side[i - between] = along(i);
-        add(first, 0, between);
-        add(second, n - between, 0);
-    }
-
-    /// The tightest bounds for one a: of those that decrease with b, and of those that increase.
-    struct Tightest {
-        std::array<int, 2> low, high;
-
-        [[nodiscard]] EdgeRange at(int b) const
-        {
-            return {std::max({1, low[0] - b, low[1] + b}), std::min(high[0] - b, high[1] + b)};
-        }
-    };
-    [[nodiscard]] Tightest at(int a) const
-    {
-        Tightest bounds{{-kFar, -kFar}, {kFar, kFar}};
-        for (std::size_t i = 0; i < count_; ++i) {
-            const Bound& bound = bounds_[i];
-            const int value = bound.constant + bound.a * a;
-            const std::size_t rises = bound.b > 0 ? 1 : 0;
-            if (bound.is_low)
-                bounds.low[rises] = std::max(bounds.low[rises], value);
-            else
-                bounds.high[rises] = std::min(bounds.high[rises], value);
-        }
-        return bounds;
-    }
-
-private:
-    static constexpr int kFar = std::numeric_limits<int>::max() / 2; ///< more than any sum of sides
-
-    struct Bound {
-        int constant = 0, a = 0, b = 0;
-        bool is_low = false;
-    };
-
-    /// @param part    a part whose last side is the cut.
-    /// @param with_a  the side that changes with a; `with_b` the one that changes with b. The part's first
-    ///                side gets shorter, any other longer.
-    void add(const SideCounts& part, std::size_t with_a, std::size_t with_b)
-    {
-        const auto change = [&](std::size_t of, std::size_t i) {
-            SideCounts unit{{}, part.count};
-            unit.side[of] = of == 0 ? -1 : 1;
-            return twice_foot(unit, i);
-        };
-        for (std::size_t i = 0; i < part.count; ++i) {
-            // constant + a + b ± edges >= 0
-            const int sign = change(part.count - 1, i), turned = -sign;
-            bounds_[count_++] = {turned * (twice_foot(part, i) - least_twice(true, i)),
-                                 turned * change(with_a, i), turned * change(with_b, i), sign > 0};
-        }
-    }
-
-    std::array<Bound, 2 * kMostSides> bounds_{};
-    std::size_t count_ = 0;
-};
-
 /// Ranks cuts by their lengths and directions.
 class CutRanker {
 public:
@@ -130,22 +51,22 @@ public:
 
     /// Add the cuts between two positions that have an accepted number of edges.
     template <class Fits>
-    void add(std::size_t from, std::size_t to, EdgeRange edges, const Fits& fits,
-             std::vector<TemplateCut>& found) const
+    void add(std::size_t from, std::size_t to, const Fits& fits, std::vector<TemplateCut>& found) const
     {
         const Vec2 across = loop_[to] - loop_[from];
         const double length = across.norm(), fitting = length / spacing_;
-        edges.low = std::max(edges.low, static_cast<int>(fitting * kShortestOfSize));
-        edges.high = std::min(edges.high, static_cast<int>(fitting * kLongestOfSize) + 1);
-        if ((to + loop_.size() - from + index(edges.low)) % 2 != 0) ++edges.low; // parts have even outlines
-        if (edges.low > edges.high || !(length > 0)) return;
+        if (!(length > 0)) return;
         // Deviation from a right angle at which the cut meets a side, 0 to 1.
         const auto slant_at = [&](std::size_t i) {
             return std::abs(along_[i].side.dot(across / length)) / along_[i].length;
         };
         const double slant = (slant_at(from) + slant_at(to)) / 2;
         if (slant > kMostSlant) return;
-        for (int k = edges.low; k <= edges.high; k += 2) {
+        int low = std::max(1, static_cast<int>(fitting * kShortestOfSize));
+        if ((to + loop_.size() - from + index(low)) % 2 != 0) ++low; // parts have even outlines
+        const int high = std::min(static_cast<int>(loop_.size()),
+                                  static_cast<int>(fitting * kLongestOfSize) + 1);
+        for (int k = low; k <= high; k += 2) {
             if (fits(k)) found.push_back({from, to, k, std::abs(std::log(fitting / k)) + slant});
         }
     }
@@ -165,43 +86,6 @@ bool needs_one_pair(const SideCounts& counts)
 {
     const auto& side = counts.side;
     return std::abs(side[0] - side[2]) == std::abs(side[1] - side[3]) && can_fill(counts);
-}
-
-/// The cuts of a patch of three or five sides that leave one part with the same number of sides and one
-/// irregular node, and one part of four sides with a pair of irregular nodes.
-std::vector<TemplateCut> find_odd_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners)
-{
-    constexpr int kTried = 16; // positions tried along a side, to limit the time
-    const std::size_t n = corners.size(), between = n / 2;
-    const SideCounts counts = side_counts(loop.size(), corners);
-    const CutRanker ranker(loop);
-    std::vector<TemplateCut> found;
-    const auto steps = [](int edges) { return 1 + edges / kTried; };
-    std::array<int, kMostSides> feet{};
-    for (std::size_t side = 0; side < n; ++side) {
-        const std::size_t other = (side + between) % n;
-        // The part from the cut's start to its end has between + 2 sides, the other one n - between + 2.
-        SideCounts first{{}, between + 2}, second{{}, n - between + 2};
-        for (std::size_t i = 1; i < between; ++i) first.side[i] = counts.side[(side + i) % n];
-        for (std::size_t i = 1; i < n - between; ++i) second.side[i] = counts.side[(other + i) % n];
-        const SideCounts &odd = n == 3 ? first : second, &four = n == 3 ? second : first;
-        for (int a = 1; a < counts.side[side]; a += steps(counts.side[side])) {
-            for (int b = 1; b < counts.side[other]; b += steps(counts.side[other])) {
-                first.side[0] = counts.side[side] - a;
-                first.side[between] = b;
-                second.side[0] = counts.side[other] - b;
-                second.side[n - between] = a;
-                ranker.add((corners[side] + index(a)) % loop.size(),
-                           (corners[other] + index(b)) % loop.size(), {1, static_cast<int>(loop.size())},
-                           [&](int edges) {
-                               first.side[between + 1] = second.side[n - between + 1] = edges;
-                               return needs_one_pair(four) && spoke_feet(odd, true, feet);
-                           },
-                           found);
-            }
-        }
-    }
-    return found;
 }
 
 void keep_best(std::vector<TemplateCut>& cuts, std::size_t most)
@@ -258,26 +142,35 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
     const SideCounts counts = side_counts(loop.size(), corners);
     if (needs_no_cut(counts)) found.push_back({});
     if (!found.empty()) return found;
-    if (n % 2 != 0) {
-        found = find_odd_cuts(loop, corners);
-        keep_best(found, most);
-        return found;
-    }
+    constexpr int kTried = 16; // positions tried along a side of three or five, to limit the time
     const CutRanker ranker(loop);
     // One or three corners lie between the two sides: with two, a part of four sides would only be a strip.
     const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
     // With opposite sides, each pair would occur twice.
     const std::size_t pairs = 2 * between == n ? n / 2 : n;
+    const auto steps = [&](int edges) { return n % 2 != 0 ? 1 + edges / kTried : 1; };
     for (std::size_t side = 0; side < pairs; ++side) {
         const std::size_t other = (side + between) % n;
-        const EdgeBounds bounds(counts, side, between);
-        for (int a = 1; a < counts.side[side]; ++a) {
-            const EdgeBounds::Tightest tightest = bounds.at(a);
-            for (int b = 1; b < counts.side[other]; ++b) {
-                const EdgeRange edges = tightest.at(b);
-                if (edges.low > edges.high) continue;
+        // The part from the cut's start to its end has between + 2 sides, the other one n - between + 2.
+        SideCounts first{{}, between + 2}, second{{}, n - between + 2};
+        for (std::size_t i = 1; i < between; ++i) first.side[i] = counts.side[(side + i) % n];
+        for (std::size_t i = 1; i < n - between; ++i) second.side[i] = counts.side[(other + i) % n];
+        // A part of four sides may have a pair of irregular nodes, another part one.
+        const auto fits = [&](int edges) {
+            std::array<int, kMostSides> feet{};
+            first.side[between + 1] = second.side[n - between + 1] = edges;
+            return std::ranges::all_of(std::array{&first, &second}, [&](const SideCounts* part) {
+                return part->count == 4 ? needs_one_pair(*part) : spoke_feet(*part, true, feet);
+            });
+        };
+        for (int a = 1; a < counts.side[side]; a += steps(counts.side[side])) {
+            for (int b = 1; b < counts.side[other]; b += steps(counts.side[other])) {
+                first.side[0] = counts.side[side] - a;
+                first.side[between] = b;
+                second.side[0] = counts.side[other] - b;
+                second.side[n - between] = a;
                 ranker.add((corners[side] + index(a)) % loop.size(),
-                           (corners[other] + index(b)) % loop.size(), edges, [](int) { return true; }, found);
+                           (corners[other] + index(b)) % loop.size(), fits, found);
             }
         }
     }
