@@ -10,8 +10,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// The best bridge between any two loops. Pairs of loops farther apart than the best bridge costs are skipped,
-/// because no bridge costs less than its length.
+/// The best bridge between any two loops. Pairs of loops farther apart than the best bridge costs are
+/// skipped, because no bridge costs less than its length.
 /// @param boxes  around the loops.
 std::optional<LoopBridge> nearest_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops,
                                          const std::vector<Eigen::AlignedBox2d>& boxes)
