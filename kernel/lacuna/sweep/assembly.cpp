@@ -68,17 +68,6 @@ struct MemberFailed : NotSweepable {
     std::size_t member;
 };
 
-/// The neighbours that a part was computed with, and how often each had been swept.
-using Inputs = std::vector<std::pair<std::size_t, int>>;
-
-/// State of a part, in addition to its mesh.
-struct PartState {
-    std::optional<Inputs> inputs;         ///< of a part that exists
-    int times_swept = 0;                  ///< including failed attempts
-    std::vector<std::string> shared;      ///< lines of the report
-    std::optional<SharedMiddles> middles; ///< at order 2
-};
-
 class Assembler {
 public:
     Assembler(std::span<const AssemblyMember> members, const RunContext& context)
@@ -100,7 +89,7 @@ public:
             log_line(context_, failed.message().text());
             sweep_again();
         }
-        number_nodes(result_, pairs_);
+        number_nodes(result_);
         check_no_hanging_nodes(result_, members_);
         name_groups();
         log_defaults();
@@ -221,7 +210,6 @@ private:
         SweptAssembly again;
         again.near_misses = std::move(result_.near_misses);
         result_ = std::move(again);
-        for (PartState& state : states_) state.inputs.reset();
         result_.shared = faces_in_common(members_, context_).whole;
         plan_ = plan_assembly(members_, result_.shared, context_);
         sweep_all();
@@ -260,25 +248,15 @@ private:
     std::optional<MemberFailed> sweep_in_order()
     {
         result_.parts.resize(members_.size());
-        states_.resize(members_.size());
+        result_.report = notes_;
+        middles_ = {};
         std::vector<char> done(members_.size(), 0);
         for (const std::size_t m : order_) {
             check_cancelled(context_);
             const std::vector<Neighbour> neighbours = shared_with(m, done);
-            // Middle nodes on edges must agree too.
-            const std::vector<std::size_t> touching = members_[m].options.order > 1
-                                                          ? touching_before(m, done)
-                                                          : std::vector<std::size_t>{};
-            PartState& state = states_[m];
-            Inputs inputs;
-            for (const Neighbour& n : neighbours) inputs.emplace_back(n.other, states_[n.other].times_swept);
-            for (const std::size_t other : touching) inputs.emplace_back(other, states_[other].times_swept);
             done[m] = 1;
-            if (state.inputs == inputs) continue;
-            ++state.times_swept;
-            state.inputs.reset();
             try {
-                sweep_one(m, neighbours, touching);
+                sweep_one(m, neighbours);
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
@@ -286,11 +264,7 @@ private:
                 if (!neighbours.empty()) return failed;
                 throw failed;
             }
-            state.inputs = std::move(inputs);
         }
-        result_.report = notes_;
-        for (const std::size_t m : order_)
-            result_.report.insert(result_.report.end(), states_[m].shared.begin(), states_[m].shared.end());
         return std::nullopt;
     }
 
@@ -321,20 +295,18 @@ private:
     /// Copy the neighbours' meshes on shared faces to the member, then sweep it. A face whose mesh follows
     /// from its rim alone is left to the member, and the result is compared with the neighbour's; if they
     /// differ, all meshes are copied.
-    void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours,
-                   const std::vector<std::size_t>& touching)
+    void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
         const AssemblyMember& member = members_[m];
         if (member.fixed != nullptr)
             result_.parts[m] = *member.fixed;
         else
-            sweep_beside(m, neighbours, touching);
+            sweep_beside(m, neighbours);
         check_kept(m, neighbours);
-        if (member.options.order > 1) keep_middles(m, touching);
+        if (member.options.order > 1) keep_middles(m);
     }
 
-    void sweep_beside(std::size_t m, const std::vector<Neighbour>& neighbours,
-                      const std::vector<std::size_t>& touching)
+    void sweep_beside(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
         const AssemblyMember& member = members_[m];
         SweepOptions options = member.options;
@@ -342,7 +314,7 @@ private:
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         std::vector<Neighbour> alike, handed;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
-        if (options.order > 1) give_middles(touching, options.second_order);
+        if (options.order > 1) give_middles(options.second_order);
         options.beside.between = shared_faces_of(m);
         options.beside.own_mesh = came_with_mesh(member);
         options.beside.settle = [&](const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) {
@@ -374,62 +346,37 @@ private:
         }
     }
 
-    /// Members that are meshed already and whose boxes overlap this member's.
-    [[nodiscard]] std::vector<std::size_t> touching_before(std::size_t m, const std::vector<char>& done)
-    {
-        if (boxes_.empty()) {
-            for (const AssemblyMember& member : members_) {
-                Eigen::AlignedBox3d& box = boxes_.emplace_back();
-                for (const Vec3& p : member.volume->model.points) box.extend(p);
-                box.min().array() -= member.volume->model.tolerance;
-                box.max().array() += member.volume->model.tolerance;
-            }
-        }
-        std::vector<std::size_t> found;
-        for (std::size_t other = 0; other < members_.size(); ++other) {
-            if (done[other] != 0 && boxes_[m].intersects(boxes_[other])) found.push_back(other);
-        }
-        return found;
-    }
-
     /// Add the middle nodes of meshed members before those from the user's files.
-    void give_middles(const std::vector<std::size_t>& from_members, SecondOrderOptions& options) const
+    void give_middles(SecondOrderOptions& options) const
     {
         const Vec3 none = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-        const auto with_known = [this, from_members](std::vector<Vec3> middles, const auto& find) {
-            for (std::size_t i = 0; i < middles.size(); ++i) {
-                std::optional<Vec3> known;
-                for (const std::size_t m : from_members)
-                    if (!known && states_[m].middles) known = find(*states_[m].middles, i);
-                if (known) middles[i] = *known;
-            }
+        const auto with_known = [](std::vector<Vec3> middles, const auto& find) {
+            for (std::size_t i = 0; i < middles.size(); ++i)
+                if (const std::optional<Vec3> known = find(i)) middles[i] = *known;
             return middles;
         };
         options.given_all_over = true;
-        options.given = [=, decks = options.given](std::span<const Vec3> from, std::span<const Vec3> to) {
+        options.given = [=, this, decks = options.given](std::span<const Vec3> from,
+                                                         std::span<const Vec3> to) {
             return with_known(decks ? decks(from, to) : std::vector<Vec3>(from.size(), none),
-                              [&](const SharedMiddles& m, std::size_t i) { return m.side(from[i], to[i]); });
+                              [&](std::size_t i) { return middles_.side(from[i], to[i]); });
         };
-        options.given_centres = [=,
+        options.given_centres = [=, this,
                                  decks = options.given_centres](std::span<const std::array<Vec3, 4>> quads) {
             return with_known(decks ? decks(quads) : std::vector<Vec3>(quads.size(), none),
-                              [&](const SharedMiddles& m, std::size_t i) { return m.centre(quads[i]); });
+                              [&](std::size_t i) { return middles_.centre(quads[i]); });
         };
     }
 
     /// Keep a part's middle nodes for later members, and check that it kept those of earlier ones.
-    void keep_middles(std::size_t m, const std::vector<std::size_t>& from_members)
+    void keep_middles(std::size_t m)
     {
         const Swept& part = result_.parts[m];
         const std::set<FaceId> shared = shared_faces_of(m);
-        const SharedMiddles& own = states_[m].middles.emplace(
-            part.mesh, [&](Index patch) { return shared.contains(part.faces[index(patch)]); });
-        for (const std::size_t other : from_members) {
-            if (own.agrees(*states_[other].middles)) continue;
+        if (!middles_.add(part.mesh, [&](Index patch) { return shared.contains(part.faces[index(patch)]); }))
             throw NotSweepable("assembly.not_shared",
-                               "{} and {} have middle nodes at different positions on their common faces",
-                               members_[m].region, members_[other].region);
-        }
+                               "{} has middle nodes at other positions than its neighbours on common faces",
+                               members_[m].region);
     }
 
     /// Whether a member will mesh a face as its neighbour did: a flat face with four edges whose nodes are
@@ -543,18 +490,15 @@ private:
     void check_kept(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
         const Swept& part = result_.parts[m];
-        std::vector<std::string>& lines = states_[m].shared;
-        lines.clear();
-        std::erase_if(pairs_, [&](const SharedNodes& face) { return face.own == m; });
         for (const auto& [own, other, there] : neighbours) {
             const std::vector<Quad> a = quads_of(m, own), b = quads_of(other, there);
             const NamedEntity face_a = entity_in(members_[m], own),
                               face_b = entity_in(members_[other], there);
             const std::string &region_a = members_[m].region, &region_b = members_[other].region;
-            if (auto pairs = same_quads(part.skin(), a, result_.parts[other].skin(), b, 0)) {
-                pairs_.push_back({m, other, std::move(*pairs)});
-                lines.push_back(formatted("shared: {} of {} and {} of {}, {} {}", face_b, region_b, face_a,
-                                          region_a, a.size(), a.size() == 1 ? "quad" : "quads"));
+            if (same_quads(part.skin(), a, result_.parts[other].skin(), b, 0)) {
+                result_.report.push_back(formatted("shared: {} of {} and {} of {}, {} {}", face_b, region_b,
+                                                   face_a, region_a, a.size(),
+                                                   a.size() == 1 ? "quad" : "quads"));
                 continue;
             }
             throw NotSweepable(
@@ -572,9 +516,7 @@ private:
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
-    std::vector<PartState> states_;          ///< for each part
-    std::vector<SharedNodes> pairs_;         ///< for each part, its pairs with earlier parts
-    std::vector<Eigen::AlignedBox3d> boxes_; ///< for each member, at order 2
+    SharedMiddles middles_; ///< of the parts so far, at order 2
     SweptAssembly result_;
 };
 

@@ -64,31 +64,26 @@ void add_middles(const mesh::HexMesh& mesh, std::size_t part, std::vector<PartNo
 
 } // namespace
 
-void number_nodes(SweptAssembly& assembly, std::span<const SharedNodes> shared)
+void number_nodes(SweptAssembly& assembly)
 {
+    std::vector<std::vector<Index>> shared(assembly.parts.size());
+    for (const SharedFace& face : assembly.shared) {
+        for (const auto& [p, id] : {std::pair(face.a, face.face_a), std::pair(face.b, face.face_b)})
+            for (const Quad& quad : quads_on(assembly.parts[p].mesh, assembly.parts[p].faces, id))
+                shared[p].insert(shared[p].end(), quad.begin(), quad.end());
+    }
     std::vector<PartNode> by_place;
-    std::vector<std::vector<Index>> on_border(assembly.parts.size()); // increasing
     for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
         const mesh::HexMesh& mesh = assembly.parts[p].mesh;
         for (const Segment& side : patch_borders(mesh))
-            on_border[p].insert(on_border[p].end(), side.begin(), side.end());
-        std::ranges::sort(on_border[p]);
-        const auto again = std::ranges::unique(on_border[p]);
-        on_border[p].erase(again.begin(), again.end());
-        for (const Index n : on_border[p]) by_place.push_back({p, n});
+            shared[p].insert(shared[p].end(), side.begin(), side.end());
+        std::ranges::sort(shared[p]);
+        const auto again = std::ranges::unique(shared[p]);
+        shared[p].erase(again.begin(), again.end());
+        for (const Index n : shared[p]) by_place.push_back({p, n});
         if (mesh.order() > 1) add_middles(mesh, p, by_place);
     }
     std::vector<std::pair<PartNode, PartNode>> same = in_same_places(assembly, by_place);
-    for (const SharedNodes& face : shared) {
-        for (const NodePair& pair : face.pairs) {
-            PartNode a{face.own, pair.own}, b{face.other, pair.other};
-            if (std::ranges::binary_search(on_border[a.part], a.node) &&
-                std::ranges::binary_search(on_border[b.part], b.node))
-                continue;
-            if (a < b) std::swap(a, b);
-            same.emplace_back(a, b);
-        }
-    }
     std::ranges::sort(same);
     Index next = 0;
     auto twin = same.begin();

@@ -13,10 +13,10 @@
 #include <lacuna/geometry/shared/tips.h>
 #include <lacuna/mesh/shared/incidence.h>
 #include <lacuna/sweep/detail/facet_walk.h>
+#include <lacuna/sweep/detail/middle_skin.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -80,18 +80,6 @@ private:
     }
 };
 
-/// For each node of the patch, zero if it is inside: there each neighbour is the predecessor of one side and
-/// the successor of another. Other values show border nodes.
-std::vector<std::int64_t> border_turns(std::span<const Quad> quads, std::size_t node_count)
-{
-    std::vector<std::int64_t> turn(node_count, 0);
-    for (const Quad& quad : quads) {
-        for (std::size_t k = 0; k < 4; ++k)
-            turn[index(quad[k])] += quad[(k + 1) % 4] - std::int64_t{quad[(k + 3) % 4]};
-    }
-    return turn;
-}
-
 /// A quad as triangles.
 struct QuadFacets {
     std::array<std::array<Vec3, 3>, 4> corners;
@@ -118,6 +106,7 @@ public:
         : mesh_(mesh),
           skin_(skin),
           quads_(quads.quads),
+          item_(quads.item),
           side_(quads.side),
           shape_(std::move(shape)),
           face_tree_(shape_.points, shape_.triangles, context),
@@ -131,13 +120,15 @@ public:
 
     FaceFidelity run()
     {
-        if (find_plane()) {
-            compare_flat();
-        } else {
-            for (const Index p : geometry::find_tips(shape_.points, shape_.triangles))
-                tips_.push_back(shape_.points[index(p)]);
-            compare_curved();
-        }
+        for (const Index p : geometry::find_tips(shape_.points, shape_.triangles))
+            tips_.push_back(shape_.points[index(p)]);
+        const FacetWalk walk(shape_.points, shape_.triangles);
+        std::vector<Index> facet_of_centre(quads_.size(), -1);
+        take(compare_nodes(walk));
+        take(in_blocks(quads_.size(), [&](std::size_t q, Tally& tally) {
+            facet_of_centre[q] = compare_quad(walk, q, tally);
+        }));
+        compare_facets(walk, facet_of_centre);
         if (result_.misfit == Misfit::cut) tell_straight_from_cut();
         return result_;
     }
@@ -150,110 +141,7 @@ private:
         return {node(q[0]), node(q[1]), node(q[2]), node(q[3])};
     }
 
-    // --- a flat face ----------------------------------------------------------------------------------
-
-    /// Whether the exact face is planar.
-    bool find_plane()
-    {
-        if (shape_.triangles.empty()) return false;
-        Vec3 area = Vec3::Zero();
-        Eigen::AlignedBox3d box;
-        for (const Triangle& t : shape_.triangles) {
-            const Vec3& a = shape_.points[index(t[0])];
-            area += (shape_.points[index(t[1])] - a).cross(shape_.points[index(t[2])] - a);
-        }
-        for (const Vec3& p : shape_.points) box.extend(p);
-        origin_ = (box.min() + box.max()) / 2;
-        normal_ = area.stableNormalized();
-        const double slack = kRoundoff * ((box.max() - box.min()).norm() + origin_.cwiseAbs().maxCoeff());
-        const auto off = [&](const Vec3& p) { return std::abs(normal_.dot(p - origin_)) > slack; };
-        origin_ = shape_.points[index(shape_.triangles.front()[0])];
-        const auto bends = [&](const Vec3& bulge) { return std::abs(normal_.dot(bulge)) > slack; };
-        return std::ranges::none_of(shape_.points, off) &&
-               std::ranges::none_of(shape_.bulge,
-                                    [&](const auto& bulges) { return std::ranges::any_of(bulges, bends); });
-    }
-
-    /// In a planar face, quads that lie in the plane with the right orientation cannot deviate inside, so
-    /// only borders are compared.
-    void compare_flat()
-    {
-        take(in_blocks(quads_.size(), [&](std::size_t q, Tally& tally) {
-            const Sample sample = quad_in_plane(q);
-            tally.add(sample, allowed(sample));
-        }));
-        const std::vector<std::int64_t> turns = border_turns(quads_, skin_.points.size());
-        const auto on_border = [&](Index n) { return turns[index(n)] != 0; };
-        const FacetWalk walk(shape_.points, shape_.triangles);
-        std::vector<std::size_t> border; // quads with a node on the border
-        Tally tally;
-        Index facet = -1;
-        const auto add = [&](const Vec3& point, double side, std::size_t quad) {
-            facet = add_compared(walk, facet, Vec3::Zero(), {point, 0, side, quad}, tally);
-        };
-        for (std::size_t q = 0; q < quads_.size(); ++q) {
-            const Quad& quad = quads_[q];
-            if (std::ranges::none_of(quad, on_border)) continue;
-            border.push_back(q);
-            for (std::size_t k = 0; k < 4; ++k) {
-                const Index next = quad[(k + 1) % 4];
-                if (!mesh::is_side(quad, k) || !on_border(quad[k])) continue;
-                add(node(quad[k]), side_[q], q);
-                if (!on_border(next)) continue;
-                add((node(quad[k]) + node(next)) / 2, (node(next) - node(quad[k])).norm(), q);
-            }
-        }
-        take(tally);
-        compare_border(walk, border);
-    }
-
-    [[nodiscard]] Sample quad_in_plane(std::size_t q) const
-    {
-        const std::array<Vec3, 4> c = corners(q);
-        const Vec3 across = (c[2] - c[0]).cross(c[3] - c[1]) / 2;
-        Sample sample{c[0], across.norm(), side_[q], q};
-        sample.turned = limit_.folds && sign_ * across.dot(normal_) < 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const double off = std::abs(normal_.dot(c[k] - origin_));
-            if (off <= sample.distance) continue;
-            sample.distance = off;
-            sample.point = c[k];
-        }
-        return sample;
-    }
-
-    /// Compare border points of the face, and side midpoints on the exact face, with those quads.
-    void compare_border(const FacetWalk& walk, const std::vector<std::size_t>& border)
-    {
-        const QuadTree tree = tree_of(border);
-        take(in_blocks(shape_.triangles.size(), [&](std::size_t i, Tally& tally) {
-            const Triangle& t = shape_.triangles[i];
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (walk.across(static_cast<Index>(i))[k] >= 0) continue;
-                const std::size_t next = (k + 1) % 3;
-                Vec3 w = Vec3::Zero();
-                w[static_cast<Eigen::Index>(k)] = w[static_cast<Eigen::Index>(next)] = 0.5;
-                const Vec3 &from = shape_.points[index(t[k])], &to = shape_.points[index(t[next])];
-                for (const Vec3& point : {from, Vec3((from + to) / 2 + shape_.bulge_at(i, w))}) {
-                    add_compared(tree, point, 0, tally);
-                }
-            }
-        }));
-    }
-
-    // --- a curved face --------------------------------------------------------------------------------
-
-    /// Compare nodes, centres and side midpoints of the quads with the face, then the face with the quads.
-    void compare_curved()
-    {
-        const FacetWalk walk(shape_.points, shape_.triangles);
-        std::vector<Index> facet_of_centre(quads_.size(), -1);
-        take(compare_nodes(walk));
-        take(in_blocks(quads_.size(), [&](std::size_t q, Tally& tally) {
-            facet_of_centre[q] = compare_quad(walk, q, tally);
-        }));
-        compare_facets(walk, facet_of_centre);
-    }
+    // --- quads against the face -----------------------------------------------------------------------
 
     /// Each node once, with the first quad that has it.
     Tally compare_nodes(const FacetWalk& walk)
@@ -340,7 +228,7 @@ private:
         return (point - hit.point - bulge).norm();
     }
 
-    // --- the other way round --------------------------------------------------------------------------
+    // --- the face against the quads -------------------------------------------------------------------
 
     /// A point of the face that nearby quads did not settle.
     struct Left {
@@ -395,9 +283,7 @@ private:
         std::vector<Left> rest;
         for (const std::vector<Left>& some : left) rest.insert(rest.end(), some.begin(), some.end());
         if (rest.empty()) return;
-        std::vector<std::size_t> all(quads_.size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
-        const QuadTree tree = tree_of(all);
+        const QuadTree tree = tree_of_quads();
         take(in_blocks(rest.size(), [&](std::size_t i, Tally& tally) {
             add_compared(tree, rest[i].point, rest[i].area, tally);
         }));
@@ -532,12 +418,12 @@ private:
         std::vector<std::size_t> quad; ///< for each triangle
     };
 
-    [[nodiscard]] QuadTree tree_of(const std::vector<std::size_t>& quads) const
+    [[nodiscard]] QuadTree tree_of_quads() const
     {
         std::vector<Vec3> points;
         std::vector<Triangle> triangles;
         QuadTree result;
-        for (const std::size_t q : quads) {
+        for (std::size_t q = 0; q < quads_.size(); ++q) {
             const QuadFacets facets = facets_of(corners(q));
             for (std::size_t i = 0; i < facets.count; ++i) {
                 const auto first = static_cast<Index>(points.size());
@@ -625,10 +511,12 @@ private:
             const double sag = distance_to_face((a + b) / 2, facet);
             if (sag <= most) continue;
             most = sag;
-            const Index from = skin_.node[index(quad[k])], to = skin_.node[index(quad[(k + 1) % 4])];
             result_.side = (b - a).norm();
-            // The nodes of the source come first in the skin, as in the mesh.
-            result_.source_side = (skin_.points[index(to % row)] - skin_.points[index(from % row)]).norm();
+            // The side of the mesh's quad; at order 2 the one that this side is half of, or parallel to.
+            const std::size_t own = mesh_.order() == 1 ? k : (worst_ + 3 * (k % 2)) % 4;
+            const Quad whole = mesh::skin_quad(mesh_, item_[worst_]).nodes;
+            const Index from = whole[own], to = whole[(own + 1) % 4];
+            result_.source_side = (node(to % row) - node(from % row)).norm();
             result_.along_layers = from / row != to / row;
         }
         if (2 * most >= result_.found) result_.misfit = Misfit::straight;
@@ -637,6 +525,7 @@ private:
     const mesh::HexMesh& mesh_;
     const Skin& skin_;
     const std::vector<Quad>& quads_;
+    const std::vector<std::size_t>& item_;
     const std::vector<double>& side_;
     surface::FaceShape shape_;
     geometry::FacetTree face_tree_;
@@ -645,62 +534,83 @@ private:
     const RunContext& context_;
 
     std::vector<Vec3> tips_;
-    Vec3 origin_ = Vec3::Zero(), normal_ = Vec3::Zero(); ///< origin and normal of the plane of a flat face
-    std::vector<Index> facet_of_node_;                   ///< nearest to each node of the patch
+    std::vector<Index> facet_of_node_; ///< nearest to each node of the patch
     FaceFidelity result_;
     std::size_t worst_ = 0;
 };
 
 } // namespace
 
-Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count,
-             const mesh::LayeredNodes* layers, const RunContext& context)
+Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std::size_t face_count,
+             const RunContext& context)
 {
+    const mesh::HexMesh& mesh = nodes.mesh;
     Skin skin;
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // All nodes of the first and last layer, and the rim nodes between, in the mesh's order.
+    // Nodes of the first and last layer and the rim nodes between, in the mesh's order; then middle nodes.
+    std::vector<Index> known;
     const Index row = mesh.nodes_per_layer;
     std::set<Index> rim;
     for (const Segment& side : mesh.rim) rim.insert(side.begin(), side.end());
-    for (Index n = 0; n < row; ++n) skin.node.push_back(n);
+    for (Index n = 0; n < row; ++n) known.push_back(n);
     for (Index layer = 1; layer < mesh.layers; ++layer) {
-        for (const Index n : rim) skin.node.push_back(layer * row + n);
+        for (const Index n : rim) known.push_back(layer * row + n);
     }
-    for (Index n = 0; n < row; ++n) skin.node.push_back(mesh.layers * row + n);
-    const auto number = [&](Index n) {
-        return static_cast<Index>(std::ranges::lower_bound(skin.node, n) - skin.node.begin());
-    };
-    skin.points.resize(skin.node.size());
-    parallel_for(context, skin.node.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            skin.points[i] = layers != nullptr ? layers->on_skin(skin.node[i])
-                                               : mesh.nodes[index(skin.node[i])];
+    for (Index n = 0; n < row; ++n) known.push_back(mesh.layers * row + n);
+    const auto corners = static_cast<std::ptrdiff_t>(known.size());
+    const bool curved = mesh.order() > 1;
+    for (std::size_t i = 0; curved && i < mesh.skin_count(); ++i) {
+        const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
+        known.insert(known.end(), quad.begin() + 4, quad.end());
+    }
+    std::sort(known.begin() + corners, known.end());
+    known.erase(std::unique(known.begin() + corners, known.end()), known.end());
+    // Centres that are not nodes follow.
+    const std::size_t centres = curved && !mesh.middles.full ? mesh.skin_count() : 0;
+    skin.points.resize(known.size() + centres);
+    parallel_for(context, known.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) skin.points[i] = nodes[known[i]];
     });
-
     struct Numbered {
-        mesh::SkinQuad quad;
+        Quad nodes{};
         double side = 0; ///< the longest
     };
-    std::vector<Numbered> quads(mesh.skin_count());
-    parallel_for(context, quads.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    const std::size_t parts = curved ? 4 : 1;
+    std::vector<Numbered> quads(parts * mesh.skin_count());
+    parallel_for(context, mesh.skin_count(), kBlock, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            mesh::SkinQuad& quad = quads[i].quad;
-            quad = mesh::skin_quad(mesh, i);
-            for (Index& n : quad.nodes) n = number(n);
-            double longest2 = 0;
-            for (std::size_t k = 0; k < 4; ++k) {
-                const Vec3 side = skin.points[index(quad.nodes[(k + 1) % 4])] -
-                                  skin.points[index(quad.nodes[k])];
-                longest2 = std::max(longest2, side.squaredNorm());
+            const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
+            std::array<Index, 9> at{};
+            for (std::size_t k = 0; k < std::max<std::size_t>(quad.count, 4);
+                 ++k) // a triangle repeats a corner
+                at[k] = static_cast<Index>(std::ranges::lower_bound(known, quad.node[k]) - known.begin());
+            if (centres > 0) {
+                std::array<Vec3, 4> sides, corner;
+                for (std::size_t k = 0; k < 4; ++k) {
+                    corner[k] = skin.points[index(at[k])];
+                    sides[k] = skin.points[index(at[4 + k])];
+                }
+                at[8] = static_cast<Index>(known.size() + i);
+                skin.points[index(at[8])] = middle_of_quad(sides, corner);
             }
-            quads[i].side = std::sqrt(longest2);
+            for (std::size_t j = 0; j < parts; ++j) {
+                auto& [part, longest] = quads[parts * i + j];
+                part = curved ? Quad{at[j], at[4 + j], at[8], at[4 + (j + 3) % 4]}
+                              : Quad{at[0], at[1], at[2], at[3]};
+                for (std::size_t k = 0; k < 4; ++k)
+                    longest = std::max(
+                        longest,
+                        (skin.points[index(part[(k + 1) % 4])] - skin.points[index(part[k])]).squaredNorm());
+                longest = std::sqrt(longest);
+            }
         }
     });
-    for (const auto& [quad, side] : quads) {
-        SkinOfFace& face = skin.faces[faces[index(quad.patch)].index()];
-        face.quads.push_back(quad.nodes);
-        face.side.push_back(side);
+    for (std::size_t i = 0; i < quads.size(); ++i) {
+        SkinOfFace& face = skin.faces[faces[index(mesh::skin_quad(mesh, i / parts).patch)].index()];
+        face.quads.push_back(quads[i].nodes);
+        face.side.push_back(quads[i].side);
+        face.item.push_back(i / parts);
     }
     for (SkinOfFace& face : skin.faces) {
         for (const double side : face.side) face.mean_side += side / static_cast<double>(face.side.size());

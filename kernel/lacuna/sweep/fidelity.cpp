@@ -120,7 +120,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     const Model& model = volume.model;
     Fidelity result;
     result.volume = volume_of_mesh;
-    const Skin skin = skin_of(mesh, faces, model.faces.size(), layers, context);
+    const Skin skin = skin_of({mesh, layers}, faces, model.faces.size(), context);
     const Vec3 origin = mesh.nodes.front();
     std::vector<surface::FaceShape> shapes;
     for (const SkinOfFace& patch : skin.faces) {
@@ -152,6 +152,10 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
         FaceFidelity& face = compared[patch.face.index()];
         if (patch.quads.empty())
             face = left_out(model, skin, patch.face, limit_of(model, patch.face, options));
+        if (mesh.order() > 1) { // of four quads each
+            face.quads /= 4;
+            face.side *= 2;
+        }
         face.entity = entity_of(model, patch.face);
         face.tag = model[patch.face].tag;
         face.made_void = model[patch.face].origin == Origin::made_void;

@@ -493,48 +493,27 @@ private:
         return places_at(line, {over(low), over(high)});
     }
 
-    /// Move the nodes between corners of the rim to new positions along it.
+    /// Move the nodes between corners of the rim to new positions along it. Those of an end's rim lie on
+    /// exact edges.
     void move_along(std::size_t b, std::size_t first, std::size_t layer, const std::vector<Vec3>& line,
                     const std::vector<std::pair<std::size_t, double>>& moved)
     {
-        const std::size_t sides = line.size() - 1;
-        if (layer == 0 || layer == layers_) return move_on_rim(b, first, layer, moved, sides);
+        const surface::LinkingSurface& link = parts_.links[b];
+        const surface::Chain* rim = layer == 0 ? &link.source : layer == layers_ ? &link.target : nullptr;
         std::map<FaceId, std::vector<std::size_t>> on_face;
         for (const auto& [i, x] : moved) {
-            const auto side = std::min(static_cast<std::size_t>(x), sides - 1);
             const std::size_t node = parts_.rim_node(b, first + i);
             at(layer, node) = point_at(line, x);
+            if (rim != nullptr) {
+                at(layer, node) = nearest_on(model_, *rim, at(layer, node));
+                continue;
+            }
+            const auto side = std::min(static_cast<std::size_t>(x), line.size() - 2);
             const FaceId wall = parts_.wall_at(b, layer, first + side);
             if (model_[wall].origin == Origin::given && model_[wall].kind != "plane")
                 on_face[wall].push_back(node);
         }
         for (const auto& [face, nodes] : on_face) project(face, nodes, layer);
-    }
-
-    /// The same on an end's rim, where nodes lie on exact edges.
-    void move_on_rim(std::size_t b, std::size_t first, std::size_t layer,
-                     const std::vector<std::pair<std::size_t, double>>& moved, std::size_t sides)
-    {
-        const bool target = layer != 0;
-        const std::size_t n = parts_.size_of(b);
-        const surface::Chain& chain = target ? parts_.links[b].target : parts_.links[b].source;
-        const auto [found, fresh] = places_.try_emplace({b, target});
-        std::vector<double>& own = found->second; // running length of each node
-        if (fresh) own = target ? parts_.source.links[b].target_at : parts_.source.links[b].source_at;
-        std::vector<double> lengths;
-        for (const auto& [i, x] : moved) {
-            const auto side = std::min(static_cast<std::size_t>(x), sides - 1);
-            const double from = own[(first + side) % n];
-            double to = own[(first + side + 1) % n];
-            if (to <= from) to += chain.length();
-            const double length = from + (x - static_cast<double>(side)) * (to - from);
-            lengths.push_back(length >= chain.length() ? length - chain.length() : length);
-        }
-        const std::vector<Vec3> points = chain.points(lengths);
-        for (std::size_t m = 0; m < moved.size(); ++m) {
-            own[(first + moved[m].first) % n] = lengths[m];
-            at(layer, parts_.rim_node(b, first + moved[m].first)) = points[m];
-        }
     }
 
     void project(FaceId face, const std::vector<std::size_t>& nodes, std::size_t layer)
@@ -637,7 +616,6 @@ private:
     std::set<std::size_t> still_layers_;
     mesh::Incidence quads_at_;
     std::array<std::optional<HarmonicSpread>, 2> spread_; ///< over layers without inner edges, and with them
-    std::map<std::pair<std::size_t, bool>, std::vector<double>> places_;
     std::map<FaceId, surface::Projector> projectors_;
 };
 

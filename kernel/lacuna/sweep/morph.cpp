@@ -50,6 +50,20 @@ void put_rim(const RimColumns& columns, std::vector<Vec3>& nodes)
     for (std::size_t k = 0; k < high.size(); ++k) nodes[index(columns.rim[k])] = high[k];
 }
 
+/// The source mapped by `base`, with what the rim is then off its place spread harmonically over the inside.
+std::vector<Vec3> image_by(const std::function<Vec3(const Vec3&)>& base, const mesh::QuadMesh& source,
+                           const RimColumns& columns, const AskSpreader& spreader, const RunContext& context)
+{
+    std::vector<Vec3> nodes;
+    for (const Vec3& node : source.nodes) nodes.push_back(base(node));
+    const std::span<const Vec3> low = columns.row(0), high = columns.row(columns.layers);
+    std::vector<Vec3> off(high.begin(), high.end());
+    for (std::size_t k = 0; k < low.size(); ++k) off[k] -= base(low[k]);
+    spreader().spread.add(off, 1, nodes.data(), nodes.size(), context);
+    put_rim(columns, nodes);
+    return nodes;
+}
+
 /// Node positions from the rims alone, without the surface.
 Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, const AskSpreader& spreader,
                       const RunContext& context)
@@ -64,43 +78,10 @@ Guess guess_from_rims(const mesh::QuadMesh& source, const RimColumns& columns, c
     const double negligible = kNegligible * shrink * shortest_side(source.quads, source.nodes);
     const geometry::AffineFit fit =
         RimFitter(low, sides, source.nodes).fit(high, rim_area(high, sides), negligible);
+    if (fit.max_residual > negligible) return {image_by(fit, source, columns, spreader, context), false};
     for (Vec3& node : guess.nodes) node = fit(node);
-    if (fit.max_residual > negligible) {
-        guess.affine = false;
-        std::vector<Vec3> residual(high.begin(), high.end());
-        for (std::size_t k = 0; k < low.size(); ++k) residual[k] -= fit(low[k]);
-        spreader().spread.add(residual, 1, guess.nodes.data(), guess.nodes.size(), context);
-    }
     put_rim(columns, guess.nodes);
     return guess;
-}
-
-/// The source, displaced like its rim: suits a skin far from its rims, such as a bent tube swept through its
-/// thickness, for which an affine fit of the rims alone is meaningless.
-std::vector<Vec3> displaced(const mesh::QuadMesh& source, const RimColumns& columns,
-                            const AskSpreader& spreader, const RunContext& context)
-{
-    std::vector<Vec3> nodes = source.nodes;
-    const std::span<const Vec3> low = columns.row(0);
-    const std::span<const Vec3> high = columns.row(columns.layers);
-    std::vector<Vec3> moves(high.begin(), high.end());
-    for (std::size_t k = 0; k < low.size(); ++k) moves[k] -= low[k];
-    spreader().spread.add(moves, 1, nodes.data(), nodes.size(), context);
-    put_rim(columns, nodes);
-    return nodes;
-}
-
-/// Every inner node is the weighted mean of its neighbours, with the rim in its final position. Raised parts
-/// of the source (pockets, bosses, steps) are then mapped side by side, where an affine map would overlap
-/// them.
-std::vector<Vec3> harmonic_image(const mesh::QuadMesh& source, const RimColumns& columns,
-                                 const AskSpreader& spreader, const RunContext& context)
-{
-    std::vector<Vec3> nodes(source.nodes.size(), Vec3::Zero());
-    const std::span<const Vec3> high = columns.row(columns.layers);
-    spreader().spread.add(high, 1, nodes.data(), nodes.size(), context);
-    put_rim(columns, nodes);
-    return nodes;
 }
 
 std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const RimColumns& columns)
@@ -127,42 +108,31 @@ double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
     return largest;
 }
 
-/// For a deep bowl above a flat rim, the closest points to the flat guess crowd at the rim. Guesses bulged to
-/// either side, like a membrane under pressure, map more evenly; the image with the best worst quad is used.
-Candidate bulged_start(const mesh::QuadMesh& source, const RimColumns& columns,
-                       const std::vector<Vec3>& guess, const HarmonicSpread& spread,
-                       const SurfaceSmoother& smoother, Candidate best, const RunContext& context)
+/// The shape of a membrane in the rim under pressure, as high as the rim's radius; empty: the rim encloses no
+/// area.
+std::vector<Vec3> membrane(const mesh::QuadMesh& source, const RimColumns& columns,
+                           const AskSpreader& spreader)
 {
     const std::span<const Vec3> rim = columns.row(columns.layers);
     const Vec3 area = rim_area(rim, rim_sides(source, columns));
-    if (!(area.norm() > 0)) return best;
-    std::vector<Vec3> bulge(guess.size(), Vec3(1, 0, 0));
-    spread.solve(bulge);
+    if (!(area.norm() > 0)) return {};
+    std::vector<Vec3> bulge(source.nodes.size(), Vec3(1, 0, 0));
+    spreader().spread.solve(bulge);
     double top = 0;
     for (const Vec3& height : bulge) top = std::max(top, height[0]);
-    if (!(top > 0)) return best;
-    for (const double height : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0}) { // in radii of the rim
-        Candidate other{guess, -1};
-        const Vec3 reach = height * radius(rim) / top * area.normalized();
-        for (std::size_t i = 0; i < guess.size(); ++i) other.nodes[i] += bulge[i][0] * reach;
-        smoother.project(other.nodes);
-        other.worst = worst_quad(source.quads, other.nodes, context);
-        if (other.worst > best.worst) best = std::move(other);
-    }
-    return best;
+    if (!(top > 0)) return {};
+    const Vec3 reach = radius(rim) / top * area.normalized();
+    for (Vec3& height : bulge) height = height[0] * reach;
+    return bulge;
 }
 
-/// Smooth the mesh from `found` until the worst quad is good enough; the best mesh found.
-Candidate smoothed(const mesh::QuadMesh& source, const RimColumns& columns, const std::vector<Vec3>& guess,
-                   const AskSpreader& spreader, std::span<const Index> free_nodes,
-                   const SurfaceProjector& project, double good_enough, Candidate found,
-                   const RunContext& context)
+/// Smooth the mesh until the worst quad is good enough; the best mesh found.
+Candidate smoothed(const mesh::QuadMesh& source, const AskSpreader& spreader,
+                   std::span<const Index> free_nodes, const SurfaceProjector& project, double good_enough,
+                   Candidate found, const RunContext& context)
 {
     const SurfaceSmoother smoother(source, spreader().graph, spreader().weights, spreader().spread,
                                    free_nodes, project);
-    if (found.worst < kStandsUp * good_enough) {
-        found = bulged_start(source, columns, guess, spreader().spread, smoother, std::move(found), context);
-    }
     found.nodes = smoother.relax(std::move(found.nodes), good_enough, context);
     found.worst = worst_quad(source.quads, found.nodes, context);
     return found;
@@ -210,14 +180,29 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
             start = std::move(unprojected);
             result.report += words;
         };
+        // The source displaced like its rim suits a skin far from its rims, such as a bent tube swept through
+        // its thickness, for which an affine fit of the rims alone is meaningless.
         if (before < good_enough && !guess.affine)
-            start_from(displaced(source, columns, spreader, context), ", from the source moved with its rim");
+            start_from(image_by([](const Vec3& p) { return p; }, source, columns, spreader, context),
+                       ", from the source moved with its rim");
+        // If every inner node is the weighted mean of its neighbours, raised parts of the source (pockets,
+        // bosses, steps) are mapped side by side, where an affine map would overlap them.
         if (found.worst < kStandsUp * good_enough && !columns.rim.empty())
-            start_from(harmonic_image(source, columns, spreader, context), ", from its harmonic image");
-        if (found.worst < good_enough) {
-            found = smoothed(source, columns, start, spreader, free_nodes, project, good_enough,
-                             std::move(found), context);
+            start_from(
+                image_by([](const Vec3&) { return Vec3(Vec3::Zero()); }, source, columns, spreader, context),
+                ", from its harmonic image");
+        // For a deep bowl above a flat rim, the closest points to the flat start crowd at the rim.
+        if (found.worst < kStandsUp * good_enough) {
+            const std::vector<Vec3> flat = start, bulge = membrane(source, columns, spreader);
+            for (const double height : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0}) {
+                if (bulge.empty()) break;
+                std::vector<Vec3> bulged = flat;
+                for (std::size_t i = 0; i < bulge.size(); ++i) bulged[i] += height * bulge[i];
+                start_from(std::move(bulged), ", bulged");
+            }
         }
+        if (found.worst < good_enough)
+            found = smoothed(source, spreader, free_nodes, project, good_enough, std::move(found), context);
         if (found.worst > before)
             result.report += formatted(", smoothed from a worst quad of {:.2g}", before);
     }

@@ -86,23 +86,28 @@ constexpr int kMoreSides = 2;
 
 } // namespace
 
-std::vector<Plan> plans(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
+std::vector<Plan> plans(const OpenVolume& volume, const SweepOptions& asked, KnownLinks& links,
                         const RunContext& context)
 {
-    const std::vector<Plan> ways = layouts(volume, options, links, context);
-    const std::optional<DrawnLayers> drawn = drawn_layers(volume, options, links, context);
     std::vector<Plan> all;
-    for (const int sides : {options.curvature, kMoreSides * options.curvature}) {
-        for (const bool thinner : {true, false}) {
-            if (thinner && !drawn) continue;
-            for (Plan plan : ways) {
-                plan.per_turn = sides;
-                plan.wedges = options.wedges;
-                if (thinner) plan.drawn = drawn;
-                all.push_back(std::move(plan));
+    const std::optional<DrawnLayers> drawn = drawn_layers(volume, asked, links, context);
+    SweepOptions options = asked;
+    for (const bool wedges : {false, true}) {
+        if (wedges ? !asked.wedges && asked.fallback != Fallback::wedges : asked.wedges) continue;
+        options.wedges = wedges;
+        const std::vector<Plan> ways = layouts(volume, options, links, context);
+        for (const int sides : {options.curvature, kMoreSides * options.curvature}) {
+            for (const bool thinner : {true, false}) {
+                if (thinner && !drawn) continue;
+                for (Plan plan : ways) {
+                    plan.per_turn = sides;
+                    plan.wedges = wedges;
+                    if (thinner) plan.drawn = drawn;
+                    all.push_back(std::move(plan));
+                }
             }
+            if (options.order == 1 || options.volume_share == 0 || options.curvature == 0) break;
         }
-        if (options.order == 1 || options.volume_share == 0 || options.curvature == 0) break;
     }
     return all;
 }

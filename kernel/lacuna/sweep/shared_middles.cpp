@@ -7,8 +7,12 @@
 
 namespace lacuna::sweep {
 
-SharedMiddles::SharedMiddles(const mesh::HexMesh& mesh, const std::function<bool(Index)>& wanted)
+bool SharedMiddles::add(const mesh::HexMesh& mesh, const std::function<bool(Index)>& wanted)
 {
+    bool agrees = true;
+    const auto add = [&](Places& places, const Key& key, const Vec3& middle) {
+        agrees = places.try_emplace(key, middle).first->second == middle && agrees;
+    };
     std::vector<bool> on_border(mesh.nodes.size(), false);
     for (const Segment& side : patch_borders(mesh)) {
         for (const Index n : side) on_border[index(n)] = true;
@@ -21,11 +25,11 @@ SharedMiddles::SharedMiddles(const mesh::HexMesh& mesh, const std::function<bool
         for (std::size_t k = 0; k < 4; ++k) {
             const std::size_t next = (k + 1) % 4;
             if (!shared && !(on_border[index(nodes.node[k])] && on_border[index(nodes.node[next])])) continue;
-            sides_.try_emplace(key_of(corners[k], corners[next]), mesh.node(index(nodes.node[4 + k])));
+            add(sides_, key_of(corners[k], corners[next]), mesh.node(index(nodes.node[4 + k])));
         }
-        if (shared && nodes.count == 9)
-            centres_.try_emplace(key_of(corners), mesh.node(index(nodes.node[8])));
+        if (shared && nodes.count == 9) add(centres_, key_of(corners), mesh.node(index(nodes.node[8])));
     }
+    return agrees;
 }
 
 SharedMiddles::Key SharedMiddles::key_of(const Vec3& a, const Vec3& b)
@@ -46,15 +50,6 @@ std::optional<Vec3> SharedMiddles::find(const Places& places, const Key& key)
 {
     const auto found = places.find(key);
     return found == places.end() ? std::nullopt : std::optional(found->second);
-}
-
-bool SharedMiddles::agree(const Places& a, const Places& b)
-{
-    if (a.size() > b.size()) return agree(b, a);
-    return std::ranges::all_of(a, [&](const auto& own) {
-        const auto other = b.find(own.first);
-        return other == b.end() || other->second == own.second;
-    });
 }
 
 } // namespace lacuna::sweep

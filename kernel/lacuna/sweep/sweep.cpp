@@ -18,6 +18,7 @@
 #include <lacuna/sweep/shared/layer_plan.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -31,10 +32,9 @@ using namespace topology;
 
 namespace {
 
-/// Add middle nodes, prove the mesh, and compare the curved skin with the sealed one. Each curved quad is
-/// compared as four straight quads, whose error is at most a quarter of the quad's own straight sides'.
-void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, ProvedSweep& result,
-                         const SweepOptions& options, const RunContext& context)
+/// Add middle nodes and prove the mesh.
+void raise_order(const OpenVolume& shape, ProvedSweep& result, const SweepOptions& options,
+                 const RunContext& context)
 {
     Swept& swept = result.swept;
     PlacedLayers layers;
@@ -61,14 +61,6 @@ void elevate_and_compare(const OpenVolume& shape, const std::set<FaceId>& kept, 
                                    found(quality.min_scaled_jacobian), needed(options.min_scaled_jacobian))
                                .remedy("use a smaller size, or order = 1"));
     }
-    const FinerSkin fine = finer_skin(swept.skin());
-    swept.fidelity = compare(shape, fine.mesh, result.faces, kept, quality.volume,
-                             {options.max_deviation, options.beside.between}, context, &fine.nodes);
-    for (FaceFidelity& face : swept.fidelity.faces) {
-        face.quads /= 4;
-        face.side *= 2;
-        face.source_side *= 2;
-    }
 }
 
 /// Mesh a volume by a plan, prove the mesh, and compare it with the sealed shape. All cells are made here.
@@ -94,13 +86,10 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     // Quads copied from a neighbour are compared too: they are not part of the sealed shape.
     const OpenVolume& shape = shape_of(volume, options);
     const std::set<FaceId> kept = options.beside.shape != nullptr ? std::set<FaceId>{} : result.kept;
-    if (options.order == 2) {
-        elevate_and_compare(shape, kept, result, options, context);
-    } else {
-        swept.fidelity = compare(shape, swept.mesh, result.faces, kept, result.proof.quality.volume,
-                                 {options.max_deviation, options.beside.between}, context,
-                                 swept.layers ? &*swept.layers : nullptr);
-    }
+    if (options.order == 2) raise_order(shape, result, options, context);
+    // Curved quads are compared as four straight ones, whose error is at most a quarter of the whole quad's.
+    swept.fidelity = compare(shape, swept.mesh, result.faces, kept, swept.quality.volume,
+                             {options.max_deviation, options.beside.between}, context, swept.skin().layers);
     swept.report.push_back(in_words(swept.fidelity));
     swept.faces = std::move(result.faces);
     const std::optional<Message> misfit = sweep::misfit(
@@ -111,7 +100,7 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     return std::move(swept);
 }
 
-/// Maximum number of meshes tried for a volume.
+/// Maximum number of meshes tried for a volume, without wedges and with them.
 constexpr std::size_t kMostTried = 6;
 /// Error code of an end with given triangles: no plan may remesh it without a request.
 constexpr std::string_view kOwnTriangles = "surface.given_triangles";
@@ -132,11 +121,15 @@ public:
     Swept run(const std::vector<Plan>& plans)
     {
         for (const Plan& plan : plans) {
-            if (tried_.size() == kMostTried) break;
-            if (best_ && (plan_->keeps_end || best_->min_scaled_jacobian >= plan.below)) continue;
+            if (left_[plan.wedges] == 0) continue;
+            if (best_ && (plan_->keeps_end || plan_->wedges != plan.wedges ||
+                          best_->min_scaled_jacobian >= plan.below))
+                continue;
             if (!is_like_each(plan)) attempt(plan);
         }
         if (!best_) throw NotSweepable(std::move(*refusal_));
+        if (plan_->wedges && !options_.wedges)
+            best_->report.push_back(formatted("fallback: meshed with wedges, because {}", refusal_->text()));
         if (plan_->drawn) best_->report.push_back(plan_->drawn->report);
         if (tried_.size() > 1)
             tried_.insert(tried_.begin(), formatted("taken: {}", in_words(*plan_, volume_)));
@@ -159,6 +152,7 @@ private:
     void attempt(const Plan& plan)
     {
         const std::string words = in_words(plan, volume_);
+        --left_[plan.wedges];
         try {
             Swept swept = mesh_candidate(volume_, plan, options_, links_, context_);
             tried_.push_back(formatted("{}: least scaled Jacobian {:.2g}", words, swept.min_scaled_jacobian));
@@ -166,10 +160,11 @@ private:
             best_ = std::move(swept);
             plan_ = &plan;
         } catch (const NotSweepable& error) {
-            if (error.code() == kOwnTriangles) throw; // every plan would have to keep these triangles
             const Message why = error.message().about(words);
             tried_.push_back(why.text());
-            refusal_ = refusal_ ? refusal_->attempt(why) : error.message();
+            const bool own = error.code() == kOwnTriangles; // any plan without wedges would have to keep them
+            if (own) left_[plan.wedges] = 0;
+            refusal_ = refusal_ && !own ? refusal_->attempt(why) : error.message();
         }
         log_line(context_, tried_.back());
     }
@@ -181,7 +176,8 @@ private:
     std::optional<Swept> best_;
     const Plan* plan_ = nullptr; ///< the best plan so far
     std::optional<Message> refusal_;
-    std::vector<std::string> tried_; ///< a line for each plan
+    std::vector<std::string> tried_;                          ///< a line for each plan
+    std::array<std::size_t, 2> left_{kMostTried, kMostTried}; ///< plans without wedges and with them
 };
 
 /// The options with the requested intervals on layers merged in.
@@ -207,7 +203,7 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
 }
 
 /// Plan the numbers of sides and layers, then search for the best plan.
-Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
+Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     check_cancelled(context);
     report_progress(context, "size");
@@ -225,27 +221,6 @@ Swept sweep_once(const OpenVolume& volume, const SweepOptions& asked, const RunC
     // For an assembly, the caller checks the number of cells of all volumes together.
     if (!asked.beside.settle) check_cells(source_size(volume, options, links, context).expected, context);
     return Search(volume, options, links, context).run(plans(volume, options, links, context));
-}
-
-/// Mesh with hexahedra only; if that fails and the fallback allows it, with wedges.
-Swept sweep_or_with_wedges(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
-{
-    std::optional<Message> why;
-    try {
-        return sweep_once(volume, asked, context);
-    } catch (const NotSweepable& error) {
-        if (asked.fallback != Fallback::wedges || asked.wedges) throw;
-        why = error.message();
-    }
-    SweepOptions with_wedges = asked;
-    with_wedges.wedges = true;
-    try {
-        Swept swept = sweep_once(volume, with_wedges, context);
-        swept.report.push_back(formatted("fallback: meshed with wedges, because {}", why->text()));
-        return swept;
-    } catch (const NotSweepable& error) { // the error without wedges is more informative
-        throw NotSweepable(std::move(*why).attempt(error.message().about("with wedges")));
-    }
 }
 
 /// Volume error at which the suggested sizes aim, below the limit of 1 %: on bends and barrels the actual
@@ -284,7 +259,7 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
 {
     SweepOptions options = asked;
     options.improving = with_deadline(options.improving);
-    Swept swept = sweep_or_with_wedges(volume, options, context);
+    Swept swept = search(volume, options, context);
     if (!asked.size && swept.min_scaled_jacobian < kPoorCell) {
         swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
         swept.report.push_back(swept.defaults.back());

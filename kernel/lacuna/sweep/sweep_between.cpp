@@ -116,40 +116,6 @@ bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
     return true;
 }
 
-/// Layers, and the quality of their cells if it was computed.
-struct BestLayers {
-    LayerNodes layers;
-    std::optional<quality::Quality> quality;
-};
-
-/// Layers with the best worst cell: with the rim's residual spread over each layer or, if that leaves poor
-/// cells, without it.
-BestLayers best_layers(const surface::SourceMesh& source, const Morphed& morphed, const RimColumns& columns,
-                       PlacementOptions placement, const SweepOptions& options, const RunContext& context)
-{
-    if (options.interior == Interior::normals)
-        return {place_along_normals(source.quads, morphed.nodes, columns, context), {}};
-    placement.spread_residual = options.interior != Interior::affine;
-    LayerNodes spread = place_layers(source.quads, morphed.nodes, columns, placement, context);
-    if (options.interior != Interior::automatic || spread.placement != Placement::fitted)
-        return {std::move(spread), {}};
-    const auto measured = [&](LayerNodes& layers) {
-        mesh::HexMesh mesh = cells_over(source.quads, columns.layers);
-        mesh.nodes = std::move(layers.nodes);
-        quality::Quality found = quality::measure(mesh, context, quality::Keep::of_cells);
-        layers.nodes = std::move(mesh.nodes);
-        return found;
-    };
-    quality::Quality with = measured(spread);
-    if (with.min_scaled_jacobian >= options.improving.good_enough)
-        return {std::move(spread), std::move(with)};
-    placement.spread_residual = false;
-    LayerNodes plain = place_layers(source.quads, morphed.nodes, columns, placement, context);
-    quality::Quality without = measured(plain);
-    if (without.min_scaled_jacobian > with.min_scaled_jacobian) return {std::move(plain), std::move(without)};
-    return {std::move(spread), std::move(with)};
-}
-
 /// Layers generated on demand, and the quality of their cells; empty if the cells need improvement.
 struct GoodLayers {
     PlacedLayers layers;
@@ -165,7 +131,6 @@ std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const M
                                       const RimColumns& columns, PlacementOptions placement,
                                       const SweepOptions& options, const RunContext& context)
 {
-    placement.spread_residual = options.interior != Interior::affine;
     GoodLayers good{placed_layers(std::make_shared<const LayerPlan>(
                                       LayerPlan{source.quads, morphed.nodes, columns, placement}),
                                   context),
@@ -353,18 +318,18 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     PlacementOptions placement;
     placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
     placement.heights = heights;
+    placement.spread_residual = options.interior != Interior::affine;
     std::optional<GoodLayers> good;
     if (may_be_layered(options)) good = good_layers(source, morphed, columns, placement, options, context);
     LayerNodes layers;
-    std::optional<quality::Quality> measured;
     if (good) {
         layers = {.nodes = source.quads.nodes, .report = good->layers.report};
         result.layers = std::move(good->layers.nodes);
         result.plan = std::move(good->layers.plan);
     } else {
-        BestLayers best = best_layers(source, morphed, columns, placement, options, context);
-        layers = std::move(best.layers);
-        measured = std::move(best.quality);
+        layers = options.interior == Interior::normals
+                     ? place_along_normals(source.quads, morphed.nodes, columns, context)
+                     : place_layers(source.quads, morphed.nodes, columns, placement, context);
     }
     result.report.push_back(layers.report);
     SweptParts parts{split,       links, source, walls, ends, columns.layers, {}, !seeds.kept.empty(),
@@ -375,7 +340,6 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     KeptThickness kept;
     if (!good) kept = keep_thickness(parts, tables, layers.nodes, context);
     hold_creases(links, source, heights.size(), kept.held);
-    if (!tables.heights.empty()) measured.reset(); // nodes were moved
     for (std::string& note : kept.report) result.report.push_back(std::move(note));
 
     mesh::HexMesh& mesh = result.mesh;
@@ -399,14 +363,13 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         SettledNodes settled = options.beside.settle(result.skin(), faces);
         still.merge(settled.faces);
         lay_onto_neighbours(std::move(settled.nodes), result, good, options, context);
-        measured.reset();
     }
     quality::Proof proof = good
                                ? quality::prove(mesh::LayeredMesh{mesh, *result.layers},
                                                 std::move(good->found.quality),
                                                 std::move(good->found.misplaced), options.min_scaled_jacobian)
                                : prove_or_improve(result, volume.model, faces, still, std::move(kept.held),
-                                                  std::move(measured), options, context);
+                                                  {}, options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     const std::string wedges = quality.wedges > 0 ? formatted(" hexahedra and {} wedges", quality.wedges)

@@ -12,26 +12,24 @@
 
 namespace lacuna::sweep {
 
-/// The quads of the skin on one face.
+/// The quads of the skin on one face; at order 2 four for each quad of the mesh, by its middle nodes.
 struct SkinOfFace {
     FaceId face;
-    std::vector<Quad> quads;  ///< quads, as nodes of the skin
-    std::vector<double> side; ///< the longest of each quad [model length]
-    double mean_side = 0;     ///< mean of `side` [model length]
+    std::vector<Quad> quads;       ///< as points of the skin
+    std::vector<std::size_t> item; ///< for each, its quad in the mesh's skin
+    std::vector<double> side;      ///< the longest of each quad [model length]
+    double mean_side = 0;          ///< mean of `side` [model length]
 };
 
-/// The nodes of a mesh's skin only, which are few: numbered in the mesh's order, with the quads of every
-/// face.
+/// The nodes of a mesh's skin only, which are few, with the quads of every face.
 struct Skin {
-    std::vector<Vec3> points;      ///< [model length]
-    std::vector<Index> node;       ///< node of the mesh, for each point
+    std::vector<Vec3> points;      ///< in the mesh's order, so those of the source first [model length]
     std::vector<SkinOfFace> faces; ///< by their numbers in the model
 };
 
-/// @param faces  of each patch of the mesh. @param face_count  of the model. O(skin).
-/// @param layers  generator of the nodes of a mesh that does not hold them; null: it holds them.
-Skin skin_of(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, std::size_t face_count,
-             const mesh::LayeredNodes* layers = nullptr, const RunContext& context = {});
+/// @param faces  of each patch of the mesh. @param face_count  of the model. O(skin log).
+Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std::size_t face_count,
+             const RunContext& context = {});
 
 /// Allowed distance between a face and its quads [model length], or as a share of a quad's side.
 struct DeviationLimit {

@@ -21,9 +21,9 @@ struct Plan {
     surface::Turning turning = surface::Turning::each;
     std::optional<DrawnLayers> drawn{}; ///< layers that are thinner in bends; empty: as the options ask
     int per_turn = 12;                  ///< sides for a full turn
-    bool wedges = false;                ///< see `SweepOptions::wedges`
-    double below = kPoorCell;           ///< tried if no mesh has this least scaled Jacobian yet
-    std::string why{};                  ///< for the report: why it comes first; may be empty
+    bool wedges = false;      ///< see `SweepOptions::wedges`; as a fallback, tried if no mesh without
+    double below = kPoorCell; ///< tried if no mesh has this least scaled Jacobian yet
+    std::string why{};        ///< for the report: why it comes first; may be empty
 };
 
 /// The ways to mesh a volume, best first.
@@ -33,7 +33,7 @@ struct Plan {
 /// rotated together, if the walls of some loop do not determine its rotation; the other end as source; and
 /// quads laid out between the outlines of both ends. If layers that are thinner in bends reduce the volume
 /// error, all of these come with such layers first. At order 2 the whole list is repeated with more sides,
-/// which a quad with two sides on a round rim needs.
+/// which a quad with two sides on a round rim needs. Plans with wedges, if the fallback allows it, are last.
 /// @param options  checked; `curvature` as planned for the volume.
 /// @throw Cancelled
 std::vector<Plan> plans(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,

@@ -50,12 +50,4 @@ Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const 
                  const SecondOrderOptions& options = {}, const RunContext& context = {},
                  const PlacedLayers* layers = nullptr, const Crew* crew = nullptr);
 
-/// The skin of a mesh of order 2 as a mesh of order 1 with four quads for each.
-struct FinerSkin {
-    mesh::HexMesh mesh;       ///< its nodes are those of the source
-    mesh::LayeredNodes nodes; ///< nodes of the skin only; refers to its input
-};
-/// For comparisons. @pre  order 2
-FinerSkin finer_skin(const mesh::SkinNodes& skin);
-
 } // namespace lacuna::sweep

@@ -10,13 +10,15 @@
 
 namespace lacuna::sweep {
 
-/// Middle nodes of the skin of a mesh of order 2, found by the exact positions of corners. Internal to this
+/// Middle nodes of the skins of meshes of order 2, found by the exact positions of corners. Internal to this
 /// folder.
 class SharedMiddles {
 public:
+    /// Add the nodes of a mesh. O(skin log).
     /// @param wanted  whether quads of a patch are shared; of others only the middles of their borders are
     ///                included.
-    SharedMiddles(const mesh::HexMesh& mesh, const std::function<bool(Index patch)>& wanted);
+    /// @return  false if a side or quad that is known has another middle here.
+    [[nodiscard]] bool add(const mesh::HexMesh& mesh, const std::function<bool(Index patch)>& wanted);
 
     /// The middle node between two places, or in the middle of a quad by two opposite corners.
     [[nodiscard]] std::optional<Vec3> side(const Vec3& a, const Vec3& b) const
@@ -28,19 +30,12 @@ public:
         return find(centres_, key_of(corners));
     }
 
-    /// Whether common entries of both have the same middle. O(size of the smaller one).
-    [[nodiscard]] bool agrees(const SharedMiddles& other) const
-    {
-        return agree(sides_, other.sides_) && agree(centres_, other.centres_);
-    }
-
 private:
     using Key = std::array<double, 6>;
     using Places = std::map<Key, Vec3>; // zeros of both signs are one place
     static Key key_of(const Vec3& a, const Vec3& b);
     static Key key_of(const std::array<Vec3, 4>& corners);
     static std::optional<Vec3> find(const Places& places, const Key& key);
-    static bool agree(const Places& a, const Places& b);
 
     Places sides_, centres_;
 };
