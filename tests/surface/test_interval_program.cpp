@@ -87,7 +87,8 @@ TEST_CASE("numbers of sides that agree are found wherever there are any, and har
         const IntervalProgram program = random_program(dice);
         const std::vector<int> counts = solve_intervals(program);
         const double least = least_cost(program);
-        const bool found = std::none_of(counts.begin(), counts.end(), [](int c) { return c == 0; });
+        // An equation that contradicts earlier ones is left out.
+        const bool found = is_solution(program, counts);
         // Others may need more sides than are tried here.
         CHECK((found || least == std::numeric_limits<double>::infinity()));
         if (!found) {
@@ -95,7 +96,6 @@ TEST_CASE("numbers of sides that agree are found wherever there are any, and har
             continue;
         }
         ++solved;
-        CHECK(is_solution(program, counts));
         if (least == std::numeric_limits<double>::infinity()) {
             CHECK(*std::max_element(counts.begin(), counts.end()) > kMostTried);
             ++best;

@@ -118,33 +118,19 @@ bool faces_one_way(const Model& model, FaceId face, const Vec3& normal)
     });
 }
 
-void balance(const SeedTask& task, FaceGrids& grids, Seeds& seeds)
+void free_unequal(const SeedTask& task, FaceGrids& grids, Seeds& seeds)
 {
-    const std::size_t most = 4 * seeds.pieces.size() + 16;
-    for (std::size_t round = 0;; ++round) {
-        bool changed = false;
-        for (auto it = grids.opposite.begin(); it != grids.opposite.end();) {
-            bool raised = false, stuck = false;
-            for (const SidePair& sides : it->second) {
-                const int difference = total(seeds, sides[0]) - total(seeds, sides[1]);
-                if (difference == 0) continue;
-                stuck = !raise(seeds, sides[difference > 0 ? 1 : 0], std::abs(difference)) || stuck;
-                raised = true;
-            }
-            changed = changed || raised;
-            if (stuck && task.style == QuadStyle::mapped)
-                refuse_counts(task.model, seeds, it->first, it->second);
-            if (stuck || (raised && round > most)) {
-                seeds.corners.erase(it->first);
-                seeds.submapped.erase(it->first);
-                grids.mapped.erase(it->first);
-                it = grids.opposite.erase(it);
-            } else {
-                ++it;
-            }
-        }
-        if (!changed) return;
-    }
+    std::erase_if(grids.opposite, [&](const auto& grid) {
+        const auto& [face, pairs] = grid;
+        const bool equal = std::ranges::all_of(
+            pairs, [&](const SidePair& sides) { return total(seeds, sides[0]) == total(seeds, sides[1]); });
+        if (equal) return false;
+        if (task.style == QuadStyle::mapped) refuse_counts(task.model, seeds, face, pairs);
+        seeds.corners.erase(face);
+        seeds.submapped.erase(face);
+        grids.mapped.erase(face);
+        return true;
+    });
 }
 
 } // namespace lacuna::surface

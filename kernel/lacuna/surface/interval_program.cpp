@@ -2,7 +2,6 @@
 #include <lacuna/surface/detail/interval_program.h>
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/quads/shared/measure_plane.h>
 
@@ -11,7 +10,6 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
-#include <optional>
 
 namespace lacuna::surface {
 
@@ -27,9 +25,6 @@ constexpr std::size_t kByTwos = 64;
 constexpr double kOutOfSize = 2;
 /// Larger coefficients do not occur in interval assignment; the bound keeps products within range.
 constexpr std::int64_t kMostCoefficient = 1 << 20;
-/// Limit of the work for one set of equations, about 0.1 s; larger sets are not solved. Heuristic.
-constexpr double kMostWork = 1e8;
-
 double wish_cost(double n, double wanted, double weight)
 {
     n = std::max(n, 0.5);
@@ -39,60 +34,88 @@ double wish_cost(double n, double wanted, double weight)
     return weight * ((n - wanted) * (n - wanted) / n + kOutOfSize * wanted * out);
 }
 
-/// Equations with common variables, renumbered.
+/// Equations with common variables, renumbered, in reduced row echelon form.
 class IntervalSet {
 public:
-    IntervalSet(const IntervalProgram& program, std::vector<std::size_t> own,
-                const std::vector<std::size_t>& equations, const std::vector<std::size_t>& wishes,
-                const std::vector<std::size_t>& floors)
-        : program_(program), own_(std::move(own))
+    IntervalSet(const IntervalProgram& program, std::vector<std::size_t> own)
+        : program_(program), own_(std::move(own)), terms_of_(own_.size())
     {
         for (std::size_t i = 0; i < own_.size(); ++i) local_[own_[i]] = i;
-        for (const std::size_t e : equations) add_row(program.equations[e]);
-        terms_of_.resize(own_.size());
-        for (const std::size_t w : wishes) {
-            const IntervalWish& wish = program.wishes[w];
-            add_term(wish.variables, wish.wanted, wish.weight);
+    }
+
+    /// A step of Gauss-Jordan elimination in integers. A row that contradicts earlier ones is left out.
+    void add(const IntervalEquation& equation)
+    {
+        Row row;
+        const auto add_side = [&](const std::vector<std::size_t>& side, int sign) {
+            for (const std::size_t v : side) {
+                if (program_.variables[v].fixed)
+                    row.right -= sign * program_.variables[v].given;
+                else
+                    row.of[local_.at(v)] += sign;
+            }
+        };
+        add_side(equation.one, 1);
+        add_side(equation.other, -1);
+        for (const Row& by : rows_) eliminate(row, by);
+        std::erase_if(row.of, [](const auto& part) { return part.second == 0; });
+        if (row.of.empty() || row.right % common_factor(row) != 0) return;
+        // A pivot of one keeps the other coefficients integral; take the first of them.
+        const auto pivot = std::ranges::min_element(row.of, {},
+                                                    [](const auto& part) { return std::abs(part.second); });
+        if (std::abs(pivot->second) >= kMostCoefficient) return;
+        row.pivot = pivot->first;
+        scale(row, pivot->second < 0 ? -common_factor(row) : common_factor(row));
+        for (Row& other : rows_) eliminate(other, row);
+        rows_.push_back(std::move(row));
+    }
+
+    /// Add a term of the objective, or a floor if its weight is zero.
+    void add_term(const std::vector<std::size_t>& variables, double wanted, double weight)
+    {
+        Term term{{}, 0, wanted, weight};
+        for (const std::size_t v : variables) {
+            if (program_.variables[v].fixed)
+                term.given += program_.variables[v].given;
+            else
+                ++term.variables[local_.at(v)];
         }
-        for (const std::size_t f : floors) add_term(program.floors[f].variables, program.floors[f].least, 0);
+        for (const auto& [v, times] : term.variables) terms_of_[v].push_back({terms_.size(), times});
+        terms_.push_back(std::move(term));
     }
 
-    std::optional<std::vector<int>> solve()
+    /// Start at the rounded wishes and descend, and write the counts of the set's variables.
+    /// @return false if the result violates a floor
+    bool solve(std::vector<int>& counts)
     {
-        const auto size = static_cast<double>(rows_.size());
-        if (size * size * static_cast<double>(own_.size()) > kMostWork) return std::nullopt;
-        if (!reduce() || !find_vectors()) return std::nullopt;
-        std::optional<std::vector<int>> best = solve_from(rounded_wishes());
-        const double cost = cost_;
-        if (free_.size() > kByTwos) return best;
-        auto other = solve_from(relaxed());
-        return best && (!other || cost <= cost_) ? best : other;
-    }
-
-private:
-    /// Start at values of the free variables and descend. @return nothing if the result violates a floor
-    std::optional<std::vector<int>> solve_from(const std::vector<std::int64_t>& start)
-    {
-        if (!start_from(start)) return std::nullopt;
-        sums_.clear();
+        rows_of_.resize(own_.size());
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            for (const auto& [v, times] : rows_[r].of) rows_of_[v].push_back(r);
+        }
+        if (!find_vectors() || !start()) return false;
         for (const Term& term : terms_) sums_.push_back(sum_of(term));
         cost_ = whole_cost();
         while (step()) {}
         for (std::size_t i = 0; i < own_.size(); ++i) {
-            if (count_[i] < variable(i).least) return std::nullopt;
+            if (count_[i] < variable(i).least) return false;
         }
         for (std::size_t t = 0; t < terms_.size(); ++t) {
-            if (terms_[t].weight == 0 && static_cast<double>(sums_[t]) < terms_[t].wanted)
-                return std::nullopt;
+            if (terms_[t].weight == 0 && static_cast<double>(sums_[t]) < terms_[t].wanted) return false;
         }
-        return std::vector<int>(count_.begin(), count_.end());
+        for (std::size_t i = 0; i < own_.size(); ++i) counts[own_[i]] = static_cast<int>(count_[i]);
+        return true;
     }
 
-    using Row = std::vector<std::int64_t>; ///< coefficients of the set's variables, then the right-hand side
+private:
+    /// Σ coefficient · variable = right.
+    struct Row {
+        std::map<std::size_t, std::int64_t> of;
+        std::int64_t right = 0;
+        std::size_t pivot = 0; ///< occurs in no other row; its coefficient is positive
+    };
 
-    /// A term of the objective, or a floor if its weight is zero.
     struct Term {
-        std::vector<std::pair<std::size_t, int>> variables;
+        std::map<std::size_t, int> variables;
         std::int64_t given = 0; ///< sum over fixed variables
         double wanted = 1, weight = 1;
     };
@@ -102,149 +125,84 @@ private:
         return program_.variables[own_[i]];
     }
 
-    void add_row(const IntervalEquation& equation)
+    static std::int64_t common_factor(const Row& row)
     {
-        Row row(own_.size() + 1, 0);
-        const auto add = [&](const std::vector<std::size_t>& side, int sign) {
-            for (const std::size_t v : side) {
-                if (program_.variables[v].fixed)
-                    row.back() -= sign * program_.variables[v].given;
-                else
-                    row[local_.at(v)] += sign;
-            }
-        };
-        add(equation.one, 1);
-        add(equation.other, -1);
-        rows_.push_back(std::move(row));
-    }
-
-    void add_term(const std::vector<std::size_t>& variables, double wanted, double weight)
-    {
-        Term term{{}, 0, wanted, weight};
-        std::map<std::size_t, int> own;
-        for (const std::size_t v : variables) {
-            if (program_.variables[v].fixed)
-                term.given += program_.variables[v].given;
-            else
-                ++own[local_.at(v)];
-        }
-        term.variables.assign(own.begin(), own.end());
-        for (const auto& [v, times] : term.variables) terms_of_[v].push_back({terms_.size(), times});
-        terms_.push_back(std::move(term));
-    }
-
-    /// Gauss-Jordan elimination in integers. @return false if equations contradict each other
-    bool reduce()
-    {
-        const std::size_t n = own_.size();
-        std::size_t done = 0;
-        std::vector<char> is_pivot(n, 0);
-        while (done < rows_.size()) {
-            // A pivot of one keeps the other coefficients integral; take the first of them.
-            std::size_t best_row = done, best = n;
-            for (std::size_t r = done; r < rows_.size(); ++r) {
-                for (std::size_t v = 0; v < n; ++v) {
-                    if (rows_[r][v] == 0) continue;
-                    if (best < n && std::abs(rows_[r][v]) >= std::abs(rows_[best_row][best])) continue;
-                    best_row = r;
-                    best = v;
-                }
-            }
-            if (best == n) break; // the remaining rows have no variables
-            std::swap(rows_[done], rows_[best_row]);
-            if (rows_[done][best] < 0) {
-                for (std::int64_t& x : rows_[done]) x = -x;
-            }
-            for (std::size_t r = 0; r < rows_.size(); ++r) {
-                if (r != done && rows_[r][best] != 0 && !eliminate(rows_[r], rows_[done], best)) return false;
-            }
-            pivot_.push_back(best);
-            is_pivot[best] = 1;
-            ++done;
-        }
-        for (std::size_t r = done; r < rows_.size(); ++r) {
-            if (rows_[r].back() != 0) return false;
-        }
-        rows_.resize(done);
-        for (std::size_t v = 0; v < n; ++v) {
-            if (is_pivot[v] == 0) free_.push_back(v);
-        }
-        return true;
-    }
-
-    static bool eliminate(Row& row, const Row& by, std::size_t pivot)
-    {
-        const std::int64_t a = row[pivot], b = by[pivot], g = std::gcd(a, b);
         std::int64_t common = 0;
-        for (std::size_t k = 0; k < row.size(); ++k) {
-            row[k] = row[k] * (b / g) - by[k] * (a / g);
-            common = std::gcd(common, row[k]);
-        }
-        if (common > 1) {
-            for (std::int64_t& x : row) x /= common;
-        }
-        return std::ranges::all_of(row, [](std::int64_t x) { return std::abs(x) < kMostCoefficient; });
+        for (const auto& [v, times] : row.of) common = std::gcd(common, times);
+        return common;
     }
 
-    [[nodiscard]] std::vector<std::int64_t> rounded_wishes() const
+    static void scale(Row& row, std::int64_t by)
     {
-        std::vector<std::int64_t> counts;
-        for (const std::size_t v : free_) {
-            double wanted = 0, weight = 0;
-            for (const auto& [t, times] : terms_of_[v]) {
-                if (terms_[t].variables.size() > 1 || terms_[t].weight == 0) continue;
-                wanted += terms_[t].weight * terms_[t].wanted;
-                weight += terms_[t].weight;
-            }
-            counts.push_back(weight > 0 ? std::llround(wanted / weight) : 1);
-        }
-        return counts;
+        for (auto& [v, times] : row.of) times /= by;
+        row.right /= by;
     }
 
-    /// Starting point that accounts for coupled variables: the real minimizer of Σ weight (n − wanted)² /
-    /// wanted over the free variables, rounded.
-    [[nodiscard]] std::vector<std::int64_t> relaxed() const
+    /// Remove the pivot of one row from another.
+    static void eliminate(Row& row, const Row& by)
     {
-        const auto free = static_cast<Eigen::Index>(free_.size());
-        // Each variable as a combination of the free ones; the last column is its constant.
-        Eigen::MatrixXd of = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(own_.size()), free + 1);
-        for (std::size_t k = 0; k < free_.size(); ++k)
-            of(static_cast<Eigen::Index>(free_[k]), static_cast<Eigen::Index>(k)) = 1;
-        for (std::size_t r = 0; r < rows_.size(); ++r) {
-            const auto p = static_cast<Eigen::Index>(pivot_[r]);
-            const auto by = static_cast<double>(rows_[r][pivot_[r]]);
-            for (std::size_t k = 0; k < free_.size(); ++k)
-                of(p, static_cast<Eigen::Index>(k)) = -static_cast<double>(rows_[r][free_[k]]) / by;
-            of(p, free) = static_cast<double>(rows_[r].back()) / by;
-        }
-        constexpr double kNoWish = 1e-9; // regularizes variables without a term of their own
-        Eigen::MatrixXd normal = kNoWish * Eigen::MatrixXd::Identity(free, free);
-        Eigen::VectorXd right = Eigen::VectorXd::Constant(free, kNoWish);
-        for (const Term& term : terms_) {
-            if (term.weight == 0) continue;
-            Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(free + 1);
-            for (const auto& [v, times] : term.variables) sum += times * of.row(static_cast<Eigen::Index>(v));
-            const double rest = term.wanted - static_cast<double>(term.given) - sum[free];
-            const double weight = term.weight / term.wanted;
-            normal += weight * sum.head(free).transpose() * sum.head(free);
-            right += weight * rest * sum.head(free).transpose();
-        }
-        const Eigen::VectorXd x = geometry::solve_symmetric(normal, right);
-        std::vector<std::int64_t> counts;
-        for (Eigen::Index k = 0; k < free; ++k)
-            counts.push_back(std::llround(std::clamp(x[k], 1.0, double(kMostCoefficient))));
-        return counts;
+        const auto found = row.of.find(by.pivot);
+        if (found == row.of.end()) return;
+        const std::int64_t a = found->second, b = by.of.at(by.pivot), g = std::gcd(a, b);
+        for (auto& [v, times] : row.of) times *= b / g;
+        row.right = row.right * (b / g) - by.right * (a / g);
+        for (const auto& [v, times] : by.of) row.of[v] -= times * (a / g);
+        std::erase_if(row.of, [](const auto& part) { return part.second == 0; });
+        const std::int64_t common = std::gcd(common_factor(row), row.right);
+        if (common > 1) scale(row, common);
     }
 
-    /// Set the free variables to these values and compute the dependent ones.
-    bool start_from(const std::vector<std::int64_t>& free)
+    [[nodiscard]] bool is_pivot(std::size_t v) const
     {
-        count_.assign(own_.size(), 0);
-        for (std::size_t k = 0; k < free_.size(); ++k)
-            count_[free_[k]] = std::max<std::int64_t>(variable(free_[k]).least, free[k]);
+        return !rows_of_[v].empty() && rows_[rows_of_[v].front()].pivot == v;
+    }
+
+    [[nodiscard]] std::int64_t rounded_wish(std::size_t v) const
+    {
+        double wanted = 0, weight = 0;
+        for (const auto& [t, times] : terms_of_[v]) {
+            if (terms_[t].variables.size() > 1 || terms_[t].weight == 0) continue;
+            wanted += terms_[t].weight * terms_[t].wanted;
+            weight += terms_[t].weight;
+        }
+        return std::max<std::int64_t>(variable(v).least, weight > 0 ? std::llround(wanted / weight) : 1);
+    }
+
+    /// The right-hand side for the pivot, by the free variables.
+    [[nodiscard]] std::int64_t rest_of(const Row& row) const
+    {
+        std::int64_t sum = row.right;
+        for (const auto& [v, times] : row.of) sum -= v == row.pivot ? 0 : times * count_[v];
+        return sum;
+    }
+
+    [[nodiscard]] bool is_whole(const Row& row) const { return rest_of(row) % row.of.at(row.pivot) == 0; }
+
+    /// Raise a free variable of a row so that its pivot is an integer, and those of the rows before it too.
+    bool make_whole(std::size_t r)
+    {
+        return is_whole(rows_[r]) || std::ranges::any_of(rows_[r].of, [&](const auto& part) {
+                   const std::size_t v = part.first;
+                   const std::int64_t before = count_[v];
+                   const auto stays = [&](std::size_t q) { return q > r || is_whole(rows_[q]); };
+                   for (std::int64_t by = 1; v != rows_[r].pivot && by < rows_[r].of.at(rows_[r].pivot);
+                        ++by) {
+                       count_[v] = before + by;
+                       if (std::ranges::all_of(rows_of_[v], stays)) return true;
+                   }
+                   count_[v] = before;
+                   return false;
+               });
+    }
+
+    /// Set the free variables to their wishes, as far as the dependent ones are integers, and compute these.
+    bool start()
+    {
+        for (std::size_t v = 0; v < own_.size(); ++v) count_.push_back(is_pivot(v) ? 0 : rounded_wish(v));
         for (std::size_t r = 0; r < rows_.size(); ++r) {
             if (!make_whole(r)) return false;
         }
+        for (const Row& row : rows_) count_[row.pivot] = rest_of(row) / row.of.at(row.pivot);
         return true;
     }
 
@@ -259,53 +217,24 @@ private:
     /// The search vectors.
     bool find_vectors()
     {
-        for (const std::size_t v : free_) {
+        for (std::size_t v = 0; v < own_.size(); ++v) {
+            if (is_pivot(v)) continue;
             std::int64_t stride = 1;
-            for (std::size_t r = 0; r < rows_.size(); ++r) {
-                const std::int64_t p = rows_[r][pivot_[r]];
-                stride = std::lcm(stride, p / std::gcd(p, std::abs(rows_[r][v])));
+            const std::vector<std::size_t>& rows = rows_of_[v];
+            for (const std::size_t r : rows) {
+                const std::int64_t p = rows_[r].of.at(rows_[r].pivot);
+                stride = std::lcm(stride, p / std::gcd(p, rows_[r].of.at(v)));
             }
             if (stride >= kMostCoefficient) return false;
             std::vector<std::pair<std::size_t, std::int64_t>> vector{{v, stride}};
-            for (std::size_t r = 0; r < rows_.size(); ++r) {
-                if (rows_[r][v] != 0)
-                    vector.push_back({pivot_[r], -rows_[r][v] * stride / rows_[r][pivot_[r]]});
+            for (const std::size_t r : rows) {
+                const Row& row = rows_[r];
+                vector.push_back({row.pivot, -row.of.at(v) * stride / row.of.at(row.pivot)});
             }
             vectors_.push_back(std::move(vector));
         }
         if (vectors_.size() <= kByTwos) add_pairs();
         return true;
-    }
-
-    /// Solve a row for its pivot. If that is not an integer, a free variable that occurs in no other row
-    /// absorbs the remainder.
-    bool make_whole(std::size_t r)
-    {
-        const std::int64_t p = rows_[r][pivot_[r]];
-        const auto rest = [&] {
-            std::int64_t sum = rows_[r].back();
-            for (const std::size_t v : free_) sum -= rows_[r][v] * count_[v];
-            return sum;
-        };
-        for (std::size_t k = 0; k <= free_.size(); ++k) {
-            if (rest() % p == 0) {
-                count_[pivot_[r]] = rest() / p;
-                return true;
-            }
-            if (k == free_.size()) break;
-            const std::size_t v = free_[k];
-            if (rows_[r][v] == 0 || in_rows(v) > 1) continue;
-            const std::int64_t before = count_[v];
-            for (std::int64_t by = 1; by < p && rest() % p != 0; ++by) count_[v] = before + by;
-            if (rest() % p != 0) count_[v] = before;
-        }
-        return false;
-    }
-
-    [[nodiscard]] std::size_t in_rows(std::size_t v) const
-    {
-        return static_cast<std::size_t>(
-            std::ranges::count_if(rows_, [&](const Row& row) { return row[v] != 0; }));
     }
 
     /// Sums and differences of vectors that share a variable.
@@ -400,7 +329,7 @@ private:
     std::vector<Row> rows_;
     std::vector<Term> terms_;
     std::vector<std::vector<std::pair<std::size_t, int>>> terms_of_;
-    std::vector<std::size_t> pivot_, free_;
+    std::vector<std::vector<std::size_t>> rows_of_; ///< numbers of the rows of each variable
     std::vector<std::vector<std::pair<std::size_t, std::int64_t>>> vectors_;
     std::vector<std::int64_t> count_, sums_;
     std::vector<std::pair<std::size_t, std::int64_t>> touched_;
@@ -425,7 +354,7 @@ std::vector<int> solve_intervals(const IntervalProgram& program)
     const std::size_t n = program.variables.size();
     geometry::UnionFind sets(n);
     // Fixed variables do not connect equations.
-    const auto first_of = [&](const std::vector<std::size_t>& variables, std::size_t first) {
+    const auto first_of = [&](const std::vector<std::size_t>& variables, std::size_t first = kNoIndex) {
         for (const std::size_t v : variables) {
             if (program.variables[v].fixed) continue;
             if (first == kNoIndex)
@@ -435,41 +364,34 @@ std::vector<int> solve_intervals(const IntervalProgram& program)
         }
         return first;
     };
-    for (const IntervalEquation& equation : program.equations)
-        first_of(equation.other, first_of(equation.one, kNoIndex));
-    for (const IntervalWish& wish : program.wishes) first_of(wish.variables, kNoIndex);
-    for (const IntervalFloor& floor : program.floors) first_of(floor.variables, kNoIndex);
-
-    struct Parts {
-        std::vector<std::size_t> variables, equations, wishes, floors;
+    const auto first_in = [&](const IntervalEquation& equation) {
+        return first_of(equation.other, first_of(equation.one));
     };
-    std::map<std::size_t, Parts> parts;
+    for (const IntervalEquation& equation : program.equations) first_in(equation);
+    for (const IntervalWish& wish : program.wishes) first_of(wish.variables);
+    for (const IntervalFloor& floor : program.floors) first_of(floor.variables);
+
+    std::vector<int> counts(n, 0);
+    std::map<std::size_t, std::vector<std::size_t>> variables;
     for (std::size_t v = 0; v < n; ++v) {
-        if (!program.variables[v].fixed) parts[sets.find(v)].variables.push_back(v);
+        if (program.variables[v].fixed)
+            counts[v] = program.variables[v].given;
+        else
+            variables[sets.find(v)].push_back(v);
     }
-
-    const auto sort = [&](std::vector<std::size_t> Parts::*list, std::size_t count, const auto& first) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t variable = first(i);
-            if (variable != kNoIndex) (parts[sets.find(variable)].*list).push_back(i);
-        }
+    std::map<std::size_t, IntervalSet> parts;
+    for (auto& [set, own] : variables) parts.try_emplace(set, program, std::move(own));
+    for (const IntervalEquation& equation : program.equations) {
+        const std::size_t first = first_in(equation);
+        if (first != kNoIndex) parts.at(sets.find(first)).add(equation);
+    }
+    const auto add_term = [&](const std::vector<std::size_t>& own, double wanted, double weight) {
+        const std::size_t first = first_of(own);
+        if (first != kNoIndex) parts.at(sets.find(first)).add_term(own, wanted, weight);
     };
-    sort(&Parts::equations, program.equations.size(), [&](std::size_t e) {
-        return first_of(program.equations[e].other, first_of(program.equations[e].one, kNoIndex));
-    });
-    sort(&Parts::wishes, program.wishes.size(),
-         [&](std::size_t w) { return first_of(program.wishes[w].variables, kNoIndex); });
-    sort(&Parts::floors, program.floors.size(),
-         [&](std::size_t f) { return first_of(program.floors[f].variables, kNoIndex); });
-
-    std::vector<int> counts(n);
-    for (std::size_t v = 0; v < n; ++v) counts[v] = program.variables[v].given;
-    for (const auto& [set, part] : parts) {
-        const auto own =
-            IntervalSet(program, part.variables, part.equations, part.wishes, part.floors).solve();
-        for (std::size_t i = 0; i < part.variables.size(); ++i)
-            counts[part.variables[i]] = own ? (*own)[i] : 0;
-    }
+    for (const IntervalWish& wish : program.wishes) add_term(wish.variables, wish.wanted, wish.weight);
+    for (const IntervalFloor& floor : program.floors) add_term(floor.variables, floor.least, 0);
+    for (auto& [set, part] : parts) part.solve(counts);
     return counts;
 }
 

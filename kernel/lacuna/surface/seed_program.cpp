@@ -34,6 +34,11 @@ constexpr double kEvenCore = 1;
 /// throughout.
 constexpr double kQuadsForRows = 20;
 
+/// Weight of an edge that is changed last, relative to others, if the present counts are repaired. Heuristic.
+constexpr double kLastWeight = 10;
+/// Weight of half the total of a face. The wish is where the search starts and hardly counts.
+constexpr double kHalfWeight = 1e-6;
+
 /// A grid of a face, as the variables along its sides in either direction.
 using FaceGrid = std::array<std::vector<std::size_t>, 2>;
 
@@ -45,13 +50,17 @@ struct Program {
     std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
     std::vector<FaceGrid> grids;         ///< grids that fill a face together
     double asked = 0;                    ///< quads wanted on those faces
+    /// If the present counts are wanted: the edges to be changed last; else null.
+    const std::set<EdgeId>* last = nullptr;
 };
 
-void add_piece(SeedPiece& piece, Program& program)
+void add_piece(EdgeId edge, SeedPiece& piece, Program& program)
 {
-    const double wanted = piece.rows() > 0 ? piece.count : piece.sides;
+    const bool repairs = program.last != nullptr;
+    const double wanted = repairs || piece.rows() > 0 ? piece.count : piece.sides;
+    const double weight = repairs && program.last->contains(edge) ? kLastWeight : 1;
     const std::size_t variable = program.intervals.variables.size();
-    program.intervals.wishes.push_back({{variable}, std::max(wanted, kLeastWish), 1});
+    program.intervals.wishes.push_back({{variable}, std::max(wanted, kLeastWish), weight});
     program.intervals.variables.push_back(
         {std::max(piece.least, piece.rows() + 1), piece.count, piece.fixed});
     program.pieces.push_back(&piece);
@@ -67,10 +76,41 @@ std::vector<std::size_t> variables_of(Seeds& seeds, const std::vector<EdgeId>& e
         const auto [found, fresh] = program.first.try_emplace(edge, program.intervals.variables.size());
         for (std::size_t i = 0; i < own.size(); ++i) {
             variables.push_back(found->second + i);
-            if (fresh) add_piece(own[i], program);
+            if (fresh) add_piece(edge, own[i], program);
         }
     }
     return variables;
+}
+
+std::size_t add_variable(IntervalProgram& intervals)
+{
+    intervals.variables.push_back({});
+    return intervals.variables.size() - 1;
+}
+
+/// An even total of some edges.
+void add_even(Seeds& seeds, const std::vector<EdgeId>& edges, Program& program)
+{
+    std::vector<std::size_t> all = variables_of(seeds, edges, program);
+    const std::size_t half = add_variable(program.intervals);
+    program.intervals.wishes.push_back(
+        {{half}, std::max(total(seeds, edges) / 2.0, kLeastWish), kHalfWeight});
+    program.intervals.equations.push_back({std::move(all), {half, half}});
+}
+
+/// Equal counts on edges that a symmetry of a face maps onto each other.
+void add_alike(const AlikeEdges& alike, Program& program)
+{
+    for (const auto& [face, sets] : alike) {
+        for (const std::vector<EdgeId>& set : sets) {
+            const auto first = program.first.find(set.front());
+            for (std::size_t i = 1; i < set.size() && first != program.first.end(); ++i) {
+                const auto other = program.first.find(set[i]);
+                if (other != program.first.end())
+                    program.intervals.equations.push_back({{first->second}, {other->second}});
+            }
+        }
+    }
 }
 
 /// Opposite sides of mapped and submapped faces have the same number of sides.
@@ -129,16 +169,13 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
               Program& program)
 {
     IntervalProgram& intervals = program.intervals;
-    const auto fresh = [&] {
-        intervals.variables.push_back({});
-        return intervals.variables.size() - 1;
-    };
     const std::vector<std::vector<EdgeId>> side = sides_by_corners(task.model, face);
     const auto bulge = bulge_of(task.model, face, side, task.size);
     if (side.size() == 3) {
         std::array<std::vector<std::size_t>, 3> own;
         for (std::size_t s = 0; s < 3; ++s) own[s] = variables_of(seeds, side[s], program);
-        const std::array<std::size_t, 3> grid{fresh(), fresh(), fresh()};
+        const std::array<std::size_t, 3> grid{add_variable(intervals), add_variable(intervals),
+                                              add_variable(intervals)};
         for (std::size_t s = 0; s < 3; ++s)
             intervals.equations.push_back({own[s], {grid[s], grid[(s + 1) % 3]}});
         for (std::size_t s = 0; s < 3; ++s) program.grids.push_back({{{grid[s]}, {grid[(s + 1) % 3]}}});
@@ -154,7 +191,7 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
     } else if (side.size() == 2 && bulge && bulge->turn > kHalves) {
         const std::vector<std::size_t> round = variables_of(seeds, side[bulge->side], program),
                                        other = variables_of(seeds, side[1 - bulge->side], program);
-        const std::size_t core = fresh(), rows = fresh();
+        const std::size_t core = add_variable(intervals), rows = add_variable(intervals);
         intervals.equations.push_back({round, {core, core, core, core}});
         intervals.equations.push_back({other, {core, core, rows, rows}});
         program.grids.push_back({{{core, core}, {core, rows, rows}}});
@@ -165,13 +202,11 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
         const double a = length_of(task.model, side[0]), b = length_of(task.model, side[1]);
         std::vector<std::size_t> longer = variables_of(seeds, side[a > b ? 0 : 1], program),
                                  shorter = variables_of(seeds, side[a > b ? 1 : 0], program);
-        const std::size_t more = fresh();
+        const std::size_t more = add_variable(intervals);
         shorter.insert(shorter.end(), {more, more});
         intervals.equations.push_back({std::move(longer), std::move(shorter)});
     } else {
-        std::vector<std::size_t> all = variables_of(seeds, edges, program);
-        const std::size_t half = fresh();
-        intervals.equations.push_back({std::move(all), {half, half}});
+        add_even(seeds, edges, program);
     }
     return false;
 }
@@ -196,82 +231,13 @@ std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids,
     return settled;
 }
 
-/// The same, with equal counts on edges that a symmetry of a face maps onto each other.
-IntervalProgram with_alike(const Program& program, const AlikeEdges& alike)
-{
-    IntervalProgram intervals = program.intervals;
-    for (const auto& [face, sets] : alike) {
-        for (const std::vector<EdgeId>& set : sets) {
-            const auto first = program.first.find(set.front());
-            for (std::size_t i = 1; i < set.size() && first != program.first.end(); ++i) {
-                const auto other = program.first.find(set[i]);
-                if (other != program.first.end())
-                    intervals.equations.push_back({{first->second}, {other->second}});
-            }
-        }
-    }
-    return intervals;
-}
-
-/// The same, with equal counts on edges of a submapped face that want the same count.
-IntervalProgram with_straight(const SeedTask& task, const Seeds& seeds, const IntervalProgram& intervals,
-                              const Program& program)
-{
-    IntervalProgram straight = intervals;
-    for (const FaceId face : seeds.submapped) {
-        std::vector<std::pair<double, std::size_t>> wanted; // by variable
-        for (const EdgeId edge : edges_of(task.model, face)) {
-            const std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
-            const auto first = program.first.find(edge);
-            if (first == program.first.end() || pieces.size() > 1 || pieces.front().fixed) continue;
-            wanted.emplace_back(pieces.front().sides, first->second);
-        }
-        std::ranges::sort(wanted);
-        for (std::size_t i = 1; i < wanted.size(); ++i) {
-            if (wanted[i].first <= (1 + kAlikeSizes) * wanted[i - 1].first)
-                straight.equations.push_back({{wanted[i - 1].second}, {wanted[i].second}});
-        }
-    }
-    return straight;
-}
-
-/// Whether counts with straight grid lines cost little more than others: an L of 400 quads gets 24, 12 and 12
-/// sides, although 23, 12 and 11 cost least.
-/// @param share  factor on the wanted numbers of sides
-bool is_worth_it(const Program& program, double share, const std::vector<int>& straight,
-                 const std::vector<int>& counts)
-{
-    constexpr double kCost = 2, kQuads = 0.15; // factor on the cost, and share of quads; heuristic
-    if (std::ranges::find(straight, 0) != straight.end()) return false;
-    double sides = 0, wanted = 0;
-    for (std::size_t p = 0; p < program.pieces.size(); ++p) {
-        if (program.pieces[p]->fixed) continue;
-        sides += straight[program.piece_variable[p]];
-        wanted += share * program.pieces[p]->sides;
-    }
-    return std::abs(sides * sides / (wanted * wanted) - 1) <= kQuads &&
-           cost_of_intervals(program.intervals, straight) <=
-               kCost * cost_of_intervals(program.intervals, counts);
-}
-
-/// Counts of least cost, with alike and straight variants if these cost little more.
-/// @param share  factor on the wanted numbers of sides; 0: only those that are set.
-std::vector<int> solve(const SeedTask& task, const AlikeEdges& alike, const Seeds& seeds, Program program,
-                       double share)
+/// Counts of least cost.
+/// @param share  factor on the wanted numbers of sides.
+std::vector<int> solve(Program program, double share)
 {
     for (IntervalWish& wish : program.intervals.wishes)
         wish.wanted = std::max(share * wish.wanted, kLeastWish);
-    const IntervalProgram intervals = with_alike(program, alike);
-    std::vector<int> counts = solve_intervals(intervals);
-    std::vector<int> straight = solve_intervals(with_straight(task, seeds, intervals, program));
-    if (is_worth_it(program, share, straight, counts)) counts = std::move(straight);
-    if (std::ranges::find(counts, 0) != counts.end()) {
-        const std::vector<int> unlike = solve_intervals(program.intervals);
-        for (std::size_t v = 0; v < counts.size(); ++v) {
-            if (counts[v] == 0) counts[v] = unlike[v];
-        }
-    }
-    return counts;
+    return solve_intervals(program.intervals);
 }
 
 /// Quads of all grids; 0 if some have no solution.
@@ -295,14 +261,13 @@ double quads_of(const Program& program, const std::vector<int>& counts)
 
 /// Counts of least cost. If these give too many or too few quads, solve again with scaled wanted counts:
 /// three grids around a node have more quads than the sides of their face suggest.
-std::vector<int> solve_for_quads(const SeedTask& task, const AlikeEdges& alike, const Seeds& seeds,
-                                 const Program& program)
+std::vector<int> solve_for_quads(const Program& program)
 {
     // The promised number of quads is the requested one within a quarter. The weight inside that range and
     // the number of corrections are heuristic.
     constexpr double kNear = 0.1, kQuads = 0.25;
     constexpr int kTries = 4;
-    std::vector<int> best = solve(task, alike, seeds, program, 1), counts = best;
+    std::vector<int> best = solve(program, 1), counts = best;
     const auto rank = [&](const std::vector<int>& of) {
         const double off = quads_of(program, of) - program.asked;
         return std::pair(std::abs(off) > kQuadsOff * program.asked,
@@ -313,7 +278,7 @@ std::vector<int> solve_for_quads(const SeedTask& task, const AlikeEdges& alike, 
         const double quads = quads_of(program, counts);
         if (quads == 0 || std::abs(quads - program.asked) <= kNear * program.asked) break;
         share *= std::sqrt(program.asked / quads);
-        counts = solve(task, alike, seeds, program, share);
+        counts = solve(program, share);
         if (quads_of(program, counts) > 0 && rank(counts) < rank(best)) best = counts;
     }
     return best;
@@ -328,7 +293,8 @@ std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, co
     add_mapped(task, grids, seeds, all);
     const Program mapped = all;
     std::set<EdgeId> settled = add_beside_mapped(task, grids, seeds, all);
-    const std::vector<int> counts = solve_for_quads(task, alike, seeds, all);
+    add_alike(alike, all);
+    const std::vector<int> counts = solve_for_quads(all);
     std::vector<int> fewer; // if the free faces have no solution
     for (std::size_t p = 0; p < all.pieces.size(); ++p) {
         int count = counts[all.piece_variable[p]];
@@ -339,6 +305,31 @@ std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, co
         if (count > 0) all.pieces[p]->count = count;
     }
     return settled;
+}
+
+void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike,
+               const std::set<EdgeId>& settled, Seeds& seeds)
+{
+    std::set<EdgeId> last = settled;
+    for (const auto& [face, sets] : alike) {
+        for (const std::vector<EdgeId>& set : sets) {
+            if (set.size() > 1) last.insert(set.begin(), set.end());
+        }
+    }
+    Program all;
+    all.last = &last;
+    for (const auto& [face, pairs] : grids.opposite) {
+        for (const SidePair& sides : pairs)
+            all.intervals.equations.push_back(
+                {variables_of(seeds, sides[0], all), variables_of(seeds, sides[1], all)});
+    }
+    for (const FaceId face : task.faces) {
+        if (is_free(grids, seeds, face)) add_even(seeds, edges_of(task.model, face), all);
+    }
+    const std::vector<int> counts = solve_intervals(all.intervals);
+    for (std::size_t p = 0; p < all.pieces.size(); ++p) {
+        if (counts[all.piece_variable[p]] > 0) all.pieces[p]->count = counts[all.piece_variable[p]];
+    }
 }
 
 } // namespace lacuna::surface

@@ -25,13 +25,11 @@ Seeds seed_source(const topology::OpenVolume& volume, std::span<const LinkingSur
     const AlikeEdges alike = ask_alike(seeds, volume.model, task.faces);
     FaceGrids grids = choose_grids(task, seeds);
     std::set<EdgeId> settled = solve_together(task, grids, alike, seeds);
-    balance(task, grids, seeds);
+    free_unequal(task, grids, seeds);
     settled = fit_grids(task, grids, std::move(settled), seeds, context);
     make_halvable(task, grids, settled, seeds);
-    for (int round = 0; round < 2; ++round) {
-        make_even(task, grids, alike, seeds);
-        balance(task, grids, seeds);
-    }
+    make_even(task, grids, alike, settled, seeds);
+    free_unequal(task, grids, seeds);
     finish_even(task, grids, seeds);
     square_mapped_lines(seeds, volume, links, context);
     return seeds;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/surface/detail/alike_edges.h>
 #include <lacuna/surface/detail/face_grids.h>
 
 #include <set>
@@ -14,10 +13,6 @@ namespace lacuna::surface {
 /// @param settled  edges that are not changed either.
 void make_halvable(const SeedTask& task, const FaceGrids& grids, const std::set<EdgeId>& settled,
                    Seeds& seeds);
-
-/// Pass odd sides of free faces towards the rim, starting with the faces that are the most edges away from
-/// it. A mapped face between two free ones passes a side to its opposite side.
-void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike, Seeds& seeds);
 
 /// Quads cannot fill a rim with an odd number of sides. If all are given, the longest side on the rim without
 /// kept quads is divided, or with wedges one cell is a triangle; a note says so.

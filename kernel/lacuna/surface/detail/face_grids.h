@@ -30,9 +30,8 @@ bool is_free(const FaceGrids& grids, const Seeds& seeds, FaceId face);
 /// folds.
 bool faces_one_way(const topology::Model& model, FaceId face, const Vec3& normal);
 
-/// Equal counts on opposite sides of every mapped face. Counts only grow; if this does not terminate, or the
-/// counts are fixed, the face becomes free.
+/// Faces whose opposite sides still have different counts, because these are fixed, become free.
 /// @throw NotSweepable "surface.kept_side"  if all faces must be mapped.
-void balance(const SeedTask& task, FaceGrids& grids, Seeds& seeds);
+void free_unequal(const SeedTask& task, FaceGrids& grids, Seeds& seeds);
 
 } // namespace lacuna::surface

@@ -49,15 +49,15 @@ struct IntervalProgram {
 /// longer than 1.6 of the wanted length cost more, in proportion to the excess.
 ///
 /// Independent sets of equations are solved separately. Each set is brought to reduced row echelon form in
-/// integers, as in @cite mitchell_2021_intervals; its free variables give vectors along which all equations
-/// stay satisfied. Starting from the rounded wishes, and again from the real minimizer, a local search moves
-/// along these vectors, single and in pairs, by steps of powers of two, always taking the step with the
-/// largest gain, and keeps the better result. A set with more than 64 free variables uses single vectors and
-/// the first start only. The result may be slightly above the minimum: of 143 random programs with solutions,
-/// one was, by a tenth, from the first start alone (tests/surface/test_interval_program.cpp).
-/// @return  a number for each variable; 0 for those of a set that is too large, whose equations contradict
-///          each other or a floor, or that has no integer starting point.
-/// @note    Deterministic. O(equations² · variables) per set, and O(free² · wishes) per step.
+/// integers with sparse rows, as in @cite mitchell_2021_intervals; an equation that contradicts earlier ones
+/// is left out. The free variables give vectors along which all equations stay satisfied. Starting from the
+/// rounded wishes, a local search moves along these vectors, single and in pairs, by steps of powers of two,
+/// always taking the step with the largest gain. A set with more than 64 free variables uses single vectors
+/// only. The result may be slightly above the minimum: of 143 random programs with solutions, one was, by a
+/// tenth (tests/surface/test_interval_program.cpp).
+/// @return  a number for each variable; 0 for those of a set whose equations contradict a floor, or that has
+///          no integer starting point.
+/// @note    Deterministic. O(equations · entries of the rows) per set, and O(free² · wishes) per step.
 std::vector<int> solve_intervals(const IntervalProgram& program);
 
 /// The objective of a solution, as minimized by `solve_intervals()`.

@@ -15,4 +15,11 @@ namespace lacuna::surface {
 std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike,
                                 Seeds& seeds);
 
+/// Repair the counts with the least change, so that opposite sides of grids are equal and the total of each
+/// free face is even: as one program over all edges, as far as given numbers permit.
+/// @param alike    edges that a symmetry of a face maps onto others are changed last,
+/// @param settled  and so are edges with the counts of a grid.
+void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike,
+               const std::set<EdgeId>& settled, Seeds& seeds);
+
 } // namespace lacuna::surface

@@ -120,12 +120,11 @@ struct Seeds {
 ///   even total.
 /// A face with one round side should have rows a third of its radius deep along it, and as many sides on the
 /// line behind these rows as its length requires: both are terms of the sum. Lengths are measured in space,
-/// so a face that bulges or narrows between its sides gets the counts its interior needs. If given numbers
-/// contradict each other, sides are raised to the larger count, one face at a time until nothing changes. A
-/// face whose grid would be poor by its angles and lengths in space is free. Then free faces get the counts
-/// of a grid one after the other, respecting settled edges; those with the most loops first, because their
-/// loops must agree. Then each free face with an odd total gets one more side on a rim edge of its own, or on
-/// an edge towards the rim; a mapped face in between passes it on. Finally nodes on the sides of mapped faces
+/// so a face that bulges or narrows between its sides gets the counts its interior needs. A face whose given
+/// sides contradict each other, or whose grid would be poor by its angles and lengths in space, is free. Then
+/// free faces get the counts of a grid one after the other, respecting settled edges; those with the most
+/// loops first, because their loops must agree. A second program over all edges of the source makes every
+/// free face's total even with the least change. Finally nodes on the sides of mapped faces
 /// move along them where the grid's lines are oblique to them; on the target they get positions of their own
 /// if the sections in between differ.
 /// @param sizing  sides for a full turn; with a gap no face is submapped unless requested, except if
