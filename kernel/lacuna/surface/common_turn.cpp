@@ -4,7 +4,6 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/minimal_frame.h>
-#include <lacuna/surface/detail/linking_map.h>
 
 #include <Eigen/Geometry>
 
@@ -72,78 +71,6 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, co
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;
 }
 
-/// Integrates the common rotation along the walls, row by row.
-class TurnTracker {
-public:
-    TurnTracker(const topology::OpenVolume& volume, std::span<const LinkingSurface> links)
-        : links_(links), rings_(links.size())
-    {
-        for (const LinkingSurface& link : links) maps_.emplace_back(volume, link);
-        for (std::size_t b = 0; b < links.size(); ++b) {
-            for (std::size_t row = 0; row <= kRows; ++row)
-                rings_[b].push_back(ring(volume.model, maps_[b], static_cast<double>(row) / kRows));
-        }
-    }
-
-    /// For each linking surface, the s of the target end of its shortest path, relative to its start column.
-    std::vector<double> branches()
-    {
-        std::vector<double> shift(links_.size(), 0.0);
-        Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-        for (std::size_t row = 1; row <= kRows; ++row) {
-            turn = step(row) * turn;
-            for (std::size_t b = 0; b < links_.size(); ++b) {
-                if (!links_[b].lines.empty()) continue;
-                const double off = best_shift(rings_[b].front(), rings_[b][row], turn) - shift[b];
-                shift[b] += off - std::round(off);
-            }
-        }
-        std::vector<double> branches;
-        for (std::size_t b = 0; b < links_.size(); ++b)
-            branches.push_back(maps_[b].target_branch() - shift[b]);
-        return branches;
-    }
-
-private:
-    static constexpr std::size_t kRows = 32; ///< a full turn is resolved in steps of 11 degrees
-
-    static std::vector<Vec3> ring(const topology::Model& model, const LinkingMap& map, double height)
-    {
-        std::vector<Vec3> points;
-        for (std::size_t i = 0; i < kRingPoints; ++i) {
-            const WallPosition place = map.locate(static_cast<double>(i) / kRingPoints,
-                                                  map.from_even(height));
-            points.push_back(points_at(model, place.face, std::array{place.at}).front());
-        }
-        return points;
-    }
-
-    /// The rotation from one row to the next: of the rings' centres, and of the rings' points if side lines
-    /// relate them.
-    [[nodiscard]] Eigen::Matrix3d step(std::size_t row) const
-    {
-        std::vector<RimPair> pairs;
-        Vec3 low = Vec3::Zero(), high = Vec3::Zero();
-        for (std::size_t b = 0; b < links_.size(); ++b) {
-            const std::vector<Vec3>&from = rings_[b][row - 1], &to = rings_[b][row];
-            low += geometry::newell_vector(from);
-            high += geometry::newell_vector(to);
-            const double weight = links_[b].source.length();
-            if (links_[b].lines.empty()) {
-                pairs.push_back({geometry::mean_point(from), geometry::mean_point(to), weight});
-                continue;
-            }
-            for (std::size_t i = 0; i < kRingPoints; ++i)
-                pairs.push_back({from[i], to[i], weight / kRingPoints});
-        }
-        return fitted_turn(pairs, low, high).value_or(geometry::least_turn(low, high));
-    }
-
-    std::span<const LinkingSurface> links_;
-    std::vector<LinkingMap> maps_;
-    std::vector<std::vector<std::vector<Vec3>>> rings_; ///< for each linking surface and row
-};
-
 } // namespace
 
 std::vector<Vec3> round_points(const Chain& chain)
@@ -172,8 +99,7 @@ double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eige
     return share - std::floor(share);
 }
 
-std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& volume,
-                                                    std::span<const LinkingSurface> links)
+std::vector<std::optional<CommonTurn>> common_turns(std::span<const LinkingSurface> links)
 {
     std::vector<std::optional<CommonTurn>> turns(links.size());
     const bool free = std::ranges::any_of(links, [](const LinkingSurface& b) { return b.lines.empty(); });
@@ -185,12 +111,12 @@ std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& 
     }
     const std::optional<Eigen::Matrix3d> turn = fitted_turn(pairs_of(links), source_area, target_area);
     if (!turn) return turns;
-    const std::vector<double> branches = TurnTracker(volume, links).branches();
     for (std::size_t b = 0; b < links.size(); ++b) {
         const Chain &low = links[b].source, &high = links[b].target;
-        if (!links[b].lines.empty()) continue;
+        if (!links[b].branch) continue;
         const double shift = best_shift(round_points(low), round_points(high), *turn);
-        turns[b] = CommonTurn{shift * high.length(), branches[b]};
+        const double off = shift - links[b].segments.front().target_from / high.length();
+        turns[b] = CommonTurn{shift * high.length(), *links[b].branch - std::remainder(off, 1.0)};
     }
     return turns;
 }

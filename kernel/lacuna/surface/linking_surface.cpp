@@ -317,7 +317,7 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
         result.push_back(std::move(*by_rim[s]));
     }
     if (turning == Turning::each) return result;
-    const std::vector<std::optional<CommonTurn>> turns = common_turns(volume, result);
+    const std::vector<std::optional<CommonTurn>> turns = common_turns(result);
     for (std::size_t b = 0; b < result.size(); ++b) {
         if (!turns[b]) continue;
         LinkingSurface& link = result[b];

@@ -31,11 +31,10 @@ double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eige
 
 /// The rotations of linking surfaces without side lines; none for one that has them.
 ///
-/// The rotation is the rigid motion that best fits the loops' centres and the points paired by side lines. It
-/// is integrated from row to row of the walls, so that half a turn or more in one direction is not mistaken
-/// for less in the other. It is undetermined, and not returned, for a single loop, for concentric loops, or
-/// if all linking surfaces have side lines.
-std::vector<std::optional<CommonTurn>> common_turns(const topology::OpenVolume& volume,
-                                                    std::span<const LinkingSurface> links);
+/// The rotation is the rigid motion that best fits the loops' centres and the points paired by side lines.
+/// Whole turns are those by which it differs least from the rotation of a loop's own walls. It is
+/// undetermined, and not returned, for a single loop, for concentric loops, for a loop with corresponding
+/// vertices, or if all linking surfaces have side lines.
+std::vector<std::optional<CommonTurn>> common_turns(std::span<const LinkingSurface> links);
 
 } // namespace lacuna::surface
