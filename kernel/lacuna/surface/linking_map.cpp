@@ -11,6 +11,7 @@
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/common_turn.h>
 #include <lacuna/surface/shared/rim_breaks.h>
@@ -435,29 +436,21 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
         }
     }
     // Pieces that meet at a vertex form one ring.
-    std::vector<bool> used(pieces.size(), false);
+    geometry::UnionFind sets(pieces.size());
+    std::map<VertexId, std::size_t> first_at;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        if (used[i]) continue;
-        used[i] = true;
-        Ring ring = pieces[i];
-        double weight = static_cast<double>(ring.pieces.size());
-        ring.height *= weight;
-        for (bool grown = true; grown;) {
-            grown = false;
-            for (std::size_t j = 0; j < pieces.size(); ++j) {
-                const bool meets = std::ranges::find_first_of(pieces[j].vertices, ring.vertices) !=
-                                   pieces[j].vertices.end();
-                if (used[j] || !meets) continue;
-                used[j] = grown = true;
-                const auto more = static_cast<double>(pieces[j].pieces.size());
-                ring.height += more * pieces[j].height;
-                weight += more;
-                ring.pieces.insert(ring.pieces.end(), pieces[j].pieces.begin(), pieces[j].pieces.end());
-                ring.vertices.insert(ring.vertices.end(), pieces[j].vertices.begin(),
-                                     pieces[j].vertices.end());
-            }
-        }
-        ring.height /= weight;
+        for (const VertexId vertex : pieces[i].vertices)
+            sets.unite_least(i, first_at.try_emplace(vertex, i).first->second);
+    }
+    std::map<std::size_t, Ring> rings;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        Ring& ring = rings[sets.find(i)];
+        ring.height += pieces[i].height * static_cast<double>(pieces[i].pieces.size());
+        ring.pieces.insert(ring.pieces.end(), pieces[i].pieces.begin(), pieces[i].pieces.end());
+        ring.vertices.insert(ring.vertices.end(), pieces[i].vertices.begin(), pieces[i].vertices.end());
+    }
+    for (auto& [set, ring] : rings) {
+        ring.height /= static_cast<double>(ring.pieces.size());
         rings_.push_back(std::move(ring));
     }
     std::ranges::stable_sort(rings_, {}, &Ring::height);

@@ -8,7 +8,6 @@
 #include <lacuna/geometry/shared/swept_patch.h>
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/chain_nodes.h>
-#include <lacuna/surface/detail/follow_rows.h>
 #include <lacuna/surface/detail/strip_grid.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -22,10 +21,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-/// A patch that is farther from its face than this share of the shorter rim does not guide node positions on
-/// the face. Heuristic.
-constexpr double kFarFromPatch = 0.05;
 
 /// The faces of the wall segment after each side line.
 std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSurface& link)
@@ -88,15 +83,12 @@ public:
         }
         // Given nodes leave no column for an edge between void faces, so such edges are ignored.
         map_.reset();
-        followed_.clear();
         net_ = {};
         WallMesh result = mesh(false);
         result.notes.emplace_back("edges between void faces are not followed by the mesh, because "
                                   "the given nodes of the walls leave no column for them");
         return result;
     }
-
-    [[nodiscard]] const std::vector<FollowedPanel>& followed() const { return followed_; }
 
 private:
     WallMesh mesh(bool void_edges)
@@ -112,24 +104,17 @@ private:
             map_ = std::make_unique<LinkingMap>(volume_, link_, void_edges, context_);
             net_ = wall_net(model_, link_, *map_);
         }
-        lay_grid();
+        grid_ = lay_strip({model_, link_, nodes_, heights_, line_of_, begun_}, map_.get(), net_, context_);
         mesh_lines();
         if (panels.empty()) mesh_by_map(0, count_);
         for (std::size_t i = 0; i < panels.size(); ++i) {
             const std::size_t first = nodes_.line[i];
             const std::size_t last = i + 1 < panels.size() ? nodes_.line[i + 1] : count_;
             if (begun_.given.has_all(first, last)) continue;
-            if (follows(panels[i])) {
-                followed_.push_back({0, first, last, panels[i].front()});
-                set_faces(panels[i].front(), first, last);
-                continue;
-            }
-            if (is_simple(panels[i]) && mesh_transfinite(panels[i].front(), first, last)) continue;
-            if (map_ == nullptr) {
-                map_ = std::make_unique<LinkingMap>(volume_, link_, true, context_);
-                lay_grid();
-            }
-            mesh_by_map(first, last);
+            if (is_simple(panels[i]))
+                mesh_transfinite(panels[i].front(), first, last);
+            else
+                mesh_by_map(first, last);
         }
         check_stops();
         return std::move(mesh_);
@@ -143,18 +128,6 @@ private:
     void set_row(std::size_t layer, const std::vector<Vec3>& points)
     {
         for (std::size_t i = 0; i < count_; ++i) point(layer, i) = points[i];
-    }
-
-    [[nodiscard]] bool follows(const std::vector<FaceId>& faces) const
-    {
-        return is_simple(faces) && model_[faces.front()].geometry == Geometry::followed;
-    }
-
-    void set_faces(FaceId face, std::size_t first, std::size_t last)
-    {
-        for (std::size_t k = 0; k < layers_; ++k) {
-            for (std::size_t i = first; i < last; ++i) mesh_.face[k * count_ + i] = face;
-        }
     }
 
     [[nodiscard]] bool is_simple(const std::vector<FaceId>& faces) const
@@ -175,11 +148,6 @@ private:
                         entity_of(model_, net_.columns[stop.column].edge), entity_of(model_, stop.vertex))
                     .remedy("load with keep_mesh = false, or merge the two adjacent faces"));
         }
-    }
-
-    void lay_grid()
-    {
-        grid_ = lay_strip({model_, link_, nodes_, heights_, line_of_, begun_}, map_.get(), net_, context_);
     }
 
     /// The position of a node that lies on an edge.
@@ -206,7 +174,7 @@ private:
         }
     }
 
-    bool mesh_transfinite(FaceId face, std::size_t first, std::size_t last)
+    void mesh_transfinite(FaceId face, std::size_t first, std::size_t last)
     {
         const std::size_t n = last - first;
         std::vector<Vec3> bottom, top, left, right;
@@ -228,45 +196,20 @@ private:
         }
         const Face& f = model_[face];
         if (f.kind != "plane" && !inside.empty()) {
-            const std::vector<Vec3> patch = inside;
             if (exact_) {
                 Projector(model_, {face}).project(inside, context_);
             } else {
                 const geometry::FacetTree tree(model_.points, f.triangles);
                 for (Vec3& p : inside) p = tree.closest(p).point;
             }
-            double moved = 0;
-            for (std::size_t i = 0; i < inside.size(); ++i)
-                moved = std::max(moved, (inside[i] - patch[i]).norm());
-            // Around a seam the patch has no chord to rotate with; far from the face it would distribute the
-            // nodes arbitrarily.
-            const bool round_a_seam = n == count_;
-            if (round_a_seam &&
-                moved > kFarFromPatch * std::min(geometry::length(bottom), geometry::length(top)))
-                return false;
         }
         std::size_t next = 0;
         for (std::size_t k = 1; k < layers_; ++k) {
             for (std::size_t i = 1; i < n; ++i) point(k, first + i) = inside[next++];
         }
-        set_faces(face, first, last);
-        return f.origin != Origin::given || !folds(first, last);
-    }
-
-    /// Whether a quad between two columns has a corner that is inverted against the quad's normal.
-    [[nodiscard]] bool folds(std::size_t first, std::size_t last)
-    {
         for (std::size_t k = 0; k < layers_; ++k) {
-            for (std::size_t i = first; i < last; ++i) {
-                const std::array<Vec3, 4> c{point(k, i), point(k, i + 1), point(k + 1, i + 1),
-                                            point(k + 1, i)};
-                const Vec3 normal = (c[2] - c[0]).cross(c[3] - c[1]);
-                for (std::size_t j = 0; j < 4; ++j) {
-                    if ((c[(j + 1) % 4] - c[j]).cross(c[(j + 3) % 4] - c[j]).dot(normal) <= 0) return true;
-                }
-            }
+            for (std::size_t i = first; i < last; ++i) mesh_.face[k * count_ + i] = face;
         }
-        return false;
     }
 
     void mesh_by_map(std::size_t first, std::size_t last)
@@ -308,7 +251,6 @@ private:
     BegunWall begun_;
     WallMesh mesh_;
     std::unique_ptr<LinkingMap> map_;
-    std::vector<FollowedPanel> followed_;
     WallNet net_;
     StripGrid grid_;
     std::vector<int> line_of_; ///< side line of each node of the rim; -1: none
@@ -349,18 +291,10 @@ std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const Linki
 {
     const GivenColumns none;
     std::vector<WallMesh> meshes;
-    std::vector<FollowedPanel> followed;
     for (std::size_t b = 0; b < links.size(); ++b) {
-        WallMesher mesher(volume, links[b], nodes[b], columns.empty() ? none : columns[b], heights, exact,
-                          context);
-        meshes.push_back(mesher.run());
-        for (FollowedPanel panel : mesher.followed()) {
-            panel.link = b;
-            followed.push_back(panel);
-        }
+        const GivenColumns& given = columns.empty() ? none : columns[b];
+        meshes.push_back(WallMesher(volume, links[b], nodes[b], given, heights, exact, context).run());
     }
-    if (!followed.empty())
-        follow_rows(meshes, volume.model, nodes, followed, heights.size() - 1, exact, context);
     return meshes;
 }
 

@@ -36,8 +36,7 @@ struct WallMesh {
 /// side, or no side line at all) are meshed by the harmonic map of the linking surface, where edges between
 /// faces are followed: edges around the walls by layers, edges up the walls by columns, and a node lies where
 /// they meet, turn or end. The other nodes move by a harmonic field over the grid, so that layers and columns
-/// bend towards the edges. Void faces that follow the given walls come last: two affine fits per row map
-/// their nodes like those of the other walls, so that rows stay level around the volume.
+/// bend towards the edges.
 ///
 /// Columns of given nodes are used unchanged, including the quads between them.
 /// @param nodes    of each linking surface.
