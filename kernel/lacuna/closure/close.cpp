@@ -11,6 +11,7 @@
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/smooth_ends.h>
 #include <lacuna/closure/detail/stubs.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_edges.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
@@ -308,11 +309,7 @@ private:
     /// The volume enclosed if it is sealed in a way; empty if that fails.
     std::optional<double> volume_sealed_as(const Way& way, const matching::Match& match) const
     {
-        try {
-            return enclosed_volume(seal_as(way, match).volume);
-        } catch (const NotClosed&) {
-            return std::nullopt;
-        }
+        return unless_refused([&] { return enclosed_volume(seal_as(way, match).volume); });
     }
 
     /// A failure with the option that was found to seal; options that also failed are not suggested.
@@ -334,16 +331,14 @@ private:
         matching::MatchOptions turned;
         turned.vertices = pairs_by_hand(volume_, options_);
         for (const matching::LoopPair& pair : match.loops) turned.flip.push_back(pair.source);
-        try {
-            const matching::Match other = matching::match(volume_, turned, context_);
-            for (const Way& way : wanted(other)) {
-                if (volume_sealed_as(way, other))
-                    return failed.remedy(
-                        "match{{ flip = {{ {} }} }} seals it",
-                        full_list(turned.flip, [](int loop) { return formatted("{}", loop + 1); }));
-            }
-        } catch (const NotClosed&) {
-        } catch (const InvalidInput&) { // the direction is fixed by walls or pairs
+        // Refused: walls or pairs fix the direction.
+        const auto other = unless_refused([&] { return matching::match(volume_, turned, context_); });
+        if (!other) return otherwise();
+        for (const Way& way : wanted(*other)) {
+            if (volume_sealed_as(way, *other))
+                return failed.remedy(
+                    "match{{ flip = {{ {} }} }} seals it",
+                    full_list(turned.flip, [](int loop) { return formatted("{}", loop + 1); }));
         }
         return otherwise();
     }

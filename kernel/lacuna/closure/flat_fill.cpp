@@ -7,8 +7,8 @@
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/split_loop.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
-#include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -104,18 +104,15 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
     volume.role.assign(faces.size(), Role::wall);
     const std::optional<ToFill> loops = loops_to_fill(result);
     if (!loops) return std::nullopt;
-    try {
+    // Refused: a ridge across a notch, whose straight edge would be outside the rim.
+    return unless_refused([&] {
         fill_flat(result, loops->flat, context);
         for (const Loop& loop : loops->bent) {
             VoidFilling filling = fill(volume, {loop}, nullptr, {"the missing wall"}, context);
             result.closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::wall));
         }
-    } catch (const InvalidInput&) { // a ridge across a notch: its straight edge would be outside the rim
-        return std::nullopt;
-    } catch (const NotClosed&) {
-        return std::nullopt;
-    }
-    return result;
+        return std::move(result);
+    });
 }
 
 /// Whether a filling is sealed and does not cross itself.

@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/guesses.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -50,18 +51,14 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
                                   const RunContext& context)
 {
     const Roles walls{{}, {}, faces};
-    std::vector<FaceId> low, high;
-    try {
+    const auto floors = unless_refused([&] {
         OpenVolume open = open_volume(model, walls, context); // renumbers the faces in the listed order
         if (free_loops(open).size() != 2 || connected_parts(open.model, open.faces(Role::wall)).size() != 1)
-            return std::nullopt;
+            return std::pair(false, false);
         const EndLoops ends = group_loops(open);
-        low = floors_round(open, ends.source);
-        high = floors_round(open, ends.target);
-    } catch (const InvalidInput&) {
-        return std::nullopt; // other candidates report it or succeed
-    }
-    if (low.empty() == high.empty()) return std::nullopt; // two floors are the ends of a ring
+        return std::pair(!floors_round(open, ends.source).empty(), !floors_round(open, ends.target).empty());
+    });
+    if (!floors || floors->first == floors->second) return std::nullopt; // two floors are the ends of a ring
     const std::optional<Sealed> sealed = seal(model, walls, context);
     if (!sealed) return std::nullopt;
     Reading reading;
@@ -70,7 +67,7 @@ std::optional<Reading> read_floor(const Model& model, const std::vector<FaceId>&
     reading.enclosed = sealed->enclosed;
     reading.guess = guess_of_bent(sealed->volume, sealed->closure, RolesBy::finding);
     if (!reading.guess) note_hole(model, {}, faces, *sealed, reading);
-    if (low.empty()) {
+    if (!floors->first) {
         for (Role& role : reading.volume.role)
             role = role == Role::source ? Role::target : role == Role::target ? Role::source : role;
     }

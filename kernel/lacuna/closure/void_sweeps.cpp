@@ -3,8 +3,8 @@
 
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/guesses.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/shared/steps.h>
-#include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/topology/shared/face_parts.h>
 
@@ -29,12 +29,8 @@ bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context
 {
     OpenVolume volume{skin, std::vector<Role>(skin.faces.size())};
     set_ends(volume, roles);
-    try {
-        if (has_steps(volume, context)) cut_steps(volume, context);
-        return true;
-    } catch (const NotSweepable&) {
-        return false;
-    }
+    return unless_refused([&] { return !has_steps(volume, context) || !cut_steps(volume, context).empty(); })
+        .has_value();
 }
 
 /// The given faces of a sealed volume, in the input model's numbering, and whether there are no others.

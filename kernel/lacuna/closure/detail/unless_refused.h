@@ -7,16 +7,15 @@
 
 namespace lacuna::closure {
 
-/// The result of an action; empty if the action throws InvalidInput or NotClosed, because the faces do not
-/// permit it.
+/// The result of an action; empty if the faces do not permit it and it throws. Cancelling passes through.
 template <class Do>
 auto unless_refused(const Do& action) -> std::optional<decltype(action())>
 {
     try {
         return action();
-    } catch (const InvalidInput&) {
-        return std::nullopt;
-    } catch (const NotClosed&) {
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error&) {
         return std::nullopt;
     }
 }
