@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 
 namespace lacuna::closure {
@@ -32,22 +31,23 @@ public:
 
     [[nodiscard]] bool open(EdgeUse half) const { return halves_.contains(half); }
 
-    /// The shortest walk from a half-edge up to, but without, another one; empty if it reaches a dead end.
-    /// @param depth  number of branchings at which the continuations are compared
-    [[nodiscard]] std::optional<std::vector<EdgeUse>> walk(EdgeUse from, EdgeUse goal, int depth) const
+    /// The shortest walk from a half-edge back to itself; empty if there is none.
+    [[nodiscard]] std::vector<EdgeUse> walk(EdgeUse start) const
     {
-        std::vector<EdgeUse> path{from};
-        std::set<EdgeUse> on_path{from};
-        for (;;) {
-            const std::vector<EdgeUse> choices = ways_on(path.back(), goal, on_path);
-            if (choices.empty()) return std::nullopt;
-            if (std::ranges::find(choices, goal) != choices.end()) return path;
-            std::optional<EdgeUse> next = choices.front();
-            if (choices.size() > 1 && depth > 0) next = shortest(choices, goal, depth);
-            if (!next) return std::nullopt;
-            on_path.insert(*next);
-            path.push_back(*next);
+        std::vector<EdgeUse> reached{start}, path;
+        std::map<EdgeUse, EdgeUse> before{{start, start}};
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            for (const EdgeUse& next : ways_on(reached[i])) {
+                if (next == start) {
+                    for (EdgeUse at = reached[i]; at != start; at = before.at(at)) path.push_back(at);
+                    path.push_back(start);
+                    std::ranges::reverse(path);
+                    return path;
+                }
+                if (before.emplace(next, reached[i]).second) reached.push_back(next);
+            }
         }
+        return path;
     }
 
     void take(const std::vector<EdgeUse>& path)
@@ -62,13 +62,13 @@ private:
         leaving_[use_from(model_, half)].push_back(half);
     }
 
-    std::vector<EdgeUse> ways_on(EdgeUse half, EdgeUse start, const std::set<EdgeUse>& on_path) const
+    std::vector<EdgeUse> ways_on(EdgeUse half) const
     {
         std::vector<EdgeUse> made, given;
         const auto found = leaving_.find(use_to(model_, half));
         if (found == leaving_.end()) return {};
         for (const EdgeUse& next : found->second) {
-            if (!halves_.contains(next) || (on_path.contains(next) && next != start)) continue;
+            if (!halves_.contains(next)) continue;
             if (next.edge == half.edge && next.reversed != half.reversed) continue;
             (made_.contains(next.edge) ? made : given).push_back(next);
         }
@@ -78,29 +78,11 @@ private:
         return first.empty() ? (came_by_void ? made : given) : first;
     }
 
-    /// The half-edge with the shortest walk to a goal.
-    std::optional<EdgeUse> shortest(const std::vector<EdgeUse>& choices, EdgeUse goal, int depth) const
-    {
-        std::optional<EdgeUse> best;
-        std::size_t least = 0;
-        for (const EdgeUse& choice : choices) {
-            const auto rest = walk(choice, goal, depth - 1);
-            if (!rest || (best && rest->size() >= least)) continue;
-            best = choice;
-            least = rest->size();
-        }
-        return best;
-    }
-
     const Model& model_;
     std::set<EdgeId> made_;
     std::set<EdgeUse> halves_;
     std::map<VertexId, std::vector<EdgeUse>> leaving_;
 };
-
-/// Number of branchings that a walk looks ahead. The cost multiplies with each; with fewer, a loop is more
-/// often longer than four sides.
-constexpr int kLookAhead = 3;
 
 } // namespace
 
@@ -126,16 +108,16 @@ std::vector<Loop> void_loops(const OpenVolume& volume, const std::vector<EdgeId>
     std::vector<Loop> loops;
     for (const EdgeUse& start : starts) {
         if (!walker.open(start)) continue;
-        const auto path = walker.walk(start, start, kLookAhead);
-        if (!path) {
+        const std::vector<EdgeUse> path = walker.walk(start);
+        if (path.empty()) {
             throw NotClosed(Message("closure.walk_open",
                                     "the walk from free {} along free edges does not return to its start",
                                     entity_of(model, start.edge))
                                 .remedy("check the faces next to it, or pair the vertices with match{{ "
                                         "vertices = … }}"));
         }
-        walker.take(*path);
-        loops.push_back({*path});
+        walker.take(path);
+        loops.push_back({path});
     }
     return loops;
 }
