@@ -84,8 +84,6 @@ bool is_far_off_plane(const Model& model, double enclosed, FaceId face)
     return beside_plane(model, face) >= kDoubt * enclosed;
 }
 
-bool is_void(const Model& model, EdgeId edge) { return model[edge].origin == Origin::made_void; }
-
 /// Largest distance of points from the plane of their largest projected area [model length].
 double off_one_plane(std::vector<Vec3> places)
 {
@@ -96,38 +94,7 @@ double off_one_plane(std::vector<Vec3> places)
     return furthest;
 }
 
-/// Whether given edges of a loop, starting at one, turn two corners within one plane.
-bool goes_round_plane(const Model& model, const Loop& loop, std::size_t first)
-{
-    std::vector<EdgeUse> run;
-    int corners = 0;
-    for (std::size_t k = 0; k < loop.uses.size(); ++k) {
-        const EdgeUse use = loop.uses[(first + k) % loop.uses.size()];
-        if (is_void(model, use.edge)) return false;
-        if (!run.empty() && turns_sharply(model, run.back(), use)) ++corners;
-        run.push_back(use);
-        if (run.size() > 1 && off_one_plane(use_places(model, run)) > model.tolerance) return false;
-        if (corners == 2) return true;
-    }
-    return false;
-}
-
-/// Whether a void face is blended between its sides instead of being a height over its plane.
-bool is_stretched(const Model& model, FaceId face)
-{
-    return model[face].geometry != Geometry::newell && !is_about_flat(model, face);
-}
-
 bool has_many_corners(const Model& model, const Loop& loop) { return sharp_corners(model, loop).size() > 4; }
-
-/// Whether a void face is bent and its rim does not determine the bend.
-bool is_open(const Model& model, FaceId face)
-{
-    if (bends_as_rim(model, face)) return false;
-    if (is_membrane(model, face)) return true;
-    const std::vector<Loop>& loops = model[face].loops;
-    return is_stretched(model, face) && loops.size() == 1 && has_many_corners(model, loops.front());
-}
 
 /// The angles between consecutive segments of a chain, largest first [radians].
 std::vector<double> turns_of(const std::vector<Vec3>& chain)
@@ -207,20 +174,6 @@ bool may_lie_on_other_quadric(const OpenVolume& sealed, double enclosed, FaceId 
     return std::ranges::any_of(shapes.told.empty() ? shapes.possible : shapes.told, is_far_off);
 }
 
-/// Whether a void face is bent although given edges of its rim turn corners within one plane. Between four
-/// given sides this is allowed.
-bool leaves_plane(const Model& model, FaceId face)
-{
-    return is_stretched(model, face) && std::ranges::any_of(model[face].loops, [&](const Loop& loop) {
-               const bool given = std::ranges::none_of(
-                   loop.uses, [&](const EdgeUse& use) { return is_void(model, use.edge); });
-               if (given && !has_many_corners(model, loop)) return false;
-               for (std::size_t first = 0; first < loop.uses.size(); ++first)
-                   if (goes_round_plane(model, loop, first)) return true;
-               return false;
-           });
-}
-
 /// Whether a void face closes a rough rim: one that is nearly planar and over which smooth faces enclose
 /// about the same volume.
 bool closes_rough_rim(const Model& model, double enclosed, FaceId face)
@@ -237,7 +190,7 @@ bool closes_rough_rim(const Model& model, double enclosed, FaceId face)
 
 bool is_open_far_off_plane(const Model& model, double enclosed, FaceId face)
 {
-    return is_far_off_plane(model, enclosed, face) && is_open(model, face);
+    return is_far_off_plane(model, enclosed, face) && is_membrane(model, face);
 }
 
 /// Whether the rim of a void face leaves its shape ambiguous, ignoring roughness.
@@ -245,7 +198,7 @@ bool is_rim_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, Rol
 {
     const Model& model = sealed.model;
     if (by == RolesBy::person &&
-        (bends_off_quadratic(model, face) || is_end_between_bent_sides(sealed, face)))
+        (model[face].geometry == Geometry::newell || is_end_between_bent_sides(sealed, face)))
         return !has_flat_loops(model, face) && !bends_as_rim(model, face) &&
                is_end_in_doubt(model, enclosed, face);
     return is_open_far_off_plane(model, enclosed, face);
@@ -255,8 +208,7 @@ bool is_rim_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, Rol
 bool is_in_doubt(const OpenVolume& sealed, double enclosed, FaceId face, RolesBy by)
 {
     const Model& model = sealed.model;
-    return (leaves_plane(model, face) && is_far_off_plane(model, enclosed, face)) ||
-           may_lie_on_other_quadric(sealed, enclosed, face) ||
+    return may_lie_on_other_quadric(sealed, enclosed, face) ||
            (is_rim_in_doubt(sealed, enclosed, face, by) && !closes_rough_rim(model, enclosed, face));
 }
 
@@ -320,15 +272,6 @@ double reach_of_others(const Model& model, const std::vector<FaceId>& void_faces
 }
 
 } // namespace
-
-bool bends_untold(const OpenVolume& sealed, const Closure& closure)
-{
-    const double enclosed = enclosed_volume(sealed);
-    return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
-        return leaves_plane(sealed.model, face) || (is_open_far_off_plane(sealed.model, enclosed, face) &&
-                                                    !closes_rough_rim(sealed.model, enclosed, face));
-    });
-}
 
 std::optional<Message> guess_of_bent(const OpenVolume& sealed, const Closure& closure, RolesBy by)
 {

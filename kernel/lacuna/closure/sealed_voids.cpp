@@ -76,14 +76,13 @@ bool enclose_the_same(const Sealed& a, const Sealed& b)
 /// Whether a candidate only fills planar free loops; all such candidates enclose the same volume.
 bool fills_flat_loops(const Model& model, const Roles& roles, const RunContext& context)
 {
-    try {
+    const auto fills = unless_refused([&] {
         const OpenVolume open = open_volume(model, roles, context);
         const std::vector<Rim> loops = free_loops(open);
         return fills_each_loop(open, loops.size()) &&
                std::ranges::all_of(loops, [&](const Rim& rim) { return is_flat(open.model, rim); });
-    } catch (const InvalidInput&) {
-        return false; // sealing reports it as well
-    }
+    });
+    return fills.value_or(false);
 }
 
 /// Cost of a void: of its ends, and of the bend of its void faces.
@@ -126,7 +125,7 @@ void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed
     now.cost = cost_of(candidate, sealed);
     now.first = candidate;
     now.ways.push_back(candidate);
-    now.untold = bends_untold(sealed.volume, sealed.closure);
+    now.untold = guess_of_bent(sealed.volume, sealed.closure, RolesBy::finding).has_value();
     now.fills_flat_loops = fills_flat;
     now.sealed = std::move(sealed);
     const auto same = std::ranges::find_if(

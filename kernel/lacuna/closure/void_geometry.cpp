@@ -2,19 +2,16 @@
 #include <lacuna/closure/shared/void_geometry.h>
 
 #include <lacuna/closure/detail/four_corners.h>
-#include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -78,81 +75,6 @@ std::vector<double> rim_heights(const Model& model, const NewellOutline& newell)
     return heights;
 }
 
-/// The monomials of a quadratic height at a place.
-using Quadratic = Eigen::Matrix<double, 6, 1>;
-
-Quadratic powers_at(const Vec2& p)
-{
-    Quadratic powers;
-    powers << 1, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
-    return powers;
-}
-
-/// Heights over a plane, quadratic in the position.
-struct QuadraticHeight {
-    Vec2 centre = Vec2::Zero();
-    Eigen::Matrix2d stretch = Eigen::Matrix2d::Identity(); ///< to the coefficients' frame
-    Quadratic coefficient = Quadratic::Zero();
-
-    [[nodiscard]] double at(const Vec2& p) const
-    {
-        return coefficient.dot(powers_at(stretch * (p - centre)));
-    }
-};
-
-/// The quadratic height through a rim, as for a mouth in a shaft; empty if there is none or many: points on a
-/// conic do not determine the height inside.
-std::optional<QuadraticHeight> quadratic_through(const Model& model, const NewellOutline& newell)
-{
-    // Ratio of the smallest to the largest eigenvalue below which many quadratic heights fit. Ellipses are
-    // below 1e-4, slots 1.5 times as long as wide at 9e-4, longer ones up to 5e-3.
-    constexpr double kManyConics = 7e-4;
-    struct Sample {
-        Vec2 place;
-        double height, weight;
-    };
-    std::vector<Sample> samples; // includes the middle of each segment, so that straight ones count as
-                                 // straight
-    double length = 0;
-    for (const std::vector<Index>& loop : newell.outline.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const std::size_t a = index(loop[i]), b = index(loop[(i + 1) % loop.size()]);
-            const Vec2 from = newell.outline.flat[a], to = newell.outline.flat[b];
-            const double at_from = geometry::height(newell.plane, model.at(newell.outline.model_point[a]));
-            const double at_to = geometry::height(newell.plane, model.at(newell.outline.model_point[b]));
-            const double weight = (to - from).norm() / 4;
-            samples.push_back({from, at_from, weight});
-            samples.push_back({(from + to) / 2, (at_from + at_to) / 2, 2 * weight});
-            samples.push_back({to, at_to, weight});
-            length += 4 * weight;
-        }
-    }
-    QuadraticHeight result;
-    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-    for (const Sample& s : samples) result.centre += s.weight / length * s.place;
-    for (const Sample& s : samples) {
-        const Vec2 off = s.place - result.centre;
-        spread += s.weight / length * off * off.transpose();
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
-    if (axes.eigenvalues()(0) <= kRoundoff * axes.eigenvalues()(1)) return std::nullopt; // collinear
-    result.stretch = axes.operatorInverseSqrt();
-    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-    Quadratic right = Quadratic::Zero();
-    for (const Sample& s : samples) {
-        const Quadratic powers = powers_at(result.stretch * (s.place - result.centre));
-        normal += s.weight / length * powers * powers.transpose();
-        right += s.weight / length * s.height * powers;
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> fit(normal);
-    if (fit.eigenvalues()(0) < kManyConics * fit.eigenvalues()(5)) return std::nullopt;
-    result.coefficient = normal.ldlt().solve(right);
-    const bool on_it = std::ranges::all_of(samples, [&](const Sample& s) {
-        return std::abs(result.at(s.place) - s.height) <= kOnQuadratic * newell.bulge;
-    });
-    return on_it ? std::optional(result) : std::nullopt;
-}
-
 /// A face at heights over the Newell plane, by Algorithm 4.
 VoidFilling filling_at(const Model& model, const NewellOutline& newell, const geometry::Triangulation& flat,
                        const std::vector<double>& heights)
@@ -172,19 +94,13 @@ geometry::Triangulation fine_facets(const Outline& outline, double facet_size, c
     return geometry::triangulate(outline.flat, outline.loops, fine, context);
 }
 
-/// @param on  the quadratic height of the rim, if there is one
-VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell,
-                                 const std::optional<QuadraticHeight>& on, const RunContext& context)
+VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell, const RunContext& context)
 {
     const Outline& outline = newell.outline;
     const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops, {}, context);
     std::vector<double> heights(flat.points.size(), 0);
     if (newell.bulge > model.tolerance && flat.points.size() > outline.flat.size()) {
-        const QuadraticHeight bent = on.value_or(QuadraticHeight{});
-        std::vector<double> left = rim_heights(model, newell);
-        for (std::size_t i = 0; i < left.size(); ++i) left[i] -= bent.at(outline.flat[i]);
-        heights = harmonic_heights(flat, left, context);
-        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += bent.at(flat.points[i]);
+        heights = harmonic_heights(flat, rim_heights(model, newell), context);
     }
     return filling_at(model, newell, flat, heights);
 }
@@ -237,20 +153,15 @@ std::optional<double> height_of(const geometry::FacetTree& shape, const geometry
     return height ? *height : geometry::height(plane, shape.closest(foot).point);
 }
 
-/// A bent face between four corners, if it is ruled or its rim lies on no quadratic height.
-/// @param on_quadratic  whether the rim lies on one
+/// A bent face between four corners, if it is ruled or its rim lies on no quadric.
 std::optional<VoidFilling> fill_between_corners(const Model& model, const std::vector<Loop>& loops,
-                                                bool on_quadratic, const RunContext& context)
+                                                bool on_quadric, const RunContext& context)
 {
     if (loops.size() != 1) return std::nullopt;
     const auto sides = four_corners(model, loops.front());
     if (sides.empty()) return std::nullopt;
-    if (on_quadratic && !is_ruled(model, sides)) return std::nullopt;
-    try {
-        return fill_transfinite(model, sides, nullptr, context);
-    } catch (const InvalidInput&) {
-        return std::nullopt; // the patch folds
-    }
+    if (on_quadric && !is_ruled(model, sides)) return std::nullopt;
+    return unless_refused([&] { return fill_transfinite(model, sides, nullptr, context); }); // it may fold
 }
 
 /// The edges of two loops that cross, for messages.
@@ -309,7 +220,6 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
     const bool has_sides = !sides.empty() && (!flat || crossing);
     const bool bent = !flat && !has_sides;
     auto told = bent && !crossing ? fill_as_rim_tells(model, loops, newell, context) : std::nullopt;
-    const auto on = bent && !told ? quadratic_through(model, newell) : std::nullopt;
     VoidFilling result;
     if (has_sides) {
         try {
@@ -321,13 +231,12 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
                                 .attempt(error.message()));
         }
     } else if (auto patch = flat ? std::nullopt
-                                 : fill_between_corners(model, loops, told.has_value() || on.has_value(),
-                                                        context)) {
+                                 : fill_between_corners(model, loops, told.has_value(), context)) {
         result = std::move(*patch);
     } else if (told) {
         result = std::move(*told);
     } else if (!crossing) {
-        result = fill_on_newell_plane(model, newell, on, context);
+        result = fill_on_newell_plane(model, newell, context);
     } else {
         const auto [a, b] = crossing_edges(model, loops, *crossing);
         throw NotClosed(Message("closure.outline_crosses",

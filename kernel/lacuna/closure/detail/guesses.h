@@ -12,19 +12,13 @@ namespace lacuna::closure {
 /// Whether the user or the program chose the roles of the faces.
 enum class RolesBy { person, finding };
 
-/// Whether some void face has a bend that its rim does not determine, as reported by `guess_of_bent()`.
-bool bends_untold(const topology::OpenVolume& sealed, const Closure& closure);
-
 /// The error about an ambiguous bend in a sealed volume, without a remedy; empty if there is none: code
 /// "closure.shape_open" for a person's roles, otherwise "topology.shape_open". Ambiguous are:
 ///
-/// - A bent void face whose rim does not determine its inside: a membrane, or one with more than four
-///   corners. If the user named the roles, a membrane is the missing end (Algorithm 4), which closing
-///   interpolates; it is then ambiguous only if the smoothest faces over its rim, a membrane and a thin
-///   plate, differ, or straight sides suggest several flat faces.
+/// - A membrane: its rim does not determine its inside. If the user named the roles, it is the missing end
+///   (Algorithm 4), which closing interpolates; it is then ambiguous only if the smoothest faces over its
+///   rim, a membrane and a thin plate, differ, or straight sides suggest several flat faces.
 /// - A bent void face whose rim also lies on other quadrics that are far from it.
-/// - A bent void face along whose rim given edges turn corners within one plane: a flat face is missing
-///   there.
 ///
 /// A rough rim is never ambiguous: its points are off a plane by at most a twentieth of its diameter, and
 /// smooth faces over it enclose the same volume to 2 %.

@@ -7,19 +7,11 @@
 
 namespace lacuna::closure {
 
-/// Points are on a quadratic height if they are off it by less than this share of its bulge. Mouths of slots
-/// in shafts and spheres of 1.6 to six times their radius are below 0.025; missing walls next to partial
-/// walls of a bent prism are above 0.045.
-inline constexpr double kOnQuadratic = 0.03;
-
 /// The membranes among some void faces: faces over a non-planar rim that does not determine their inside.
 /// Excluded are four-sided faces, which are blended from side to side, and faces on a quadric given by their
-/// rim or on one quadratic height over their plane, like the mouth of a keyway on its shaft.
+/// rim, like the mouth of a keyway on its shaft.
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 bool is_membrane(const topology::Model& model, FaceId face);
-
-/// Whether a face is off every quadratic height over its rim's plane, however little it bends.
-bool bends_off_quadratic(const topology::Model& model, FaceId face);
 
 /// Whether a face's rim lies on one quadric, or on a sphere, a circular cylinder, a cone or two planes among
 /// many, and its inside lies near it: the rim then determines the bend.

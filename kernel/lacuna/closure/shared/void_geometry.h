@@ -37,8 +37,7 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// A flat face, and a bent one whose outline does not cross itself in its Newell plane: Algorithm 4,
 /// constrained Delaunay in that plane, with inner heights from the harmonic interpolation of the rim's
 /// heights. Departures: if the rim lies on one quadric, or on a sphere, a circular cylinder, a cone or two
-/// planes among many, so does the interior; if it is close to one quadratic height, like the mouth of a
-/// keyway on its shaft, the interior takes that, plus the harmonic interpolation of the residual at the rim.
+/// planes among many, so does the interior.
 /// A bent face with four logical sides: Algorithm 6 (Algorithm 5 if two of them are closed edges), a bilinear
 /// Coons patch over arc length. Departure: a bent four-sided face is transfinite at once, so that its facets
 /// and its mesh are the same surface. A bent face of other sides that folds in its Newell plane is an error.
