@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/bowl.h>
 
-#include <lacuna/core/error.h>
+#include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -128,14 +129,13 @@ std::optional<Bowl> part_at(const OpenVolume& sealed, const Mouth& mouth, const 
                                                          sealed.model.tolerance);
     const auto open = [](const SectionWalk& walk) { return !walk.closed; };
     if (walks.empty() || std::ranges::any_of(walks, open)) return std::nullopt;
-    ModelBuilder parted(sealed.model);
-    bowl.parent = imprint_walks(parted, walks, plane, parted.tolerance, context).parent;
-    bowl.volume.model = std::move(parted).finish();
+    bowl.volume = sealed;
+    bowl.parent = imprint(bowl.volume, walks, plane, context).parent;
     const Model& model = bowl.volume.model;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const bool at_mouth = has(mouth.faces, bowl.parent[f]);
         const bool below = geometry::height(plane, face_centroid(model, FaceId(f))) < 0;
-        bowl.volume.role.push_back(at_mouth ? Role::target : below ? Role::source : Role::wall);
+        bowl.volume.role[f] = at_mouth ? Role::target : below ? Role::source : Role::wall;
     }
     const std::vector<FaceId> bottom = bowl.volume.faces(Role::source);
     if (bottom.empty() || connected_parts(model, bottom).size() != 1) return std::nullopt;
@@ -152,10 +152,9 @@ std::optional<Bowl> part_bowl(const OpenVolume& sealed, const RunContext& contex
 {
     for (const Mouth& mouth : mouths(sealed.model)) {
         check_cancelled(context);
-        try {
-            if (auto bowl = part_at(sealed, mouth, context)) return bowl;
-        } catch (const InvalidInput&) { // the plane would cross given quads of a face
-        }
+        // Refused: the plane would cross given quads of a face.
+        auto bowl = unless_refused([&] { return part_at(sealed, mouth, context); });
+        if (bowl && *bowl) return std::move(*bowl);
     }
     return std::nullopt;
 }

@@ -2,6 +2,7 @@
 #include <lacuna/closure/shared/branches.h>
 
 #include <lacuna/closure/detail/full_turn.h>
+#include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/void_entities.h>
@@ -99,7 +100,7 @@ private:
         geometry::UnionFind sets(model_.edges.size());
         std::vector<EdgeId> concave;
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
-            if (at_ends.contains(EdgeId(e)) || turns[e] < kConcave * kDegree) continue;
+            if (at_ends.contains(EdgeId(e)) || turns[e] < kConcave) continue;
             concave.emplace_back(e);
             for (const VertexId v : {model_.edges[e].from, model_.edges[e].to}) {
                 for (const EdgeId other : at[v]) sets.unite_least(other.index(), e);
@@ -506,12 +507,8 @@ private:
         PartedVolume parted{volume_};
         OpenVolume& work = parted.volume;
         const std::vector<SectionWalk> walks = walks_across(mouths, plane);
-        ModelBuilder cut(volume_.model);
-        const WalkImprint made = imprint_walks(cut, walks, plane, cut.tolerance, context_);
-        work.model = std::move(cut).finish();
+        const WalkImprint made = imprint(work, walks, plane, context_);
         Model& model = work.model;
-        for (std::size_t f = work.role.size(); f < made.parent.size(); ++f)
-            work.role.push_back(work.role[made.parent[f].index()]);
         std::vector<FaceId> host;
         for (std::size_t f = 0; f < made.parent.size(); ++f)
             if (found_.region[made.parent[f].index()] == mouths.front()->host) host.emplace_back(f);
@@ -562,8 +559,13 @@ private:
             if (l >= mouths.size()) rings.push_back(made.lines[l]);
             middle.behind.insert(middle.behind.end(), made.lines[l].begin(), made.lines[l].end());
         }
-        order_rings(model, plane, rings);
-        middle.face = add_partition(model, rings, plane, partition_name(model), context_);
+        std::vector<std::vector<Vec2>> flat;
+        for (const std::vector<EdgeUse>& ring : rings)
+            flat.push_back(flat_places(plane, loop_places(model, ring)));
+        std::vector<std::vector<EdgeUse>> ordered;
+        const std::vector<std::size_t> outer_first = regions_of(flat).front();
+        for (const std::size_t ring : outer_first) ordered.push_back(rings[ring]);
+        middle.face = add_partition(model, ordered, plane, partition_name(model), context_);
         work.role.push_back(Role::wall);
         parted.partitions.insert(parted.partitions.begin(), middle);
         model = with_loops(std::move(model));
@@ -577,20 +579,6 @@ private:
                                            const std::vector<FaceId>& host)
     {
         return walk_of(model, branch, rim_edges(model, host));
-    }
-
-    /// Put the larger loop first.
-    static void order_rings(const Model& model, const geometry::Plane& plane,
-                            std::vector<std::vector<EdgeUse>>& rings)
-    {
-        std::ranges::stable_sort(rings, std::greater<>{}, [&](const std::vector<EdgeUse>& ring) {
-            Eigen::AlignedBox2d box;
-            for (const EdgeUse& use : ring) {
-                for (const Index p : model[use.edge].points)
-                    box.extend(geometry::to_plane(plane, model.at(p)));
-            }
-            return box.volume();
-        });
     }
 
     /// Put the halves of a mouth in walking order. @return  the vertices where the first begins and ends.

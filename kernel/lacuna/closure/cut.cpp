@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
@@ -59,12 +60,7 @@ public:
     {
         find_walks();
         if (within != nullptr) choose(*within);
-        ModelBuilder cut(std::move(model_));
-        const WalkImprint made = imprint_walks(cut, walks_, plane_, tolerance_, context_);
-        model_ = std::move(cut).finish();
-        std::vector<Role>& role = parted_.volume.role;
-        for (std::size_t f = role.size(); f < made.parent.size(); ++f)
-            role.push_back(role[made.parent[f].index()]);
+        const WalkImprint made = imprint(parted_.volume, walks_, plane_, context_);
         parted_.plane = plane_;
         add_partitions(made);
         model_ = with_loops(std::move(model_));
@@ -357,16 +353,12 @@ std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& con
         if (!filled) return std::nullopt;
         return std::move(filled->volume);
     }
-    try {
+    return unless_refused([&] {
         matching::Match match;
         if (!volume.faces(Role::source).empty() && !volume.faces(Role::target).empty())
             match = matching::match(volume, {}, context);
         return close(volume, match, {}, context).volume;
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error&) {
-        return std::nullopt;
-    }
+    });
 }
 
 std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plane& plane,

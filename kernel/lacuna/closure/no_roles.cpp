@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/class_five.h>
 #include <lacuna/closure/detail/full_turn.h>
 #include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/readings.h>
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/cut.h>
@@ -56,20 +57,17 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
     const std::vector<double> turns = concave_turns(volume, context);
     std::vector<FaceId> tried;
     for (std::size_t e = 0; e < turns.size(); ++e) {
-        if (!(turns[e] > kCreaseAngle * kDegree)) continue;
+        if (!(turns[e] > kCreaseAngle)) continue;
         for (const FaceUse& use : model.uses_of_edge(EdgeId(e))) {
             const auto plane = plane_of(model, use.face);
             if (!plane || tried.size() == kMostPlanes || std::ranges::find(tried, use.face) != tried.end())
                 continue;
             tried.push_back(use.face);
-            try {
-                const std::vector<StepPiece> pieces =
-                    read_ends(cut_by_plane(volume, *plane, context), context).pieces;
-                if (std::ranges::all_of(pieces, walls_run_between_ends, &StepPiece::volume))
-                    return cut_in_words(model, model.at(model[model[EdgeId(e)].from].point), plane->normal);
-            } catch (const NotSweepable&) {
-            } catch (const InvalidInput&) { // the plane crosses given quads of a face
-            }
+            // Refused: the plane crosses given quads of a face, or leaves the volume in one piece.
+            const auto cut = unless_refused(
+                [&] { return read_ends(cut_by_plane(volume, *plane, context), context).pieces; });
+            if (cut && std::ranges::all_of(*cut, walls_run_between_ends, &StepPiece::volume))
+                return cut_in_words(model, model.at(model[model[EdgeId(e)].from].point), plane->normal);
         }
     }
     return "";
@@ -104,11 +102,7 @@ bool is_ring(const OpenVolume& volume, const RunContext& context)
 {
     const std::vector<FaceId> all = all_faces(volume.model);
     if (connected_parts(volume.model, all).size() != 1 || euler_number(volume.model, all) != 0) return false;
-    try {
-        return !cut_full_turn(volume, context).empty();
-    } catch (const NotSweepable&) {
-        return false;
-    }
+    return unless_refused([&] { return cut_full_turn(volume, context); }).has_value();
 }
 
 } // namespace

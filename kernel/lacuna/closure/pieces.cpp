@@ -43,7 +43,9 @@ public:
     {
         find_parts();
         std::vector<StepPiece> pieces;
-        for (const Part& part : parts_) pieces.push_back({open_volume(model_, roles_of(part), context_), 0});
+        for (const Part& part : parts_)
+            pieces.push_back(
+                {open_volume(model_, roles_of(part), context_), parted_.stacked ? steps_below(part) : 0});
         return pieces;
     }
 
@@ -112,6 +114,17 @@ private:
             std::vector<FaceId>& own = parts_[home[next++]].skin;
             own.insert(own.end(), skin.begin(), skin.end());
         }
+    }
+
+    /// The largest number of partitions that are passed on the way forward from a part.
+    [[nodiscard]] int steps_below(const Part& part) const
+    {
+        int steps = 0;
+        for (const FaceId face : part.behind)
+            for (const Part& other : parts_)
+                if (&other != &part && std::ranges::find(other.partitions, face) != other.partitions.end())
+                    steps = std::max(steps, 1 + steps_below(other));
+        return steps;
     }
 
     [[nodiscard]] std::size_t part_round(const std::vector<FaceId>& skin)
@@ -241,6 +254,17 @@ private:
 };
 
 } // namespace
+
+WalkImprint imprint(OpenVolume& volume, const std::vector<SectionWalk>& walks, const geometry::Plane& plane,
+                    const RunContext& context)
+{
+    ModelBuilder model(std::move(volume.model));
+    WalkImprint made = imprint_walks(model, walks, plane, model.tolerance, context);
+    volume.model = std::move(model).finish();
+    for (std::size_t f = volume.role.size(); f < made.parent.size(); ++f)
+        volume.role.push_back(volume.role[made.parent[f].index()]);
+    return made;
+}
 
 std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context)
 {

@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/shared/cut.h>
@@ -12,6 +13,7 @@
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -27,8 +29,6 @@ using namespace topology;
 
 namespace {
 
-/// Number of facets of a target region that vote for the source part below it.
-constexpr std::size_t kVotes = 50;
 /// An end turns into the walls at a step by more than half of a right angle [degrees].
 constexpr double kStep = 45;
 
@@ -60,7 +60,7 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
             std::size_t away = 0, onward = 0;
             std::vector<FaceId> risers;
             for (const EdgeUse& use : rim.uses) {
-                if (turns[use.edge.index()] < kStep * kDegree) {
+                if (turns[use.edge.index()] < kStep) {
                     if (model.uses_of_edge(use.edge).size() > 1) ++onward;
                     continue;
                 }
@@ -80,20 +80,17 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
 
 /// A rim projected onto the opposite end.
 struct Imprinted {
-    std::size_t part = 0; ///< the part whose rim it is
-    Rim rim;
-    FaceId target;                       ///< the face it lies on
-    std::size_t inside = 0, outside = 0; ///< the regions of that face on its two sides
-    std::vector<Index> points;           ///< points of the model, the first not repeated
-    std::vector<Vec2> flat;              ///< the same, projected along the sweep
-    std::vector<FaceId> curtain;
+    std::size_t part = 0;      ///< the part whose rim it is
+    FaceId target;             ///< the face it lies on
+    std::vector<Index> points; ///< points of the model, the first not repeated
+    std::vector<Vec2> flat;    ///< the same, projected along the sweep
 };
 
 class StepCutter {
 public:
     StepCutter(const OpenVolume& volume, Role stepped, Steps steps, const RunContext& context)
         : volume_(volume),
-          model_(volume.model),
+          parted_{.volume = volume, .stacked = true},
           builder_(volume.model),
           stepped_(stepped),
           other_(stepped == Role::source ? Role::target : Role::source),
@@ -104,14 +101,14 @@ public:
 
     std::vector<StepPiece> run()
     {
-        across_.normal = -area_vector_of(model_, volume_.faces(stepped_)).normalized();
+        across_.normal = -area_vector_of(volume_.model, volume_.faces(stepped_)).normalized();
         across_.u = across_.normal.unitOrthogonal();
         across_.v = across_.normal.cross(across_.u);
         for (const Hanging& hanging : steps_.closed) hang(hanging);
         for (const FaceId face : volume_.faces(other_)) split(face);
         builder_.build_loops();
-        model_ = std::move(builder_).finish();
-        return pieces();
+        parted_.volume.model = std::move(builder_).finish();
+        return pieces_of(parted_, {"a face below the rim of a step"}, context_);
     }
 
 private:
@@ -156,7 +153,6 @@ private:
         check_cancelled(context_);
         Imprinted image;
         image.part = hanging.part;
-        image.rim = rim;
         std::map<Index, Index> above_of; // by point of the rim
         const auto lift = [&](Index p) {
             const auto known = above_of.find(p);
@@ -203,12 +199,13 @@ private:
             const VertexId from = use_from(builder_, use), to = use_to(builder_, use);
             // A closed rim gives a ring face with two loops, other rims one face per side.
             const bool closed = rim.uses.size() == 1;
-            builder_.add_void_edge(vertex(from), vertex(to), high);
+            const EdgeId top = builder_.add_void_edge(vertex(from), vertex(to), high);
             if (!closed) {
                 side_line(from);
                 side_line(to);
             }
-            image.curtain.push_back(builder_.add_void_face(Geometry::transfinite));
+            parted_.partitions.push_back({builder_.add_void_face(Geometry::transfinite), {use, {top, true}}});
+            parted_.volume.role.push_back(Role::wall);
             Face& face = builder_.faces.back();
             for (std::size_t i = 0; i + 1 < low.size(); ++i) {
                 face.triangles.push_back({low[i], low[i + 1], high[i + 1]});
@@ -226,10 +223,7 @@ private:
         std::vector<Imprinted*> own;
         for (Imprinted& image : images_)
             if (image.target == id) own.push_back(&image);
-        if (own.empty()) {
-            regions_.push_back(id);
-            return;
-        }
+        if (own.empty()) return;
         // All loops, the face's own first; each region is inside one loop and outside the loops directly
         // within it.
         struct Ring {
@@ -248,7 +242,6 @@ private:
             return inner != outer && geometry::lies_inside(rings[outer].flat, rings[inner].flat.front());
         };
         std::vector<std::size_t> parents(rings.size(), rings.size());
-        std::vector<std::size_t> region(rings.size(), 0); // by ring: the region inside it
         for (std::size_t i = 0; i < rings.size(); ++i) {
             std::size_t& best = parents[i];
             for (std::size_t o = 0; o < rings.size(); ++o)
@@ -298,13 +291,11 @@ private:
             if (turned)
                 for (Triangle& t : face.triangles) std::swap(t[1], t[2]);
             if (before.surface) set_uv(before, face);
-            region[outer] = regions_.size();
             if (first) {
-                regions_.push_back(id);
                 builder_[id] = std::move(face);
             } else {
-                regions_.emplace_back(builder_.faces.size());
                 builder_.faces.push_back(std::move(face));
+                parted_.volume.role.push_back(other_);
             }
             first = false;
         }
@@ -315,8 +306,6 @@ private:
                                            entity_of(builder_, steps_.parts[own[i]->part].front()),
                                            entity_of(builder_, id))
                                        .remedy("cut the volume with cut{{ plane = … }}"));
-            own[i]->inside = region[given + i];
-            own[i]->outside = region[parents[given + i]];
         }
     }
 
@@ -340,125 +329,14 @@ private:
             face.uv.push_back({known.at(t[0]), known.at(t[1]), known.at(t[2])});
     }
 
-    std::vector<StepPiece> pieces()
-    {
-        // Find the part of the stepped end below each region of the other end.
-        std::vector<Triangle> triangles;
-        std::vector<std::size_t> part;
-        for (std::size_t p = 0; p < steps_.parts.size(); ++p) {
-            std::ranges::copy(facets_of(model_, steps_.parts[p]), std::back_inserter(triangles));
-            part.resize(triangles.size(), p);
-        }
-        const geometry::FacetTree ends(model_.points, triangles);
-        // A region with no part of the stepped end below it belongs to a missing face: one more part, without
-        // faces.
-        const std::size_t none = steps_.parts.size();
-        std::vector<std::size_t> part_of(regions_.size(), none);
-        std::vector<std::vector<FaceId>> opposite(none + 1), walls(none + 1);
-        for (std::size_t r = 0; r < regions_.size(); ++r) {
-            std::map<std::size_t, double> votes;
-            const std::vector<Triangle>& facets = model_[regions_[r]].triangles;
-            const std::size_t step = std::max<std::size_t>(1, facets.size() / kVotes);
-            for (std::size_t t = 0; t < facets.size(); t += step) {
-                const Vec3 &a = model_.at(facets[t][0]), &b = model_.at(facets[t][1]),
-                           &c = model_.at(facets[t][2]);
-                const auto hit = ends.first_along((a + b + c) / 3, -across_.normal);
-                votes[hit.triangle < 0 ? none : part[index(hit.triangle)]] += (b - a).cross(c - a).norm();
-            }
-            part_of[r] = std::ranges::max_element(votes, {}, [](const auto& v) { return v.second; })->first;
-            opposite[part_of[r]].push_back(regions_[r]);
-        }
-        std::vector<std::size_t> below(none + 1, none); // the part around an inner part
-        for (const Imprinted& image : images_) {
-            const std::size_t outer = part_beyond(image, part_of);
-            if (outer == image.part)
-                throw NotSweepable(Message("closure.steps",
-                                           "along the sweep, the faces on both sides of the step at {} are "
-                                           "opposite to the same end",
-                                           entity_of(model_, steps_.parts[outer].front()))
-                                       .remedy("check the roles of the faces"));
-            below[image.part] = outer;
-            for (const std::size_t p : {image.part, outer})
-                walls[p].insert(walls[p].end(), image.curtain.begin(), image.curtain.end());
-        }
-        for (const std::vector<FaceId>& faces : connected_parts(model_, volume_.faces(Role::wall))) {
-            std::vector<FaceId>& own = walls[part_with(faces, part_of, opposite)];
-            own.insert(own.end(), faces.begin(), faces.end());
-        }
-        std::vector<StepPiece> result;
-        for (std::size_t p = 0; p <= none; ++p) {
-            if (p == none && opposite[p].empty()) {
-                if (!walls[p].empty())
-                    throw NotSweepable(Message("closure.steps", "{} touches neither end",
-                                               entity_of(model_, walls[p].front()))
-                                           .remedy("name its role, or leave it out"));
-                continue;
-            }
-            if (opposite[p].empty())
-                throw NotSweepable(Message("closure.steps",
-                                           "along the sweep, no face of the opposite end lies over {}",
-                                           entity_of(model_, steps_.parts[p].front()))
-                                       .remedy("check the roles of the faces"));
-            Roles own{p == none ? std::vector<FaceId>{} : steps_.parts[p], opposite[p], walls[p]};
-            if (stepped_ == Role::target) std::swap(own.source, own.target);
-            if (volume_.turned_round) std::swap(own.source, own.target);
-            int level = 0;
-            for (std::size_t at = p; at != none && level <= kRounds; ++level) {
-                if (std::ranges::none_of(images_, [&](const Imprinted& image) { return image.part == at; }))
-                    break;
-                at = below[at];
-            }
-            result.push_back({open_volume(model_, own, context_), level});
-        }
-        std::ranges::stable_sort(result, {}, &StepPiece::level);
-        return result;
-    }
-
-    /// The part on the other side of the void faces below a rim.
-    static std::size_t part_beyond(const Imprinted& image, const std::vector<std::size_t>& part_of)
-    {
-        const std::size_t inside = part_of[image.inside];
-        return inside == image.part ? part_of[image.outside] : inside;
-    }
-
-    /// The piece that walls belong to: that of the part they lead up from; otherwise the one around the part
-    /// they lead down from; otherwise that of the opposite region they touch.
-    [[nodiscard]] std::size_t part_with(const std::vector<FaceId>& faces,
-                                        const std::vector<std::size_t>& part_of,
-                                        const std::vector<std::vector<FaceId>>& opposite) const
-    {
-        std::map<EdgeId, const Imprinted*> hung;
-        for (const Imprinted& image : images_) {
-            for (const EdgeUse& use : image.rim.uses) hung.emplace(use.edge, &image);
-        }
-        const Imprinted* down = nullptr;
-        std::size_t beside = steps_.parts.size();
-        for (const FaceId face : faces) {
-            for (const EdgeUse& use : uses_of(model_[face])) {
-                if (const auto at = hung.find(use.edge); at != hung.end()) {
-                    down = at->second;
-                    continue;
-                }
-                for (const FaceUse& user : model_.uses_of_edge(use.edge)) {
-                    for (std::size_t p = 0; p < steps_.parts.size(); ++p)
-                        if (std::ranges::find(steps_.parts[p], user.face) != steps_.parts[p].end()) return p;
-                    for (std::size_t p = 0; p < opposite.size(); ++p)
-                        if (std::ranges::find(opposite[p], user.face) != opposite[p].end()) beside = p;
-                }
-            }
-        }
-        return down != nullptr ? part_beyond(*down, part_of) : beside;
-    }
-
     const OpenVolume& volume_;
-    Model model_; ///< after all cuts; `builder_` makes it
+    PartedVolume parted_; ///< its faces have their roles; its model is made by `builder_`
     ModelBuilder builder_;
     Role stepped_, other_;
     const RunContext& context_;
     Steps steps_;            ///< steps of the stepped end
     geometry::Plane across_; ///< its normal is the direction to the other end
     std::vector<Imprinted> images_;
-    std::vector<FaceId> regions_; ///< faces of the opposite end after the cuts
     /// Surface parameters of points projected onto the opposite end.
     std::map<Index, Vec2> uv_;
     std::optional<geometry::FacetTree> tree_;           ///< facets of the original opposite end
@@ -489,18 +367,14 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
 {
     std::vector<StepPiece> pieces{{volume, 0}};
     for (const FaceId face : faces) {
+        if (!plane_of(volume.model, face))
+            throw NotSweepable(Message("closure.steps",
+                                       "the step at {} is not flat, so it has no plane to cut by, and its "
+                                       "rim is not closed",
+                                       entity_of(volume.model, face))
+                                   .remedy("cut the volume with cut{{ plane = … }}"));
         pieces = cut_each(std::move(pieces), [&](const OpenVolume& piece) {
-            try {
-                return cut_by_face(piece, volume.model, face, context);
-            } catch (const NotSweepable& error) {
-                if (error.code() != "closure.cut_face") throw;
-                throw NotSweepable(
-                    Message("closure.steps",
-                            "the step at {} is not flat, so it has no plane to cut by, and its "
-                            "rim is not closed",
-                            entity_of(volume.model, face))
-                        .remedy("cut the volume with cut{{ plane = … }}"));
-            }
+            return cut_by_face(piece, volume.model, face, context);
         });
     }
     return pieces;
@@ -606,16 +480,10 @@ std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<
     for (const Steps& own : steps) {
         for (const Hanging& hanging : own.closed) faces.push_back(own.parts[hanging.part].front());
     }
-    try {
-        std::vector<StepPiece> pieces = cut_by_planes(volume, faces, context);
-        if (std::ranges::none_of(pieces,
-                                 [&](const StepPiece& piece) { return is_stepped(piece.volume, context); }))
-            return pieces;
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error&) { // the error of the extrusion is more helpful
-    }
-    return {};
+    const auto pieces = unless_refused([&] { return cut_by_planes(volume, faces, context); });
+    const auto stepped = [&](const StepPiece& piece) { return is_stepped(piece.volume, context); };
+    if (!pieces || std::ranges::any_of(*pieces, stepped)) return {};
+    return *pieces;
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/section.h>
 
 #include <functional>
 #include <optional>
@@ -27,7 +28,12 @@ struct PartedVolume {
     topology::OpenVolume volume; ///< partitions have the role of walls
     std::vector<Partition> partitions{};
     std::optional<geometry::Plane> plane{}; ///< common plane of all partitions, if there is one
+    bool stacked = false; ///< whether pieces behind a partition are one level above those in front
 };
+
+/// Split the faces of a volume along walks in a plane; the parts of a face have its role.
+topology::WalkImprint imprint(topology::OpenVolume& volume, const std::vector<topology::SectionWalk>& walks,
+                              const geometry::Plane& plane, const RunContext& context);
 
 /// The pieces separated by the partitions, with roles as described at `cut_by_plane()`. Loops as by
 /// `with_loops()`.

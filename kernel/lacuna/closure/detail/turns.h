@@ -8,11 +8,11 @@
 
 namespace lacuna::closure {
 
-/// Mean turn of the skin towards the void at each edge between two faces [radians]: positive if the interior
+/// Mean turn of the skin towards the void at each edge between two faces [degrees]: positive if the interior
 /// angle of the void exceeds 180°, 0 for free edges and seams.
 ///
 /// The void's side is found for each connected part of the skin: from the side to which its walls leave both
-/// ends, from the opposite end that its ends see, or else from the part's centre; see `parts_facing_void()`.
+/// ends, from where the opposite ends lie, or else from the part's centre; see `parts_facing_void()`.
 /// @note  O(facets · parts).
 std::vector<double> concave_turns(const topology::OpenVolume& volume, const RunContext& context);
 
