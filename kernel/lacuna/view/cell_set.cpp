@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/parallel.h>
+#include <lacuna/core/shared/renumbered.h>
 #include <lacuna/quality/shared/metrics.h>
 #include <lacuna/quality/shared/second_order.h>
 
@@ -43,80 +44,20 @@ std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh)
 
 namespace {
 
-/// The eight corners of a solid.
-Hex as_hex(std::span<const Index> nodes, int corners)
-{
-    const auto n = [&](std::size_t k) { return nodes[k]; };
-    switch (corners) {
-    case 4:
-        return {n(0), n(1), n(2), n(2), n(3), n(3), n(3), n(3)};
-    case 5:
-        return {n(0), n(1), n(2), n(3), n(4), n(4), n(4), n(4)};
-    case 6:
-        return mesh::hex_of({n(0), n(1), n(2), n(3), n(4), n(5)});
-    default:
-        return {n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7)};
-    }
-}
-
-/// Names of the sets that contain two-dimensional elements.
-class SetsOfSides {
-public:
-    explicit SetsOfSides(const io::Deck& deck)
-    {
-        for (const io::DeckSet& set : deck.sets) {
-            if (set.kind != io::DeckSet::Kind::elements || set.name.empty()) continue;
-            for (const io::DeckTag tag : set.members) names_[tag].push_back(set.name);
-        }
-    }
-    [[nodiscard]] std::vector<std::string> of(io::DeckTag tag, const std::string& region) const
-    {
-        std::vector<std::string> groups;
-        if (!region.empty()) groups.push_back(region);
-        if (const auto found = names_.find(tag); found != names_.end())
-            for (const std::string& name : found->second)
-                if (std::find(groups.begin(), groups.end(), name) == groups.end()) groups.push_back(name);
-        return groups;
-    }
-
-private:
-    std::unordered_map<io::DeckTag, std::vector<std::string>> names_;
-};
-
-/// Renumbers nodes in the order in which they occur.
-class Numbering {
-public:
-    explicit Numbering(std::size_t points) : number_(points, -1) {}
-    Index of(Index point, const std::vector<Vec3>& points, std::vector<Vec3>& nodes)
-    {
-        Index& number = number_[index(point)];
-        if (number < 0) {
-            number = static_cast<Index>(nodes.size());
-            nodes.push_back(points[index(point)]);
-        }
-        return number;
-    }
-    [[nodiscard]] Index known(Index point) const { return number_[index(point)]; }
-
-private:
-    std::vector<Index> number_;
-};
+/// The eight corners of a solid that has four or more.
+constexpr Hex kCorners[] = {{0, 1, 2, 2, 3, 3, 3, 3},
+                            {0, 1, 2, 3, 4, 4, 4, 4},
+                            mesh::hex_of({0, 1, 2, 3, 4, 5}),
+                            {},
+                            {0, 1, 2, 3, 4, 5, 6, 7}};
 
 /// Scaled Jacobian of hexahedra and wedges; NaN for other solids.
 std::vector<double> quality_of(const ListedCells& region, const RunContext& context)
 {
-    std::vector<Hex> measured;
-    std::vector<std::size_t> place;
-    for (std::size_t c = 0; c < region.cells.size(); ++c) {
-        const Hex& cell = region.cells[c];
-        if (cell[4] == cell[5]) continue;
-        measured.push_back(cell);
-        place.push_back(c);
-    }
-    std::vector<double> values(region.cells.size(), std::numeric_limits<double>::quiet_NaN());
-    const std::vector<double> found = quality::metric_values(region.nodes, measured,
-                                                             quality::Metric::scaled_jacobian, context);
-    for (std::size_t i = 0; i < found.size(); ++i) values[place[i]] = found[i];
+    std::vector<double> values = quality::metric_values(region.nodes, region.cells,
+                                                        quality::Metric::scaled_jacobian, context);
+    for (std::size_t c = 0; c < values.size(); ++c)
+        if (region.cells[c][4] == region.cells[c][5]) values[c] = std::numeric_limits<double>::quiet_NaN();
     parallel_for(context, region.curved.size(), quality::kCurvedGrain,
                  [&](std::size_t begin, std::size_t end) {
                      for (std::size_t c = begin; c < end; ++c) {
@@ -138,7 +79,7 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
     DeckCells found;
     std::map<Index, std::size_t> of_region;
     std::map<std::string, std::size_t> of_name; // regions with the same name are merged
-    std::vector<Numbering> numbering;
+    std::vector<Renumbered<Vec3>> numbering;
     for (const io::DeckBlock& block : deck.blocks) {
         const io::DeckShapeInfo& info = io::shape_info(block.shape);
         if (info.dimension != 3) continue;
@@ -155,19 +96,18 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
             }
             if (at->second == found.regions.size()) {
                 found.regions.emplace_back().name = name;
-                numbering.emplace_back(deck.points.size());
+                numbering.emplace_back(deck.points);
             }
             ListedCells& cells = found.regions[at->second];
-            Hex cell = as_hex(block.element(e), info.corners);
-            for (Index& n : cell) n = numbering[at->second].of(n, deck.points, cells.nodes);
-            cells.cells.push_back(cell);
             const auto own = block.element(e);
+            Hex cell = kCorners[info.corners - 4];
+            for (Index& n : cell) n = numbering[at->second](own[index(n)]);
+            cells.cells.push_back(cell);
             if (curved && std::find(own.begin(), own.end(), -1) == own.end()) {
                 cells.curved.resize(cells.cells.size());
                 mesh::CellNodes& nodes = cells.curved.back();
                 nodes.count = own.size();
-                for (std::size_t k = 0; k < own.size(); ++k)
-                    nodes.node[k] = numbering[at->second].of(own[k], deck.points, cells.nodes);
+                for (std::size_t k = 0; k < own.size(); ++k) nodes.node[k] = numbering[at->second](own[k]);
             } else if (curved) {
                 found.straightened = true;
             }
@@ -181,14 +121,23 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
                 .remedy("use show = \"faces\""));
     check_cancelled(context);
 
-    const SetsOfSides sets(deck);
+    std::unordered_map<io::DeckTag, std::vector<std::string>> sets_of;
+    for (const io::DeckSet& set : deck.sets) {
+        if (set.kind != io::DeckSet::Kind::elements || set.name.empty()) continue;
+        for (const io::DeckTag tag : set.members) sets_of[tag].push_back(set.name);
+    }
     std::map<std::vector<std::string>, Index> of_groups;
     for (const io::DeckBlock& block : deck.blocks) {
         const io::DeckShapeInfo& info = io::shape_info(block.shape);
         if (info.dimension != 2) continue;
         for (std::size_t e = 0; e < block.count(); ++e) {
             const Index region = block.regions.empty() ? -1 : block.regions[e];
-            const auto groups = sets.of(block.tags[e], region < 0 ? "" : deck.regions[index(region)].name);
+            std::vector<std::string> groups;
+            if (region >= 0 && !deck.regions[index(region)].name.empty())
+                groups.push_back(deck.regions[index(region)].name);
+            if (const auto sets = sets_of.find(block.tags[e]); sets != sets_of.end())
+                for (const std::string& name : sets->second)
+                    if (std::ranges::find(groups, name) == groups.end()) groups.push_back(name);
             const auto [at, fresh] = of_groups.try_emplace(groups, static_cast<Index>(found.patches.size()));
             if (fresh) {
                 const bool made_void = std::ranges::any_of(groups, is_of_void);
@@ -206,9 +155,12 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
             }
         }
     }
-    for (ListedCells& region : found.regions)
+    for (std::size_t r = 0; r < found.regions.size(); ++r) {
+        ListedCells& region = found.regions[r];
+        region.nodes = std::move(numbering[r].used);
         if (!region.curved.empty()) region.curved.resize(region.cells.size());
-    for (ListedCells& region : found.regions) region.quality = quality_of(region, context);
+        region.quality = quality_of(region, context);
+    }
     return found;
 }
 

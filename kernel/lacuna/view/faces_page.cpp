@@ -8,8 +8,9 @@
 #include <lacuna/view/detail/page_file.h>
 
 #include <algorithm>
-#include <limits>
+#include <array>
 #include <optional>
+#include <ranges>
 
 namespace lacuna::view {
 
@@ -25,21 +26,14 @@ const char* word(topology::Role role)
 
 const char* word(topology::Geometry geometry)
 {
-    switch (geometry) {
-    case topology::Geometry::given:
-        return "given";
-    case topology::Geometry::newell:
-        return "flat";
-    case topology::Geometry::transfinite:
-        return "between its sides";
-    case topology::Geometry::annular:
-        return "a strip between two loops";
-    case topology::Geometry::followed:
-        return "as the walls lead";
-    case topology::Geometry::parallel:
-        return "parallel to the other end";
-    }
-    return "";
+    // In the order of the enumerators.
+    constexpr const char* kWords[] = {"given",
+                                      "flat",
+                                      "between its sides",
+                                      "a strip between two loops",
+                                      "as the walls lead",
+                                      "parallel to the other end"};
+    return kWords[static_cast<std::size_t>(geometry)];
 }
 
 /// Quads and triangles of all faces, grouped by face, given quads first.
@@ -64,11 +58,9 @@ Sides sides_of(const Model& model)
     return sides;
 }
 
-void add_tags(Json& json, const char* key, const Model& model, const std::vector<FaceId>& faces)
+auto tags(const Model& model, const std::vector<FaceId>& faces)
 {
-    json.key(key).begin_array();
-    for (const FaceId face : faces) json.value(model[face].tag);
-    json.end_array();
+    return faces | std::views::transform([&](FaceId face) { return model[face].tag; });
 }
 
 /// Write what distinguishes a face: its box, its neighbours, the cylinder or sphere that it lies on.
@@ -76,7 +68,7 @@ void add_facts(Json& json, const Model& model, const topology::FaceFacts& facts,
                const std::optional<topology::RoundShape>& round)
 {
     if (!facts.box.isEmpty()) json.member("low", facts.box.min()).member("high", facts.box.max());
-    add_tags(json, "neighbours", model, facts.neighbours);
+    json.member("neighbours", tags(model, facts.neighbours));
     if (!round) return;
     json.member("fits", round->is_sphere() ? "sphere" : "cylinder").member("radius", round->radius);
     if (round->axis) json.member("axis", *round->axis);
@@ -103,9 +95,9 @@ void add_face(Json& json, const Model& model, FaceId id, const Sides& sides, con
     json.member("void", face.origin == Origin::made_void).member("geometry", word(face.geometry));
     json.key("role").value(role);
     json.member("first", sides.first[f]).member("quads", sides.quads[f]).member("sides", sides.count[f]);
-    json.key("edges").begin_array();
-    for (const topology::EdgeUse& use : uses_of(face)) json.value(use.edge.index()); // a seam appears twice
-    json.end_array();
+    std::vector<std::size_t> edges; // a seam appears twice
+    for (const topology::EdgeUse& use : uses_of(face)) edges.push_back(use.edge.index());
+    json.member("edges", edges);
 }
 
 void add_edges(Json& json, const Model& model)
@@ -129,8 +121,8 @@ void add_gaps(Json& json, const Model& model, const std::vector<topology::Gap>& 
 {
     json.key("gaps").begin_array();
     for (const topology::Gap& gap : gaps) {
-        json.begin_object().key("edges").begin_array().value(gap.own.index()).value(gap.other.index());
-        json.end_array().member("width", gap.width);
+        json.begin_object().member("edges", std::array{gap.own.index(), gap.other.index()});
+        json.member("width", gap.width);
         json.member("tolerance", topology::sewing_tolerance(model, gap)).end_object();
     }
     json.end_array();
@@ -142,8 +134,7 @@ void add_cavities(Json& json, const Model& model, const std::vector<closure::Cav
     for (const closure::Cavity& cavity : cavities) {
         json.begin_object().member("kind", cavity.kind).member("volume", cavity.volume);
         json.member("class", std::string(topology::to_string(cavity.value)));
-        add_tags(json, "faces", model, cavity.faces);
-        json.end_object();
+        json.member("faces", tags(model, cavity.faces)).end_object();
     }
     json.end_array();
 }

@@ -73,18 +73,4 @@ Json& Json::value(double number)
     return raw({digits, static_cast<std::size_t>(end - digits)});
 }
 
-Json& Json::value(const Vec3& place)
-{
-    begin_array();
-    for (const double coordinate : place) value(coordinate);
-    return end_array();
-}
-
-Json& Json::value(const std::vector<std::string>& texts)
-{
-    begin_array();
-    for (const std::string& text : texts) value(text);
-    return end_array();
-}
-
 } // namespace lacuna::view

@@ -24,36 +24,16 @@ Grid grid_over(const Eigen::AlignedBox3d& box)
     return grid;
 }
 
-namespace {
-
-void add_colour(Json& json, const Colour& colour)
-{
-    json.begin_array();
-    for (const std::uint8_t part : colour) json.value(static_cast<int>(part));
-    json.end_array();
-}
-
-void add_colours(Json& json, std::string_view name, std::span<const Colour> colours)
-{
-    json.key(name).begin_array();
-    for (const Colour& colour : colours) add_colour(json, colour);
-    json.end_array();
-}
-
-} // namespace
-
 void add_frame(Json& json, const Grid& grid)
 {
     json.member("low", grid.low).member("centre", grid.centre);
     json.member("step", grid.step).member("radius", grid.radius);
     json.key("palette").begin_object();
-    add_colours(json, "quality", quality_ramp());
-    add_colours(json, "order", order_ramp());
-    add_colours(json, "kinds", kind_colours());
+    json.member("quality", kQualityRamp).member("order", kOrderRamp).member("kinds", kKindColours);
     const std::pair<const char*, Colour> single[] = {{"given", kGiven},   {"void", kVoid},
                                                      {"inside", kInside}, {"source", kSource},
                                                      {"target", kTarget}, {"walls", kWall}};
-    for (const auto& [name, colour] : single) add_colour(json.key(name), colour);
+    for (const auto& [name, colour] : single) json.member(name, colour);
     json.end_object();
 }
 

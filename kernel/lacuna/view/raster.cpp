@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/parallel.h>
+#include <lacuna/geometry/shared/segment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,14 +63,6 @@ private:
     Vec2 shift_;
     double scale_ = 1, depth_ = 1;
 };
-
-double distance_to(const Vec2& at, const Vec2& a, const Vec2& b)
-{
-    const Vec2 along = b - a;
-    const double length = along.squaredNorm();
-    const double t = length > 0 ? std::clamp((at - a).dot(along) / length, 0.0, 1.0) : 0.0;
-    return (at - a - t * along).norm();
-}
 
 /// A side in sample coordinates.
 struct Placed {
@@ -148,8 +141,8 @@ public:
         const Vec2 low = a.cwiseMin(b).array() - half_width, high = a.cwiseMax(b).array() + half_width;
         const double length = (b - a).squaredNorm();
         each(low, high, [&](const Vec2& at, std::size_t sample) {
-            if (distance_to(at, a, b) > half_width) return;
             const double t = length > 0 ? std::clamp((at - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
+            if ((at - a - t * (b - a)).norm() > half_width) return;
             put(sample, from.z() + t * (to.z() - from.z()) - kNearer, colour);
         });
     }
@@ -235,7 +228,7 @@ private:
         for (std::size_t k = 0; k < side.count; ++k) {
             if ((side.hidden >> k & 1U) != 0) continue;
             const Vec2 from = side.corner[k].head<2>(), to = side.corner[(k + 1) % side.count].head<2>();
-            if (distance_to(at, from, to) < kSideWidth * kSamples / 2)
+            if (geometry::distance_to_segment(at, from, to) < kSideWidth * kSamples / 2)
                 return mixed(colour, kLineColour, side.line);
         }
         return colour;

@@ -114,7 +114,7 @@ void add_side(std::vector<DrawnSide>& sides, const mesh::HexMesh& mesh, std::siz
     }
 }
 
-Colour kind_colour(std::size_t i) { return kind_colours()[i % kind_colours().size()]; }
+Colour kind_colour(std::size_t i) { return kKindColours[i % std::size(kKindColours)]; }
 
 /// The data that determines the colours of a region.
 struct Colours {
@@ -129,9 +129,9 @@ struct Colours {
     {
         switch (by) {
         case ColourBy::quality:
-            return on_ramp(quality_ramp(), (quality[cell] - low) / (1 - low));
+            return on_ramp(kQualityRamp, (quality[cell] - low) / (1 - low));
         case ColourBy::layer:
-            return on_ramp(order_ramp(), layers > 1 ? static_cast<double>(layer) / (layers - 1) : 0);
+            return on_ramp(kOrderRamp, layers > 1 ? static_cast<double>(layer) / (layers - 1) : 0);
         case ColourBy::region:
             return kind_colour(region);
         case ColourBy::origin:
@@ -181,11 +181,11 @@ Legend legend_of(std::span<const Region> regions, const std::vector<Colours>& co
     bool made_void = false;
     switch (options.colour) {
     case ColourBy::quality:
-        legend.ramp = quality_ramp();
+        legend.ramp = kQualityRamp;
         legend.quantity = "scaled Jacobian, 1 is best";
         return legend;
     case ColourBy::layer:
-        legend.ramp = order_ramp();
+        legend.ramp = kOrderRamp;
         legend.low = 1;
         legend.quantity = "layer, from the source";
         return legend;

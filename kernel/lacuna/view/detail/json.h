@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/core/types.h>
-
 #include <concepts>
-#include <cstddef>
+#include <ranges>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace lacuna::view {
 
@@ -27,8 +24,14 @@ public:
     Json& value(bool truth);
     Json& value(double number);
     Json& value(std::integral auto number) { return raw(std::to_string(number)); }
-    Json& value(const Vec3& place);
-    Json& value(const std::vector<std::string>& texts);
+    /// Write an array.
+    template <std::ranges::input_range Values>
+    requires(!std::convertible_to<Values, std::string_view>) Json& value(const Values& values)
+    {
+        begin_array();
+        for (const auto& one : values) value(one);
+        return end_array();
+    }
 
     template <class T>
     Json& member(std::string_view name, const T& what)

@@ -6,7 +6,6 @@
 #include <lacuna/view/detail/json.h>
 
 #include <span>
-#include <vector>
 
 namespace lacuna::view {
 
