@@ -24,6 +24,7 @@ constexpr double kClearance = 0.5;
 /// A curve in the parameter rectangle of a face.
 struct BorderChain {
     std::vector<Vec2> uv;
+    std::vector<Vec2> other;   ///< the other image of the curve; empty if there is one only
     std::vector<Index> points; ///< model points
     bool pole = false;         ///< the curve is a single point
     bool slit = false;         ///< the face is on both sides, at the same parameters
@@ -77,8 +78,7 @@ double outside(const std::vector<Vec2>& uv, const Eigen::AlignedBox2d& bounds)
 
 /// A curve that was a seam before the face was trimmed has two images. Choose the one inside the rectangle of
 /// the face or, if both are, the one that connects to the other curves.
-void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vector<Vec2>>& other_side,
-                  int face)
+void choose_sides(std::vector<BorderChain>& border, int face)
 {
     std::vector<double> low, high;
     gmsh::model::getParametrizationBounds(2, face, low, high);
@@ -89,7 +89,7 @@ void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vecto
         for (const Vec2& end : {uv.front(), uv.back()}) {
             double nearest = bounds.diagonal().norm();
             for (std::size_t c = 0; c < border.size(); ++c) {
-                if (c == own || !other_side[c].empty()) continue;
+                if (c == own || !border[c].other.empty()) continue;
                 nearest = std::min(
                     {nearest, (border[c].uv.front() - end).norm(), (border[c].uv.back() - end).norm()});
             }
@@ -98,12 +98,12 @@ void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vecto
         return sum;
     };
     for (std::size_t c = 0; c < border.size(); ++c) {
-        if (other_side[c].empty()) continue;
-        const double here = outside(border[c].uv, bounds);
-        const double there = outside(other_side[c], bounds);
+        BorderChain& chain = border[c];
+        if (chain.other.empty()) continue;
+        const double here = outside(chain.uv, bounds);
+        const double there = outside(chain.other, bounds);
         const bool decided = std::abs(here - there) > near;
-        if (decided ? there < here : gap(other_side[c], c) < gap(border[c].uv, c))
-            border[c].uv = other_side[c];
+        if (decided ? there < here : gap(chain.other, c) < gap(chain.uv, c)) chain.uv = chain.other;
     }
 }
 
@@ -111,7 +111,6 @@ void choose_sides(std::vector<BorderChain>& border, const std::vector<std::vecto
 std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face, double allowed)
 {
     std::vector<BorderChain> border;
-    std::vector<std::vector<Vec2>> other_side; // the other image of each chain; empty if there is one only
     for (const CadFaceInfo::Side& side : face.sides) {
         const CadCurveInfo& curve = wire.curves[side.curve];
         BorderChain chain;
@@ -136,23 +135,20 @@ std::vector<BorderChain> border_of(const CadWire& wire, const CadFaceInfo& face,
         chain.uv = parameters_on_face(curve, params, face.tag, 0);
         if (!chain.pole) mend_parameters(face.tag, at, chain.uv, allowed);
         if (chain.uv.size() != params.size()) continue;
-        std::vector<Vec2> other = chain.pole ? std::vector<Vec2>{}
-                                             : parameters_on_face(curve, params, face.tag, 1);
-        const bool two_sided = other.size() == chain.uv.size() &&
-                               (other.front() - chain.uv.front()).norm() >
+        if (!chain.pole) chain.other = parameters_on_face(curve, params, face.tag, 1);
+        const bool two_sided = chain.other.size() == chain.uv.size() &&
+                               (chain.other.front() - chain.uv.front()).norm() >
                                    kSamePlace * (1 + chain.uv.front().norm());
-        if (!two_sided) other.clear();
+        if (!two_sided) chain.other.clear();
         chain.slit = side.uses > 1 && !two_sided && !chain.pole;
         if (side.uses > 1 && two_sided) {
-            BorderChain twin = chain;
-            twin.uv = std::exchange(other, {});
-            border.push_back(std::move(twin));
-            other_side.emplace_back();
+            BorderChain& twin = border.emplace_back(chain);
+            twin.uv = std::exchange(twin.other, {});
+            chain.other.clear();
         }
         border.push_back(std::move(chain));
-        other_side.push_back(std::move(other));
     }
-    choose_sides(border, other_side, face.tag);
+    choose_sides(border, face.tag);
     return border;
 }
 

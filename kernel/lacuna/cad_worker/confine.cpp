@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <memory>
+#include <sstream>
 
 #include <fcntl.h>
 #include <linux/landlock.h>
@@ -62,66 +63,57 @@ long own_call(long number, long a, long b, long c, long d, long e = 0)
     return result < 0 ? -errno : result;
 }
 
-long open_path(long folder, const char* path, long flags, long mode)
+long open_offered(const Offered& file, long flags)
 {
-    if (std::strncmp(path, kFolder, sizeof(kFolder) - 1) != 0) {
-        if ((flags & kWriting) != 0) return -EACCES;
-        return own_call(SYS_openat, folder, reinterpret_cast<long>(path), flags, mode);
-    }
-    const Offered* file = find_offered(path);
-    if (file == nullptr) return -ENOENT;
     if ((flags & kWriting) != 0) {
-        if ((flags & O_TRUNC) != 0 && ::ftruncate(file->descriptor, 0) != 0) return -errno;
-        ::lseek(file->descriptor, 0, SEEK_SET);
-        const int copy = ::dup(file->descriptor);
+        if ((flags & O_TRUNC) != 0 && ::ftruncate(file.descriptor, 0) != 0) return -errno;
+        ::lseek(file.descriptor, 0, SEEK_SET);
+        const int copy = ::dup(file.descriptor);
         return copy < 0 ? -errno : copy;
     }
     // Open it again, so that each reader has its own file offset.
     std::array<char, 32> own{"/proc/self/fd/"};
-    std::to_chars(own.data() + std::strlen(own.data()), own.data() + own.size() - 1, file->descriptor);
+    std::to_chars(own.data() + std::strlen(own.data()), own.data() + own.size() - 1, file.descriptor);
     return own_call(SYS_openat, AT_FDCWD, reinterpret_cast<long>(own.data()), O_RDONLY | O_CLOEXEC, 0);
 }
 
-/// Inspect a path; for an offered file, inspect its descriptor.
-template <class At, class Real>
-long look_at(const char* path, At&& at, Real&& real)
+/// Open or inspect a path relative to a folder; for an offered file, its descriptor.
+long answer_at(long number, const std::array<long, 6>& a)
 {
-    if (std::strncmp(path, kFolder, sizeof(kFolder) - 1) != 0) return real();
-    const Offered* file = find_offered(path);
-    return file == nullptr ? -ENOENT : at(file->descriptor);
-}
-
-long stat_path(long folder, const char* path, long into, long flags)
-{
-    return look_at(
-        path,
-        [&](int descriptor) {
-            return own_call(SYS_newfstatat, descriptor, reinterpret_cast<long>(""), into, AT_EMPTY_PATH);
-        },
-        [&] { return own_call(SYS_newfstatat, folder, reinterpret_cast<long>(path), into, flags); });
+    const auto* path = reinterpret_cast<const char*>(a[1]);
+    const bool ours = std::strncmp(path, kFolder, sizeof(kFolder) - 1) == 0;
+    const Offered* file = ours ? find_offered(path) : nullptr;
+    if (ours && file == nullptr) return -ENOENT;
+    switch (number) {
+    case SYS_openat:
+        if (file != nullptr) return open_offered(*file, a[2]);
+        return (a[2] & kWriting) != 0 ? -EACCES : own_call(SYS_openat, a[0], a[1], a[2], a[3]);
+    case SYS_newfstatat:
+        if (file == nullptr) return own_call(SYS_newfstatat, a[0], a[1], a[2], a[3]);
+        return own_call(SYS_newfstatat, file->descriptor, reinterpret_cast<long>(""), a[2], AT_EMPTY_PATH);
+    default:
+        return file != nullptr ? 0 : own_call(SYS_faccessat, a[0], a[1], a[2], 0);
+    }
 }
 
 long answer(long number, const std::array<long, 6>& a)
 {
-    const auto path = [](long argument) { return reinterpret_cast<const char*>(argument); };
     switch (number) {
     case SYS_openat:
-        return open_path(a[0], path(a[1]), a[2], a[3]);
     case SYS_newfstatat:
-        return stat_path(a[0], path(a[1]), a[2], a[3]);
     case SYS_faccessat:
+        return answer_at(number, a);
     case SYS_faccessat2:
-        return look_at(
-            path(a[1]), [](int) { return 0L; }, [&] { return own_call(SYS_faccessat, a[0], a[1], a[2], 0); });
+        return answer_at(SYS_faccessat, a);
 #ifdef SYS_open
     case SYS_open:
-        return answer(SYS_openat, {AT_FDCWD, a[0], a[1], a[2]});
+        return answer_at(SYS_openat, {AT_FDCWD, a[0], a[1], a[2]});
     case SYS_stat:
-        return answer(SYS_newfstatat, {AT_FDCWD, a[0], a[1], 0});
+        return answer_at(SYS_newfstatat, {AT_FDCWD, a[0], a[1], 0});
     case SYS_lstat:
-        return answer(SYS_newfstatat, {AT_FDCWD, a[0], a[1], AT_SYMLINK_NOFOLLOW});
+        return answer_at(SYS_newfstatat, {AT_FDCWD, a[0], a[1], AT_SYMLINK_NOFOLLOW});
     case SYS_access:
-        return answer(SYS_faccessat, {AT_FDCWD, a[0], a[1]});
+        return answer_at(SYS_faccessat, {AT_FDCWD, a[0], a[1]});
 #endif
     default:
         return -ENOSYS;
@@ -152,7 +144,7 @@ void on_trap(int, siginfo_t* info, void* context)
 /// A seccomp filter. Calls without a rule fail with EPERM; calls of another architecture kill the process.
 class Filter {
 public:
-    Filter() : rules_{seccomp_init(SCMP_ACT_ERRNO(EPERM))}
+    Filter() : rules_{seccomp_init(SCMP_ACT_ERRNO(EPERM)), seccomp_release}
     {
         if (rules_ == nullptr ||
             seccomp_attr_set(rules_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS) != 0 ||
@@ -165,10 +157,6 @@ public:
         if (seccomp_rule_add_array(rules_.get(), action, number, static_cast<unsigned>(conditions.size()),
                                    std::data(conditions)) != 0)
             fail();
-    }
-    void allow(std::initializer_list<int> numbers)
-    {
-        for (const int number : numbers) on(number, SCMP_ACT_ALLOW);
     }
     /// Allow a call if the lower half of an argument, masked, has a given value.
     void allow_where(int number, unsigned argument, std::uint32_t mask, std::uint32_t value)
@@ -196,10 +184,7 @@ private:
                            "the CAD process cannot be confined: libseccomp failed to make a filter");
     }
 
-    struct Release {
-        void operator()(void* rules) const { seccomp_release(rules); }
-    };
-    std::unique_ptr<void, Release> rules_;
+    std::unique_ptr<void, void (*)(void*)> rules_;
 };
 
 Filter make_filter()
@@ -226,67 +211,16 @@ Filter make_filter()
     filter.allow_where(SCMP_SYS(prlimit64), 2, ~0U, 0);
     filter.allow_where(SCMP_SYS(ioctl), 1, ~0U, 0x5401 /* TCGETS */);
     filter.allow_where(SCMP_SYS(prctl), 0, ~0U, PR_SET_NAME);
-    filter.allow({SCMP_SYS(poll),
-                  SCMP_SYS(select),
-                  SCMP_SYS(time),
-                  SCMP_SYS(arch_prctl),
-                  SCMP_SYS(read),
-                  SCMP_SYS(write),
-                  SCMP_SYS(readv),
-                  SCMP_SYS(writev),
-                  SCMP_SYS(pread64),
-                  SCMP_SYS(pwrite64),
-                  SCMP_SYS(lseek),
-                  SCMP_SYS(close),
-                  SCMP_SYS(fstat),
-                  SCMP_SYS(ftruncate),
-                  SCMP_SYS(dup),
-                  SCMP_SYS(fcntl),
-                  SCMP_SYS(mmap),
-                  SCMP_SYS(munmap),
-                  SCMP_SYS(mprotect),
-                  SCMP_SYS(mremap),
-                  SCMP_SYS(madvise),
-                  SCMP_SYS(brk),
-                  SCMP_SYS(rt_sigprocmask),
-                  SCMP_SYS(rt_sigreturn),
-                  SCMP_SYS(sigaltstack),
-                  SCMP_SYS(futex),
-                  SCMP_SYS(sched_yield),
-                  SCMP_SYS(sched_getaffinity),
-                  SCMP_SYS(getpid),
-                  SCMP_SYS(gettid),
-                  SCMP_SYS(getppid),
-                  SCMP_SYS(getuid),
-                  SCMP_SYS(geteuid),
-                  SCMP_SYS(getgid),
-                  SCMP_SYS(getegid),
-                  SCMP_SYS(getrusage),
-                  SCMP_SYS(times),
-                  SCMP_SYS(clock_gettime),
-                  SCMP_SYS(clock_getres),
-                  SCMP_SYS(gettimeofday),
-                  SCMP_SYS(nanosleep),
-                  SCMP_SYS(clock_nanosleep),
-                  SCMP_SYS(ppoll),
-                  SCMP_SYS(pselect6),
-                  SCMP_SYS(sendmsg),
-                  SCMP_SYS(recvmsg),
-                  __NR_exit,
-                  SCMP_SYS(exit_group),
-                  SCMP_SYS(set_robust_list),
-                  SCMP_SYS(getrandom),
-                  SCMP_SYS(uname),
-                  SCMP_SYS(sysinfo),
-                  SCMP_SYS(set_tid_address),
-                  SCMP_SYS(membarrier),
-                  SCMP_SYS(getcwd),
-                  SCMP_SYS(readlinkat),
-                  SCMP_SYS(getdents64),
-                  SCMP_SYS(rt_sigtimedwait),
-                  SCMP_SYS(restart_syscall),
-                  SCMP_SYS(getcpu),
-                  SCMP_SYS(rseq)});
+    std::istringstream allowed(
+        "poll select time arch_prctl read write readv writev pread64 pwrite64 lseek close fstat "
+        "ftruncate dup fcntl mmap munmap mprotect mremap madvise brk rt_sigprocmask rt_sigreturn "
+        "sigaltstack futex sched_yield sched_getaffinity getpid gettid getppid getuid geteuid getgid "
+        "getegid getrusage times clock_gettime clock_getres gettimeofday nanosleep clock_nanosleep "
+        "ppoll pselect6 sendmsg recvmsg exit exit_group set_robust_list getrandom uname sysinfo "
+        "set_tid_address membarrier getcwd readlinkat getdents64 rt_sigtimedwait restart_syscall "
+        "getcpu rseq");
+    for (std::string name; allowed >> name;)
+        filter.on(seccomp_syscall_resolve_name(name.c_str()), SCMP_ACT_ALLOW);
     return filter;
 }
 

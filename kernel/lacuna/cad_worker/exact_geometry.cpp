@@ -140,6 +140,15 @@ void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const Parameter
     }
 }
 
+/// Vectors that Gmsh computes at parameters of a curve or surface.
+std::vector<Vec3> evaluated(void (*compute)(int, int, const std::vector<double>&, std::vector<double>&),
+                            int dim, int tag, const std::vector<double>& params)
+{
+    std::vector<double> values;
+    compute(dim, tag, params, values);
+    return unflat<3>(values);
+}
+
 [[noreturn]] void fail_projection(const CadSource& source, int tag, const Vec3& point)
 {
     throw BackendError(Message("cad.projection", "{}: the point {} could not be projected onto {}",
@@ -214,15 +223,12 @@ std::vector<Vec3> evaluate_curve(const CadSource& source, int tag, const std::ve
 
 std::vector<Vec3> curve_points(int tag, const std::vector<double>& params)
 {
-    std::vector<double> values;
-    gmsh::model::getValue(1, tag, params, values);
-    return unflat<3>(values);
+    return evaluated(gmsh::model::getValue, 1, tag, params);
 }
 
 std::vector<Vec3> plain_form(int tag, double first, double last)
 {
-    std::string kind;
-    gmsh::model::getType(1, tag, kind);
+    const std::string kind = gmsh_type(1, tag);
     const bool line = kind == "Line";
     if (!line && kind != "Circle" && kind != "Ellipse") return {};
     // Gmsh's first derivatives are exact, its second derivatives are finite differences.
@@ -248,23 +254,17 @@ std::vector<Vec3> plain_form(int tag, double first, double last)
 
 std::vector<Vec3> curve_tangents(int tag, const std::vector<double>& params)
 {
-    std::vector<double> values;
-    gmsh::model::getDerivative(1, tag, params, values);
-    return unflat<3>(values);
+    return evaluated(gmsh::model::getDerivative, 1, tag, params);
 }
 
 std::vector<Vec3> surface_points(int tag, const std::vector<Vec2>& uv)
 {
-    std::vector<double> values;
-    gmsh::model::getValue(2, tag, flat(uv), values);
-    return unflat<3>(values);
+    return evaluated(gmsh::model::getValue, 2, tag, flat(uv));
 }
 
 std::vector<SurfaceFrame> surface_frames(int tag, const std::vector<Vec2>& uv)
 {
-    std::vector<double> values;
-    gmsh::model::getDerivative(2, tag, flat(uv), values);
-    const std::vector<Vec3> d = unflat<3>(values);
+    const std::vector<Vec3> d = evaluated(gmsh::model::getDerivative, 2, tag, flat(uv));
     std::vector<SurfaceFrame> frames;
     for (std::size_t i = 0; i < d.size(); i += 2) frames.push_back({d[i], d[i + 1]});
     return frames;
@@ -272,9 +272,7 @@ std::vector<SurfaceFrame> surface_frames(int tag, const std::vector<Vec2>& uv)
 
 std::vector<SecondDerivatives> surface_second(int tag, const std::vector<Vec2>& uv)
 {
-    std::vector<double> values;
-    gmsh::model::getSecondDerivative(2, tag, flat(uv), values);
-    const std::vector<Vec3> d = unflat<3>(values);
+    const std::vector<Vec3> d = evaluated(gmsh::model::getSecondDerivative, 2, tag, flat(uv));
     std::vector<SecondDerivatives> second;
     for (std::size_t i = 0; i < d.size(); i += 3) second.push_back({d[i], d[i + 1], d[i + 2]});
     return second;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 
 namespace lacuna::cad_worker {
@@ -30,46 +31,13 @@ constexpr int kDivisions = 6;
 /// triangulated over its boundary.
 constexpr std::size_t kMostDivided = 400'000;
 
-/// Restore options that scripts often set, at the end of the session.
-void keep_options(Session& session)
-{
-    for (const char* option : {"Mesh.MeshSizeMin",
-                               "Mesh.MeshSizeMax",
-                               "Mesh.MeshSizeFactor",
-                               "Mesh.MeshSizeFromCurvature",
-                               "Mesh.MeshSizeFromPoints",
-                               "Mesh.MeshSizeExtendFromBoundary",
-                               "Mesh.Algorithm",
-                               "Mesh.Algorithm3D",
-                               "Mesh.ElementOrder",
-                               "Mesh.RecombineAll",
-                               "Mesh.RecombinationAlgorithm",
-                               "Mesh.SubdivisionAlgorithm",
-                               "Mesh.Smoothing",
-                               "Mesh.Optimize",
-                               "Mesh.OptimizeNetgen",
-                               "Mesh.SaveAll",
-                               "Mesh.Binary",
-                               "Mesh.MshFileVersion",
-                               "Geometry.Tolerance",
-                               "Geometry.AutoCoherence",
-                               "General.Terminal",
-                               "General.Verbosity",
-                               "General.NumThreads"}) {
-        session.keep(option);
-    }
-}
-
 void import_file(Session& session, const OpenedFile& file)
 {
     using File = cad_protocol::LoadFile;
     const CapturedOutput output;
     try {
         session.run([&] {
-            if (file.format == File::script) {
-                keep_options(session);
-                return gmsh::merge(file.at);
-            }
+            if (file.format == File::script) return gmsh::merge(file.at);
             const char* format = file.format == File::brep   ? "brep"
                                  : file.format == File::step ? "step"
                                                              : "iges";
@@ -209,27 +177,18 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
 /// The faces of each solid, then those that are in no solid.
 std::vector<std::vector<Index>> solids(const CadWire& wire)
 {
-    std::unordered_map<int, std::size_t> face_of_tag;
-    for (std::size_t f = 0; f < wire.faces.size(); ++f) face_of_tag[wire.faces[f].tag] = f;
-    std::vector<bool> taken(wire.faces.size(), false);
+    std::map<int, Index> loose; // by tag, as the faces of the wire are
+    for (std::size_t f = 0; f < wire.faces.size(); ++f) loose[wire.faces[f].tag] = static_cast<Index>(f);
     std::vector<std::vector<Index>> groups;
     for (const int volume : tags_of(3)) {
         std::vector<int> up, down;
         gmsh::model::getAdjacencies(3, volume, up, down);
-        std::vector<Index> group;
-        for (const int tag : down) {
-            const auto face = face_of_tag.find(std::abs(tag));
-            if (face == face_of_tag.end() || taken[face->second]) continue;
-            taken[face->second] = true;
-            group.push_back(static_cast<Index>(face->second));
-        }
-        groups.push_back(std::move(group));
+        groups.emplace_back();
+        for (const int tag : down)
+            if (const auto face = loose.extract(std::abs(tag))) groups.back().push_back(face.mapped());
     }
-    std::vector<Index> loose;
-    for (std::size_t f = 0; f < taken.size(); ++f) {
-        if (!taken[f]) loose.push_back(static_cast<Index>(f));
-    }
-    groups.push_back(std::move(loose));
+    groups.emplace_back();
+    for (const auto& [tag, face] : loose) groups.back().push_back(face);
     return groups;
 }
 

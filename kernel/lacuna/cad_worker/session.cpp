@@ -7,7 +7,6 @@
 #include <clocale>
 #include <iostream>
 #include <ranges>
-#include <string_view>
 
 namespace lacuna::cad_worker {
 
@@ -19,10 +18,6 @@ bool model_exists(const std::string& name)
     gmsh::model::list(names);
     return std::find(names.begin(), names.end(), name) != names.end();
 }
-
-/// Number of open sessions: the session of a solid stays open while others open and
-/// close. Gmsh allows one logger only.
-int sessions = 0;
 
 void read_option(const std::string& name, double& value) { gmsh::option::getNumber(name, value); }
 void read_option(const std::string& name, std::string& value) { gmsh::option::getString(name, value); }
@@ -56,28 +51,6 @@ std::string Gmsh::version()
     return version;
 }
 
-Session::Session(std::string subject) : subject_(std::move(subject))
-{
-    run([&] {
-        keep("General.Terminal");
-        keep("General.Verbosity");
-        keep("General.AbortOnError");
-        if (sessions++ == 0) gmsh::logger::start();
-        std::vector<std::string> log;
-        gmsh::logger::get(log);
-        log_start_ = log.size();
-    });
-}
-
-Session::~Session()
-{
-    try {
-        if (--sessions == 0) gmsh::logger::stop();
-        for (const auto& restore : std::views::reverse(restores_)) restore();
-    } catch (...) { // A destructor must not throw.
-    }
-}
-
 /// Restore an option at the end. @param next  its value until then; none: whatever a script makes it.
 template <class Value>
 void Session::save(const std::string& option, const std::optional<Value>& next)
@@ -93,33 +66,30 @@ void Session::save(const std::string& option, const std::optional<Value>& next)
     restores_.emplace_back([option, before] { write_option(option, before); });
 }
 
+Session::Session(std::string subject) : subject_(std::move(subject))
+{
+    // Of the options of meshing, recombine() sets those that it needs, and nothing else reads any.
+    for (const char* option : {"General.Terminal", "General.Verbosity", "General.AbortOnError",
+                               "General.NumThreads", "Geometry.Tolerance", "Geometry.AutoCoherence"})
+        run([&] { save<double>(option, std::nullopt); });
+}
+
+Session::~Session()
+{
+    try {
+        for (const auto& restore : std::views::reverse(restores_)) restore();
+    } catch (...) { // A destructor must not throw.
+    }
+}
+
 void Session::set(const std::string& option, double value) { save<double>(option, value); }
 void Session::set(const std::string& option, const std::string& value) { save<std::string>(option, value); }
-void Session::keep(const std::string& option) { save<double>(option, std::nullopt); }
-
-std::vector<std::string> Session::logged_errors() const
-{
-    std::vector<std::string> log;
-    try {
-        gmsh::logger::get(log);
-    } catch (...) {
-        return {};
-    }
-    std::vector<std::string> errors;
-    constexpr std::string_view kPrefix = "Error: ";
-    for (std::size_t i = log_start_; i < log.size(); ++i) {
-        if (log[i].starts_with(kPrefix)) errors.push_back(log[i].substr(kPrefix.size()));
-    }
-    return errors;
-}
 
 void Session::fail(const std::string& message) const
 {
     std::string words = message;
-    if (words.empty()) {
-        const std::vector<std::string> errors = logged_errors();
-        words = errors.empty() ? "it gave no reason" : errors.back();
-    }
+    if (words.empty()) gmsh::logger::getLastError(words);
+    if (words.empty()) words = "it gave no reason";
     if (words.starts_with("Out of memory")) throw std::bad_alloc(); // Gmsh's allocator reports this as text
     refuse(Message("cad.gmsh", "Gmsh failed: {}", words));
 }

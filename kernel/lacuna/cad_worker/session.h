@@ -36,8 +36,6 @@ public:
     /// Set an option until the session ends. Options that this version of Gmsh does not have are ignored.
     void set(const std::string& option, double value);
     void set(const std::string& option, const std::string& value);
-    /// Restore this option at the end of the session, even if a script changes it.
-    void keep(const std::string& option);
 
     /// Run calls of Gmsh and translate their different kinds of failure.
     /// @throw BackendError    with the subject and the message of Gmsh.
@@ -62,8 +60,6 @@ public:
         }
     }
 
-    /// Errors logged by Gmsh since the session began, without the word "Error".
-    [[nodiscard]] std::vector<std::string> logged_errors() const;
     /// @throw BackendError always: the subject and the message of Gmsh.
     [[noreturn]] void fail(const std::string& message) const;
     /// @throw BackendError always: the message about the subject.
@@ -75,7 +71,6 @@ private:
 
     std::string subject_;
     std::vector<std::function<void()>> restores_; ///< of changed options
-    std::size_t log_start_ = 0;
 };
 
 /// A Gmsh model with a unique name; removed by the destructor.

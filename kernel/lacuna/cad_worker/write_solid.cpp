@@ -38,12 +38,6 @@ std::string faults_of_model(double diagonal)
     return open == 0 ? "" : formatted("{} open edges", open);
 }
 
-/// A solid sewn from faces of the current model.
-struct Sewn {
-    int solid = 0;
-    double tolerance = 0;
-};
-
 /// Cut a box around the faces by them. @return the part bounded by exactly these faces; 0 if there is none.
 ///
 /// Sewing removes the zero-length edges at poles and tips, after which Open CASCADE reports the faces there
@@ -77,8 +71,8 @@ bool has_pole(int face, double diagonal)
                                [&](const auto& curve) { return is_pole(curve.second, diagonal); });
 }
 
-/// Sew with increasing tolerances until the faces form one solid.
-Sewn sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest& request)
+/// Sew with increasing tolerances until the faces form one solid. @return the solid, and the tolerance
+std::pair<int, double> sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest& request)
 {
     gmsh::vectorpair shapes;
     for (const int face : faces) shapes.emplace_back(2, face);
@@ -186,12 +180,12 @@ cad_protocol::MakeSolidReply write_solid(Session& session, const std::vector<int
                                          const MakeSolidRequest& request, const SolidFiles& files)
 {
     const CapturedOutput output;
-    const Sewn sewn = sew(session, faces, request);
-    const double volume = mass_of(3, sewn.solid);
+    const auto [solid, tolerance] = sew(session, faces, request);
+    const double volume = mass_of(3, solid);
     check_volume(session, volume, request);
-    write_alone(session, sewn.solid, files);
+    write_alone(session, solid, files);
     const auto [count, written] = read_back(session, request, files, volume);
-    return {written, sewn.tolerance, count};
+    return {written, tolerance, count};
 }
 
 } // namespace lacuna::cad_worker
