@@ -3,6 +3,7 @@
 
 #include <lacuna/cad/detail/spline_patch.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/segment.h>
 
 #include <algorithm>
 
@@ -17,12 +18,8 @@ constexpr std::size_t kParts = 16;
 
 bool collinear(std::span<const Vec3> points, double tolerance)
 {
-    const Vec3 chord = points.back() - points.front();
-    const double length2 = chord.squaredNorm();
-    return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
-        const Vec3 d = p - points.front();
-        const double f = length2 > 0 ? std::clamp(d.dot(chord) / length2, 0.0, 1.0) : 0;
-        return (d - f * chord).norm() <= tolerance;
+    return std::ranges::all_of(points, [&](const Vec3& p) {
+        return geometry::distance_to_segment(p, points.front(), points.back()) <= tolerance;
     });
 }
 

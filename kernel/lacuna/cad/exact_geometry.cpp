@@ -17,24 +17,31 @@ constexpr std::size_t kAtOnce = 20'000;
 /// process, with the models it holds, need not be killed.
 constexpr double kGrace = 0.3;
 
-/// Ask the process that holds a model for `count` points.
-/// @param doing, entity  as in Task
+/// Replace points, and their parameters on a surface, by those of the process that holds a face or curve.
+/// @param kind, doing  as in Task
+/// @param make  makes the request for some of the points, from the handle of the model.
 template <class Reply, class Make>
-Reply ask_points(const CadSource& source, Opcode opcode, const Make& make, const char* doing,
-                 NamedEntity entity, std::size_t count, const RunContext& context)
+void ask_points(const CadEntity& entity, const char* kind, const char* doing, Opcode opcode, const Make& make,
+                std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context)
 {
-    Task task{source.path(), doing};
-    task.entity = std::move(entity);
-    task.points = count;
-    task.context = &context;
-    task.grace = kGrace;
-    Reply reply = source.ask<Reply>(opcode, make, task);
-    if (reply.points.size() != count)
-        throw BackendError(Message("cad.protocol",
-                                   "{}: the CAD process returned another number of points than requested",
-                                   source.path())
-                               .remedy("load the file again"));
-    return reply;
+    for (std::size_t from = 0; from < points.size(); from += kAtOnce) {
+        check_cancelled(context);
+        const std::size_t count = std::min(kAtOnce, points.size() - from);
+        Task task{entity.source->path(), doing};
+        task.entity = NamedEntity{kind, entity.tag};
+        task.points = count;
+        task.context = &context;
+        task.grace = kGrace;
+        const auto request = [&](std::uint64_t handle) { return make(handle, from, count); };
+        const Reply reply = entity.source->ask<Reply>(opcode, request, task);
+        if (reply.points.size() != count)
+            throw BackendError(Message("cad.protocol",
+                                       "{}: the CAD process returned another number of points than requested",
+                                       entity.source->path())
+                                   .remedy("load the file again"));
+        std::ranges::copy(reply.points, points.subspan(from).begin());
+        if constexpr (requires { reply.uv; }) std::ranges::copy(reply.uv, uv.subspan(from).begin());
+    }
 }
 
 } // namespace
@@ -101,19 +108,13 @@ CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Mess
 
 void CadSurface::project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context) const
 {
-    for (std::size_t from = 0; from < points.size(); from += kAtOnce) {
-        check_cancelled(context);
-        const std::size_t count = std::min(kAtOnce, points.size() - from);
+    const auto make = [&](std::uint64_t handle, std::size_t from, std::size_t count) {
         const std::span<Vec3> some = points.subspan(from, count);
         const std::span<Vec2> places = uv.subspan(from, count);
-        const auto request = [&](std::uint64_t handle) {
-            return ProjectRequest{handle, tag_, {some.begin(), some.end()}, {places.begin(), places.end()}};
-        };
-        const auto reply = ask_points<ProjectReply>(*source_, Opcode::project, request,
-                                                    "projecting points onto", {"face", tag_}, count, context);
-        std::copy(reply.points.begin(), reply.points.end(), some.begin());
-        std::copy(reply.uv.begin(), reply.uv.end(), places.begin());
-    }
+        return ProjectRequest{handle, tag, {some.begin(), some.end()}, {places.begin(), places.end()}};
+    };
+    ask_points<ProjectReply>(*this, "face", "projecting points onto", Opcode::project, make, points, uv,
+                             context);
 }
 
 void CadCurve::evaluate(std::span<const double> params, std::span<Vec3> points,
@@ -123,18 +124,11 @@ void CadCurve::evaluate(std::span<const double> params, std::span<Vec3> points,
         std::ranges::transform(params, points.begin(), [&](double t) { return plain_.at(t); });
         return;
     }
-    for (std::size_t from = 0; from < points.size(); from += kAtOnce) {
-        check_cancelled(context);
-        const std::size_t count = std::min(kAtOnce, points.size() - from);
+    const auto make = [&](std::uint64_t handle, std::size_t from, std::size_t count) {
         const std::span<const double> some = params.subspan(from, count);
-        const auto request = [&](std::uint64_t handle) {
-            return EvaluateRequest{handle, tag_, {some.begin(), some.end()}};
-        };
-        const auto reply = ask_points<EvaluateReply>(*source_, Opcode::evaluate, request, "evaluating",
-                                                     {"curve", tag_}, count, context);
-        std::copy(reply.points.begin(), reply.points.end(),
-                  points.begin() + static_cast<std::ptrdiff_t>(from));
-    }
+        return EvaluateRequest{handle, tag, {some.begin(), some.end()}};
+    };
+    ask_points<EvaluateReply>(*this, "curve", "evaluating", Opcode::evaluate, make, points, {}, context);
 }
 
 } // namespace lacuna::cad

@@ -1,9 +1,111 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/cad/load.h>
 
-#include <lacuna/cad/detail/import_cad.h>
+#include <lacuna/cad/detail/exact_geometry.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/renumbered.h>
+#include <lacuna/healing/shared/orient_groups.h>
+
+#include <utility>
 
 namespace lacuna::cad {
+
+using namespace cad_protocol;
+
+namespace {
+
+void add_edges(topology::ModelBuilder& model, LoadReply& reply, double scale,
+               const std::shared_ptr<const CadSource>& source)
+{
+    for (std::size_t p = 0; p < reply.vertex_tags.size(); ++p)
+        model.vertices.push_back({static_cast<Index>(p), reply.vertex_tags[p], topology::Origin::given});
+    for (LoadReply::Edge& cad : reply.edges) {
+        topology::Edge edge;
+        edge.tag = cad.tag;
+        edge.from = VertexId(cad.from);
+        edge.to = VertexId(cad.to);
+        edge.points = std::move(cad.points);
+        edge.params = std::move(cad.params);
+        std::vector<topology::LeftOutFace> left_out;
+        for (const Index f : cad.left_out) {
+            const LoadReply::LeftOut& face = reply.left_out[index(f)];
+            left_out.push_back({face.tag, source->path(), face.why});
+        }
+        for (Vec3& part : cad.form) part *= scale;
+        geometry::PlainCurve plain{std::move(cad.form)};
+        edge.curve = std::make_shared<CadCurve>(CadEntity{source, cad.curve}, std::move(plain),
+                                                std::move(left_out));
+        model.edges.push_back(std::move(edge));
+    }
+}
+
+/// Remove points and vertices that no edge or facet uses, and set the diagonal.
+void compact(topology::ModelBuilder& model)
+{
+    Renumbered<topology::Vertex> vertices(model.vertices);
+    Renumbered<Vec3> points(model.points);
+    for (topology::Edge& edge : model.edges)
+        for (VertexId* end : {&edge.from, &edge.to}) *end = VertexId(index(vertices(end->index())));
+    for (topology::Vertex& vertex : vertices.used) vertex.point = points(vertex.point);
+    for (topology::Edge& edge : model.edges)
+        for (Index& p : edge.points) p = points(p);
+    for (topology::Face& face : model.faces)
+        for (Triangle& t : face.triangles)
+            for (Index& p : t) p = points(p);
+    model.points = std::move(points.used);
+    model.vertices = std::move(vertices.used);
+    Eigen::AlignedBox3d bounds;
+    for (const Vec3& p : model.points) bounds.extend(p);
+    model.diagonal = bounds.isEmpty() ? 0 : bounds.diagonal().norm();
+}
+
+/// Make the model of a reply, without loops.
+void build_model(topology::ModelBuilder& model, LoadReply reply, double scale,
+                 const std::shared_ptr<const CadSource>& source)
+{
+    model.source = source->path();
+    for (MessageParts& note : reply.notes) model.notes.emplace_back(std::move(note));
+    model.points = std::move(reply.points);
+    add_edges(model, reply, scale, source);
+    for (LoadReply::Face& cad : reply.faces) {
+        topology::Face face;
+        face.tag = cad.tag;
+        face.name = std::move(cad.name);
+        face.kind = std::move(cad.kind);
+        face.triangles = std::move(cad.triangles);
+        face.uv = std::move(cad.uv);
+        face.surface = std::make_shared<CadSurface>(CadEntity{source, cad.tag});
+        model.faces.push_back(std::move(face));
+    }
+    for (Vec3& p : model.points) p *= scale;
+    compact(model);
+}
+
+/// Read CAD files into one model through the CAD process. Tags continue from file to file, as in Gmsh.
+/// The warnings name faces left out, other than slivers, and script commands that are skipped.
+io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
+                           const RunContext& context, const Limits& limits)
+{
+    const CadOrder order{paths, options.tolerance, options.scale, limits};
+    const CadFiles files = open_cad_files(order, context);
+    const std::shared_ptr<Worker> worker = Worker::current(&context, subject_of(order));
+    LoadReply reply = read_cad_files(*worker, order, files, context);
+    const auto source = std::make_shared<const CadSource>(worker, reply.model, order, files.digest);
+
+    std::vector<std::vector<std::size_t>> solids;
+    for (const std::vector<Index>& faces : reply.solids) solids.emplace_back(faces.begin(), faces.end());
+    const auto left_out = static_cast<std::ptrdiff_t>(reply.left_out.size());
+    topology::ModelBuilder model;
+    build_model(model, std::move(reply), options.scale, source);
+    std::vector<Message> warnings(model.notes.begin(), model.notes.begin() + left_out);
+    warnings.insert(warnings.end(), files.notes.begin(), files.notes.end());
+    model.notes.insert(model.notes.end(), files.notes.begin(), files.notes.end());
+    model.tolerance = options.tolerance > 0 ? options.tolerance : kFileAccuracy * model.diagonal;
+    healing::orient_groups(model, solids);
+    return {.model = std::move(model).finish(), .scale = options.scale, .warnings = std::move(warnings)};
+}
+
+} // namespace
 
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options,
                      const RunContext& context, const Limits& limits)

@@ -127,23 +127,20 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
     Task task{formatted("a region of {} boundary sides", sides), "filling it with quads"};
     task.context = &context;
     task.points = sides * sides / 16; // quads of a round region with this number of boundary segments
-    const auto fill = [&] {
-        try {
-            return Worker::current(&context, task.subject)
-                ->ask<RecombineReply>(Opcode::recombine, request, task);
-        } catch (const BackendError& error) {
-            if (error.code() != "cad.worker_ended") throw;
-            // No input file is involved, so the standard message of a crash does not apply.
-            throw BackendError(Message(error.code(), "Gmsh's quad mesher crashed on {}", task.subject)
-                                   .remedy("use quads = \"paved\", which does not need Gmsh"));
-        }
-    };
-    auto reply = fill();
-    if (reply.points.size() < region.points.size() ||
-        !std::equal(region.points.begin(), region.points.end(), reply.points.begin()))
-        throw BackendError(Message("cad.protocol", "the CAD process moved boundary nodes of a region")
-                               .remedy("use quads = \"paved\""));
-    return {std::move(reply.points), std::move(reply.quads), "gmsh"};
+    try {
+        auto reply =
+            Worker::current(&context, task.subject)->ask<RecombineReply>(Opcode::recombine, request, task);
+        if (reply.points.size() < region.points.size() ||
+            !std::equal(region.points.begin(), region.points.end(), reply.points.begin()))
+            throw BackendError(Message("cad.protocol", "the CAD process moved boundary nodes of a region")
+                                   .remedy("use quads = \"paved\""));
+        return {std::move(reply.points), std::move(reply.quads), "gmsh"};
+    } catch (const BackendError& error) {
+        if (error.code() != "cad.worker_ended") throw;
+        // No input file is involved, so the standard message of a crash does not apply.
+        throw BackendError(Message(error.code(), "Gmsh's quad mesher crashed on {}", task.subject)
+                               .remedy("use quads = \"paved\", which does not need Gmsh"));
+    }
 }
 
 std::string gmsh_version()

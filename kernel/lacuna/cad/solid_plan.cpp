@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace lacuna::cad {
@@ -94,7 +95,7 @@ private:
     struct Source {
         Index number = 0;
         std::set<std::int32_t> faces;
-        std::map<std::int32_t, std::array<double, 9>> curves;
+        std::map<std::int32_t, std::array<Vec3, 3>> curves;
     };
 
     // --- edges ------------------------------------------------------------------------------------------
@@ -104,9 +105,9 @@ private:
     {
         const auto* curve = dynamic_cast<const CadCurve*>(edge.curve.get());
         if (curve == nullptr || edge.params.size() < 2) return false;
-        const auto source = source_.find(curve->source().get());
+        const auto source = source_.find(curve->source.get());
         if (source == source_.end()) return false;
-        const auto known = source->second.curves.find(curve->tag());
+        const auto known = source->second.curves.find(curve->tag);
         if (known == source->second.curves.end()) return false;
         // Scaling may have changed the parameters of the curve, so compare its end points and middle.
         const double first = edge.params.front(), last = edge.params.back();
@@ -114,12 +115,12 @@ private:
         std::array<Vec3, 3> own;
         curve->evaluate(params, own, context_);
         const auto near = [&](std::size_t a, std::size_t b) {
-            return (own[a] - Eigen::Map<const Vec3>(known->second.data() + 3 * b)).norm() <= 10 * precision_;
+            return (own[a] - known->second[b]).norm() <= 10 * precision_;
         };
         if (!near(1, 1) || !((near(0, 0) && near(2, 2)) || (near(0, 2) && near(2, 0)))) return false;
         made.kind = SolidEdge::exact;
         made.source = source->second.number;
-        made.curve = curve->tag();
+        made.curve = curve->tag;
         return true;
     }
 
@@ -157,34 +158,9 @@ private:
 
     // --- faces ------------------------------------------------------------------------------------------
 
-    bool exact_face(const Face& face, SolidFace& made) const
-    {
-        const auto* surface = dynamic_cast<const CadSurface*>(face.surface.get());
-        if (surface == nullptr) return false;
-        const Source& source = source_.at(surface->source().get());
-        if (!source.faces.contains(surface->tag())) return false;
-        made.kind = SolidFace::exact;
-        made.source = source.number;
-        made.face = surface->tag();
-        return true;
-    }
-
-    void plane(FaceId id, SolidFace& made)
-    {
-        // Seams are dropped: they have no meaning in a plane.
-        for (const Loop& loop : outermost_first(model_, border_loops(model_, id)))
-            made.loops.push_back(wire(loop));
-    }
-
-    void patches(FaceId face, const std::vector<std::vector<EdgeUse>>& sides, SolidFace& made) const
-    {
-        made.kind = SolidFace::patches;
-        made.surfaces = void_patches(model_, model_[face], sides, precision_);
-    }
-
     /// A smooth surface over the outer loop, through points of the facets and of the inner loops, which are
     /// then trimmed from it.
-    void filling(FaceId id, SolidFace& made)
+    SolidFace filling(FaceId id, SolidFace made)
     {
         made.kind = SolidFace::filling;
         made.area = face_area(model_, id);
@@ -208,6 +184,7 @@ private:
                 if (taken.insert(p).second) inside.push_back(p);
         lead(inside);
         for (const Loop& loop : loops) made.loops.push_back(wire(loop));
+        return made;
     }
 
     SolidFace plan(FaceId id)
@@ -215,11 +192,20 @@ private:
         const Face& face = model_[id];
         SolidFace made;
         made.entity = entity_of(model_, id);
-        if (exact_face(face, made)) return made;
+        const auto* surface = dynamic_cast<const CadSurface*>(face.surface.get());
+        const Source* source = surface == nullptr ? nullptr : &source_.at(surface->source.get());
+        if (source != nullptr && source->faces.contains(surface->tag)) {
+            made.kind = SolidFace::exact;
+            made.source = source->number;
+            made.face = surface->tag;
+            return made;
+        }
         const bool is_void = face.origin == Origin::made_void;
         if (is_plane(model_, face)) {
             plan_.planes += is_void ? 1 : 0;
-            plane(id, made);
+            // Seams are dropped: they have no meaning in a plane.
+            for (const Loop& loop : outermost_first(model_, border_loops(model_, id)))
+                made.loops.push_back(wire(loop));
             return made;
         }
         if (!is_void) {
@@ -231,10 +217,9 @@ private:
         ++plan_.fitted;
         const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())
                                                   : std::vector<std::vector<EdgeUse>>{};
-        if (!sides.empty())
-            patches(id, sides, made);
-        else
-            filling(id, made);
+        if (sides.empty()) return filling(id, made);
+        made.kind = SolidFace::patches;
+        made.surfaces = void_patches(model_, face, sides, precision_);
         return made;
     }
 
@@ -273,19 +258,19 @@ SolidSources sources_of(const Model& model, const RunContext& context)
     for (const Face& face : model.faces) {
         const auto* surface = dynamic_cast<const CadSurface*>(face.surface.get());
         if (surface == nullptr) continue;
-        const CadSource* source = surface->source().get();
+        const CadSource* source = surface->source.get();
         const std::size_t place = place_of(source);
         if (place == sources.order.size()) {
             sources.order.push_back(source);
             sources.wanted.emplace_back();
         }
-        sources.wanted[place].faces.push_back(surface->tag());
+        sources.wanted[place].faces.push_back(surface->tag);
     }
     for (const Edge& edge : model.edges) {
         const auto* curve = dynamic_cast<const CadCurve*>(edge.curve.get());
         if (curve == nullptr) continue;
-        const std::size_t place = place_of(curve->source().get());
-        if (place < sources.order.size()) sources.wanted[place].curves.push_back(curve->tag());
+        const std::size_t place = place_of(curve->source.get());
+        if (place < sources.order.size()) sources.wanted[place].curves.push_back(curve->tag);
     }
     hold_in_one(sources, context);
     return sources;

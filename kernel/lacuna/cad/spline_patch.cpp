@@ -24,13 +24,6 @@ std::vector<double> evenly(std::size_t sides)
     return parameters;
 }
 
-std::vector<double> halfway(const std::vector<double>& parameters)
-{
-    std::vector<double> middles(parameters.size() - 1);
-    for (std::size_t i = 0; i < middles.size(); ++i) middles[i] = (parameters[i] + parameters[i + 1]) / 2;
-    return middles;
-}
-
 /// Interpolate several curves with the same axis: one column for each coordinate.
 Eigen::MatrixXd poles_through(const SplineAxisData& axis, const Eigen::MatrixXd& values)
 {
@@ -49,13 +42,6 @@ Eigen::MatrixXd rows_of(std::span<const Vec3> points)
     return rows;
 }
 
-double greatest_distance(std::span<const Vec3> a, std::span<const Vec3> b)
-{
-    double greatest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
-    return greatest;
-}
-
 /// Number of intervals needed to interpolate a function of one parameter whose values are lists of points.
 std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::span<const double>)>& lines,
                       double precision)
@@ -63,15 +49,16 @@ std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::sp
     for (std::size_t sides = 1; sides < kMostSides; sides = sides == 1 ? 4 : 2 * sides) {
         const std::vector<double> at = evenly(sides);
         // A side counts as straight only if its quarter points lie on the chord as well.
-        const std::vector<double> probes = sides == 1 ? evenly(4) : halfway(at);
+        std::vector<double> probes;
+        for (std::size_t i = 0; i < sides; ++i) probes.push_back((at[i] + at[i + 1]) / 2);
+        if (sides == 1) probes = evenly(4);
         const auto values = lines(at);
         const auto wanted = lines(probes);
         bool good = true;
         for (std::size_t line = 0; good && line < values.size(); ++line) {
             const SplineCurveData curve = interpolate(values[line]);
-            std::vector<Vec3> met;
-            for (const double p : probes) met.push_back(point_at(curve, p));
-            good = greatest_distance(met, wanted[line]) <= precision;
+            for (std::size_t i = 0; good && i < probes.size(); ++i)
+                good = (point_at(curve, probes[i]) - wanted[line][i]).norm() <= precision;
         }
         if (good) return sides;
     }

@@ -5,11 +5,13 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace lacuna::cad {
 
@@ -28,10 +30,8 @@ struct BreakMap {
     [[nodiscard]] static double through(const std::vector<double>& from, const std::vector<double>& to,
                                         double x)
     {
-        const auto above = std::upper_bound(from.begin() + 1, from.end() - 1, x);
-        const auto k = static_cast<std::size_t>(above - from.begin());
-        const double f = (x - from[k - 1]) / (from[k] - from[k - 1]);
-        return (1 - f) * to[k - 1] + f * to[k];
+        const auto [i, f] = geometry::place_at(from, x);
+        return (1 - f) * to[i] + f * to[i + 1];
     }
     [[nodiscard]] double to_side(double x) const { return through(patch, side, x); }
     [[nodiscard]] double to_patch(double s) const { return through(side, patch, s); }
@@ -106,7 +106,10 @@ public:
     /// Points of the patch: one row of u for each v.
     [[nodiscard]] std::vector<Vec3> grid(std::span<const double> u, std::span<const double> v) const
     {
-        std::vector<Vec3> places = coons(u, v);
+        const Sides sides = sides_at(u, v);
+        std::vector<Vec3> places;
+        for (std::size_t j = 0; j < v.size(); ++j)
+            for (std::size_t i = 0; i < u.size(); ++i) places.push_back(sides.at(i, u[i], j, v[j]));
         if (!correction_) return places;
         const Eigen::MatrixXd along = basis_rows(correction_->u, u), across = basis_rows(correction_->v, v);
         for (std::size_t d = 0; d < 3; ++d) {
@@ -145,15 +148,6 @@ private:
                 right_.at(on_right_.to_side(v)),
                 {low[0], low[1], high[0], high[1]}};
     }
-    [[nodiscard]] std::vector<Vec3> coons(std::span<const double> u, std::span<const double> v) const
-    {
-        const Sides sides = sides_at(u, v);
-        std::vector<Vec3> places;
-        for (std::size_t j = 0; j < v.size(); ++j)
-            for (std::size_t i = 0; i < u.size(); ++i) places.push_back(sides.at(i, u[i], j, v[j]));
-        return places;
-    }
-
     PatchSide bottom_, right_, top_, left_;
     BreakMap on_bottom_, on_top_, on_left_, on_right_;
     std::optional<Correction> correction_;
@@ -202,11 +196,11 @@ private:
         for (std::size_t t = 0; t < face.triangles.size(); ++t)
             for (std::size_t i = 0; i < 3; ++i)
                 facet_at[{face.triangles[t][i], face.triangles[t][(i + 1) % 3]}] = t;
-        std::map<Segment, int> rim; // position in the loop of each directed rim side
+        std::set<Segment> rim; // directed sides
         for (const Loop& loop : face.loops) {
             for (const EdgeUse& use : loop.uses) {
                 const std::vector<Index> chain = use_points(model, use);
-                for (std::size_t k = 0; k + 1 < chain.size(); ++k) rim[{chain[k], chain[k + 1]}] = 1;
+                for (std::size_t k = 0; k + 1 < chain.size(); ++k) rim.insert({chain[k], chain[k + 1]});
             }
         }
         // Merge facet corners that meet at a side that is not on the rim.

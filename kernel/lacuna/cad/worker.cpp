@@ -136,50 +136,37 @@ std::vector<std::string> worker_environment()
     return kept;
 }
 
-class SpawnActions {
-public:
-    SpawnActions()
-    {
-        ::posix_spawn_file_actions_init(&files);
-        ::posix_spawnattr_init(&attributes);
-    }
-    ~SpawnActions()
-    {
-        ::posix_spawn_file_actions_destroy(&files);
-        ::posix_spawnattr_destroy(&attributes);
-    }
-    SpawnActions(const SpawnActions&) = delete;
-    SpawnActions& operator=(const SpawnActions&) = delete;
-
-    posix_spawn_file_actions_t files{};
-    posix_spawnattr_t attributes{};
-};
-
 /// Start the program in its own process group, with `socket` as descriptor 3 and its output in `words`.
 pid_t spawn(const std::string& program, int socket, int words)
 {
-    SpawnActions actions;
-    ::posix_spawn_file_actions_addopen(&actions.files, 0, "/dev/null", O_RDONLY, 0);
-    ::posix_spawn_file_actions_adddup2(&actions.files, words, 1);
-    ::posix_spawn_file_actions_adddup2(&actions.files, words, 2);
-    ::posix_spawn_file_actions_adddup2(&actions.files, socket, 3);
-    sigset_t all, none;
-    ::sigfillset(&all);
-    ::sigemptyset(&none);
-    ::posix_spawnattr_setsigdefault(&actions.attributes, &all);
-    ::posix_spawnattr_setsigmask(&actions.attributes, &none);
-    ::posix_spawnattr_setpgroup(&actions.attributes, 0);
-    ::posix_spawnattr_setflags(&actions.attributes,
-                               POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
     std::vector<std::string> kept = worker_environment();
     std::vector<char*> environment;
     for (std::string& entry : kept) environment.push_back(entry.data());
     environment.push_back(nullptr);
     std::string name = "lacuna-cad";
     std::array<char*, 2> arguments{name.data(), nullptr};
+
+    posix_spawn_file_actions_t files{};
+    ::posix_spawn_file_actions_init(&files);
+    ::posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&files, words, 1);
+    ::posix_spawn_file_actions_adddup2(&files, words, 2);
+    ::posix_spawn_file_actions_adddup2(&files, socket, 3);
+    posix_spawnattr_t attributes{};
+    ::posix_spawnattr_init(&attributes);
+    sigset_t all, none;
+    ::sigfillset(&all);
+    ::sigemptyset(&none);
+    ::posix_spawnattr_setsigdefault(&attributes, &all);
+    ::posix_spawnattr_setsigmask(&attributes, &none);
+    ::posix_spawnattr_setpgroup(&attributes, 0);
+    ::posix_spawnattr_setflags(&attributes,
+                               POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
     pid_t pid = 0;
-    const int error = ::posix_spawn(&pid, program.c_str(), &actions.files, &actions.attributes,
-                                    arguments.data(), environment.data());
+    const int error = ::posix_spawn(&pid, program.c_str(), &files, &attributes, arguments.data(),
+                                    environment.data());
+    ::posix_spawn_file_actions_destroy(&files);
+    ::posix_spawnattr_destroy(&attributes);
     if (error != 0)
         throw BackendError("cad.no_worker", "the CAD process {} does not start: {}", program,
                            std::strerror(error));
@@ -312,8 +299,9 @@ Worker::~Worker()
     if (::getpid() == owner_) end();
 }
 
-void Worker::end() noexcept
+void Worker::end(std::string why) noexcept
 {
+    if (!why.empty()) end_ = std::move(why);
     if (ended_) return;
     ended_ = true;
     siginfo_t info{};
@@ -352,8 +340,7 @@ void Worker::died(const Task& task)
     // The stream may close shortly before the process ends.
     constexpr int kTries = 100; // of 10 ms: a large process takes time to end
     for (int i = 0; i < kTries && !has_ended(process_); ++i) ::usleep(10'000);
-    end();
-    end_ = "it crashed on " + task.subject;
+    end("it crashed on " + task.subject);
     throw BackendError(Message("cad.worker_ended",
                                "{}: the CAD process ended while {}: {}{}. The file is damaged or Open "
                                "CASCADE cannot read it",
@@ -363,8 +350,7 @@ void Worker::died(const Task& task)
 
 void Worker::give_up(const Task& task, const ProtocolError& error)
 {
-    end_ = "it broke the protocol on " + task.subject;
-    end();
+    end("it broke the protocol on " + task.subject);
     throw BackendError("cad.protocol", "{}: the CAD process sent invalid data while {}: {}", task.subject,
                        doing(task), error.what());
 }
@@ -411,8 +397,7 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
                 report_progress(*task.context, task.stage, fraction);
         }
     } catch (const TimeOver&) {
-        end_ = "it exceeded its time limit on " + task.subject;
-        end();
+        end("it exceeded its time limit on " + task.subject);
         throw BackendError(Message("cad.time_limit",
                                    "{}: {} took longer than {:.3g} s of processor time, and the CAD process "
                                    "was ended",
@@ -423,8 +408,7 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
     } catch (const ProtocolError& error) {
         give_up(task, error);
     } catch (...) { // Cancelled, or an exception of the progress callback: do not wait for the reply.
-        end_ = "it was stopped while working on " + task.subject;
-        end();
+        end("it was stopped while working on " + task.subject);
         throw;
     }
     spent_ = spent_ || opcode == Opcode::load;
@@ -435,8 +419,7 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
         throw NotSweepable(Message(failure.message));
     case Failure::out_of_memory:
         // The process may hold memory of the failed attempt, so it is killed.
-        end_ = "it ran out of memory on " + task.subject;
-        end();
+        end("it ran out of memory on " + task.subject);
         throw BackendError(Message("cad.memory_limit",
                                    "{}: {} took more than the {} MiB that the CAD process may use",
                                    task.subject, doing(task), needed(memory >> 20))

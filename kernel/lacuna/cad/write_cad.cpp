@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/cad/write_cad.h>
 
-#include <lacuna/cad/detail/input_file.h>
+#include <lacuna/cad/detail/cad_files.h>
 #include <lacuna/cad/detail/solid_plan.h>
 #include <lacuna/closure/close.h>
 #include <lacuna/io/load_facets.h>
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <string_view>
 
 #include <sys/mman.h>
@@ -41,18 +42,11 @@ void forget_time(std::string& bytes)
 {
     const std::size_t name = std::min(bytes.find("FILE_NAME("), bytes.size());
     const std::size_t end = std::min(bytes.find(';', name), bytes.size());
-    constexpr std::string_view kShape = "0000-00-00T00:00:00";
-    for (std::size_t at = name; at + kShape.size() < end; ++at) {
-        const auto fits = [&](std::size_t i) {
-            const char c = bytes[at + i];
-            return kShape[i] == '0' ? c >= '0' && c <= '9' : c == kShape[i];
-        };
-        std::size_t i = 0;
-        while (i < kShape.size() && fits(i)) ++i;
-        if (i < kShape.size()) continue;
-        bytes.replace(at, kShape.size(), "1970-01-01T00:00:00");
-        return;
-    }
+    static const std::regex kStamp("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}");
+    std::cmatch stamp;
+    if (std::regex_search(bytes.c_str() + name, bytes.c_str() + end, stamp, kStamp))
+        bytes.replace(name + static_cast<std::size_t>(stamp.position()),
+                      static_cast<std::size_t>(stamp.length()), "1970-01-01T00:00:00");
 }
 
 /// The bytes that the CAD process wrote. In a STEP file, the time stamp and the product name, which Open

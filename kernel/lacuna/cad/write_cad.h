@@ -7,7 +7,6 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
-#include <string>
 
 namespace lacuna::cad {
 

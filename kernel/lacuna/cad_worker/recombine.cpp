@@ -15,13 +15,6 @@ using cad_protocol::RecombineRequest;
 
 namespace {
 
-std::size_t side_count(const RecombineRequest& region)
-{
-    std::size_t sides = 0;
-    for (const std::vector<Index>& loop : region.loops) sides += loop.size();
-    return sides;
-}
-
 /// Add the loops to Gmsh as lines that it must not divide. @return the face, and the Gmsh point of each
 /// region point on a loop.
 std::pair<int, std::unordered_map<Index, int>> draw(const RecombineRequest& region, const Vec2& origin,
@@ -31,7 +24,7 @@ std::pair<int, std::unordered_map<Index, int>> draw(const RecombineRequest& regi
     std::vector<int> wires;
     for (const std::vector<Index>& loop : region.loops) {
         for (const Index p : loop) {
-            const Vec2 at = (region.points[index(p)] - origin) / scale;
+            const Vec2 at = (region.points.at(index(p)) - origin) / scale;
             drawn[p] = gmsh::model::geo::addPoint(at.x(), at.y(), 0);
         }
         std::vector<int> lines;
@@ -67,7 +60,7 @@ RecombineReply read_quads(const RecombineRequest& region, int face,
     gmsh::model::mesh::getElementsByType(2, elements, corners, face);
     if (!elements.empty()) {
         throw NotSweepable(Message("cad.recombine", "Gmsh left {} triangles in a region of {} boundary sides",
-                                   found(elements.size()), side_count(region))
+                                   found(elements.size()), drawn.size())
                                .remedy("use quads = \"auto\""));
     }
     gmsh::model::mesh::getElementsByType(3, elements, corners, face);
@@ -111,7 +104,7 @@ RecombineReply recombine(const RecombineRequest& region)
     // Some tolerances of Gmsh are absolute, so scale the region to size 1.
     Eigen::AlignedBox2d box;
     for (const std::vector<Index>& loop : region.loops) {
-        for (const Index p : loop) box.extend(region.points[index(p)]);
+        for (const Index p : loop) box.extend(region.points.at(index(p)));
     }
     const Vec2 origin = box.min();
     const double scale = box.sizes().maxCoeff();

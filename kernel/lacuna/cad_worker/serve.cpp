@@ -61,8 +61,10 @@ public:
         switch (frame.opcode) {
         case Opcode::load:
             return load(frame, progress);
-        case Opcode::evaluate:
-            return evaluate(decode<EvaluateRequest>(frame.bytes));
+        case Opcode::evaluate: {
+            const auto wanted = decode<EvaluateRequest>(frame.bytes);
+            return encode(EvaluateReply{evaluate_curve(model(wanted.model), wanted.curve, wanted.params)});
+        }
         case Opcode::project:
             return project(decode<ProjectRequest>(frame.bytes));
         case Opcode::recombine:
@@ -110,11 +112,6 @@ private:
         imported.reply.model = ++last_;
         models_[last_] = std::move(imported.source);
         return encode(imported.reply);
-    }
-
-    [[nodiscard]] std::string evaluate(const EvaluateRequest& request) const
-    {
-        return encode(EvaluateReply{evaluate_curve(model(request.model), request.curve, request.params)});
     }
 
     [[nodiscard]] std::string project(ProjectRequest request) const

@@ -31,18 +31,14 @@ std::vector<Vec3> probes_of(int dim, int tag)
 {
     std::vector<double> low, high;
     gmsh::model::getParametrizationBounds(dim, tag, low, high);
-    std::vector<Vec3> places;
+    std::vector<double> params;
+    std::vector<Vec2> uv;
     for (const double f : {0.0, 0.23, 0.61, 1.0}) {
-        if (dim == 1) {
-            places.push_back(curve_points(tag, {low[0] + f * (high[0] - low[0])}).front());
-        } else {
-            const double g = 0.87 - 0.7 * f;
-            places.push_back(
-                surface_points(tag, {Vec2(low[0] + f * (high[0] - low[0]), low[1] + g * (high[1] - low[1]))})
-                    .front());
-        }
+        params.push_back(low[0] + f * (high[0] - low[0]));
+        const double g = 0.87 - 0.7 * f;
+        if (dim == 2) uv.emplace_back(params.back(), low[1] + g * (high[1] - low[1]));
     }
-    return places;
+    return dim == 1 ? curve_points(tag, params) : surface_points(tag, uv);
 }
 
 /// Features by which a face or curve is recognised after it was copied through a file.
@@ -126,14 +122,15 @@ cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& s
     if (faces.empty()) return found;
     session_.run([&] {
         set_plain_import(session_, source.scale);
-        const std::vector<int> faces_before = tags_of(2), curves_before = tags_of(1);
+        const auto last_tag = [](int dim) {
+            const std::vector<int> tags = tags_of(dim);
+            return tags.empty() ? 0 : tags.back();
+        };
+        const int last_face = last_tag(2), last_curve = last_tag(1);
         import_shapes(files_.source, "brep");
-        const auto match = [&](int dim, const std::map<int, Fingerprint>& prints,
-                               const std::vector<int>& before) {
+        const auto match = [&](int dim, const std::map<int, Fingerprint>& prints, int last) {
             std::vector<int> fresh = tags_of(dim);
-            std::erase_if(fresh,
-                          [&](int tag) { return std::binary_search(before.begin(), before.end(), tag); });
-            const int shift = before.empty() ? 0 : before.back();
+            std::erase_if(fresh, [&](int tag) { return tag <= last; });
             std::map<int, int> matched;
             for (const auto& [tag, print] : prints) {
                 const auto is = [&, &known = print](int candidate) {
@@ -141,8 +138,8 @@ cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& s
                            known.is(Fingerprint(dim, candidate), source.scale, source.diagonal);
                 };
                 // Usually they come in the same order.
-                const auto place = is(tag + shift) ? std::find(fresh.begin(), fresh.end(), tag + shift)
-                                                   : std::find_if(fresh.begin(), fresh.end(), is);
+                const auto place = is(tag + last) ? std::find(fresh.begin(), fresh.end(), tag + last)
+                                                  : std::find_if(fresh.begin(), fresh.end(), is);
                 if (place == fresh.end())
                     throw BackendError(Message("cad.lost",
                                                "{} of {} was not found in a BREP copy of its geometry",
@@ -152,15 +149,14 @@ cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& s
             }
             return matched;
         };
-        imported.faces = match(2, faces, faces_before);
-        imported.curves = match(1, curves, curves_before);
+        imported.faces = match(2, faces, last_face);
+        imported.curves = match(1, curves, last_curve);
         for (const auto& [tag, own] : imported.faces) found.faces.push_back(tag);
         for (const auto& [tag, own] : imported.curves) {
             std::vector<double> low, high;
             gmsh::model::getParametrizationBounds(1, own, low, high);
             const std::vector<Vec3> at = curve_points(own, {low[0], (low[0] + high[0]) / 2, high[0]});
-            std::array<double, 9>& row = found.curve_points.emplace_back();
-            for (std::size_t i = 0; i < 9; ++i) row[i] = at[i / 3][static_cast<Eigen::Index>(i % 3)];
+            found.curve_points.push_back({at[0], at[1], at[2]});
             found.curves.push_back(tag);
         }
     });
@@ -173,7 +169,7 @@ int SolidBuilder::point(Index p)
 {
     const auto [place, fresh] = points_.try_emplace(p, 0);
     if (fresh) {
-        const Vec3& at = request_->points[index(p)];
+        const Vec3& at = request_->points.at(index(p));
         place->second = gmsh::model::occ::addPoint(at.x(), at.y(), at.z());
     }
     return place->second;
@@ -192,7 +188,7 @@ std::vector<int> SolidBuilder::make_curves(const SolidEdge& edge)
 std::vector<int> SolidBuilder::curves_of(Index edge)
 {
     const auto [place, fresh] = curves_.try_emplace(edge);
-    if (fresh) place->second = make_curves(request_->edges[index(edge)]);
+    if (fresh) place->second = make_curves(request_->edges.at(index(edge)));
     return place->second;
 }
 
@@ -232,7 +228,7 @@ int SolidBuilder::plane(const SolidFace& face)
     std::vector<int> parts;
     for (const auto& loop : face.loops) parts.push_back(gmsh::model::occ::addPlaneSurface({wire(loop)}));
     if (parts.size() == 1) return parts.front();
-    double wanted = mass_of(2, parts.front());
+    double wanted = mass_of(2, parts.at(0));
     gmsh::vectorpair holes;
     for (const int part : parts | std::views::drop(1)) {
         wanted -= mass_of(2, part);
@@ -255,7 +251,7 @@ int SolidBuilder::filling(const SolidFace& face)
 {
     std::vector<int> leading;
     for (const Index p : face.leading) leading.push_back(point(p));
-    const int filled = gmsh::model::occ::addSurfaceFilling(wire(face.loops.front()), -1, leading);
+    const int filled = gmsh::model::occ::addSurfaceFilling(wire(face.loops.at(0)), -1, leading);
     if (face.loops.size() == 1) return filled;
 
     // The inner loops are near the surface, not exactly on it; those that split it become edges of it.

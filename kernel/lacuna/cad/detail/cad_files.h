@@ -24,16 +24,25 @@ struct CadOrder {
 /// The names of the files, for messages.
 std::string subject_of(const CadOrder& order);
 
-/// CAD files opened and copied into memory, as they are sent to the CAD process.
+/// CAD files copied into memory, as they are sent to the CAD process: the bytes that were checked are the
+/// bytes that are read.
 struct CadFiles {
-    cad_protocol::LoadRequest request;
-    std::vector<cad_protocol::Descriptor> descriptors;
-    std::uint64_t bytes = 0;
-    std::uint64_t digest = 0;   ///< hash of all contents and names
-    std::vector<Message> notes; ///< which script commands are skipped
+    cad_protocol::LoadRequest request;                 ///< their formats, and the names of their contents
+    std::vector<cad_protocol::Descriptor> descriptors; ///< of all contents
+    std::uint64_t bytes = 0;                           ///< size of all contents
+    std::uint64_t digest = 0;                          ///< hash of all contents and names
+    std::vector<Message> notes;                        ///< which script commands are skipped
 };
 
-/// @throw as open_input()
+/// The first bytes of a file, `most` at most.
+std::string text_of(const cad_protocol::Descriptor& file, std::size_t most);
+
+/// Open CAD files and check that their contents agree with their endings. A script is parsed: files in the
+/// same folder that it includes or merges are copied too; commands that write files or mesh are removed from
+/// the copy; any other command outside Gmsh's geometry is an error.
+/// @throw InvalidInput  not a regular file, not of the format, or a script with a forbidden command; names
+///                      file and line.
+/// @throw BackendError  it cannot be read. Cancelled.
 CadFiles open_cad_files(const CadOrder& order, const RunContext& context);
 
 /// Let a CAD process read the files.

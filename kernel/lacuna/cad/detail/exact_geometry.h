@@ -74,39 +74,32 @@ private:
     mutable Held held_; ///< guarded by `mutex_`
 };
 
+/// A face or curve of a loaded model.
+struct CadEntity {
+    std::shared_ptr<const CadSource> source;
+    int tag = 0; ///< in the source file
+};
+
 /// A face of a loaded model, as an exact surface.
-class CadSurface final : public geometry::ExactSurface {
+class CadSurface final : public geometry::ExactSurface, public CadEntity {
 public:
-    CadSurface(std::shared_ptr<const CadSource> source, int tag) : source_(std::move(source)), tag_(tag) {}
+    explicit CadSurface(CadEntity entity) : CadEntity(std::move(entity)) {}
     void project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context) const override;
-
-    [[nodiscard]] const std::shared_ptr<const CadSource>& source() const { return source_; }
-    [[nodiscard]] int tag() const { return tag_; } ///< tag in the source file
-
-private:
-    std::shared_ptr<const CadSource> source_;
-    int tag_;
 };
 
 /// A curve of a loaded model, as an exact curve.
-class CadCurve final : public geometry::ExactCurve, public topology::BesideLeftOut {
+class CadCurve final : public geometry::ExactCurve, public topology::BesideLeftOut, public CadEntity {
 public:
     /// @param plain  an equivalent line or arc, evaluated without the CAD process.
-    CadCurve(std::shared_ptr<const CadSource> source, int tag, geometry::PlainCurve plain,
-             std::vector<topology::LeftOutFace> left_out)
-        : source_(std::move(source)), tag_(tag), plain_(std::move(plain)), left_out_(std::move(left_out))
+    CadCurve(CadEntity entity, geometry::PlainCurve plain, std::vector<topology::LeftOutFace> left_out)
+        : CadEntity(std::move(entity)), plain_(std::move(plain)), left_out_(std::move(left_out))
     {
     }
     void evaluate(std::span<const double> params, std::span<Vec3> points,
                   const RunContext& context) const override;
-
-    [[nodiscard]] const std::shared_ptr<const CadSource>& source() const { return source_; }
-    [[nodiscard]] int tag() const { return tag_; } ///< tag in the source file
     [[nodiscard]] const std::vector<topology::LeftOutFace>& left_out() const override { return left_out_; }
 
 private:
-    std::shared_ptr<const CadSource> source_;
-    int tag_;
     geometry::PlainCurve plain_;
     std::vector<topology::LeftOutFace> left_out_;
 };

@@ -5,9 +5,6 @@
 #include <lacuna/cad_protocol/shared/messages.h>
 #include <lacuna/topology/open_volume.h>
 
-#include <map>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace lacuna::cad {

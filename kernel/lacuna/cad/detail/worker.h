@@ -90,8 +90,8 @@ private:
                                  const std::vector<int>& descriptors);
     void flush_released();
     void limit_memory(std::uint64_t bytes) const;
-    /// Kill the process if it is running, and record how it ended.
-    void end() noexcept;
+    /// Kill the process if it is running, and record how it ended. @param why  we kill it
+    void end(std::string why = {}) noexcept;
     [[nodiscard]] std::string how_it_ended() const;
     [[nodiscard]] std::string last_words() const;
     [[noreturn]] void give_up(const Task& task, const cad_protocol::ProtocolError& error);

@@ -54,7 +54,7 @@ struct SentFile {
 };
 
 struct LoadFile {
-    enum Format : std::uint8_t { step, iges, brep, script, count };
+    enum Format : std::uint8_t { step, iges, brep, script };
     std::uint8_t format = step;
     std::string path;               ///< as given by the user, for messages
     std::vector<SentFile> contents; ///< the file itself, then the files that a script merges
@@ -150,7 +150,7 @@ struct BeginSolidRequest {
 struct BeginSolidReply {
     struct Found {
         std::vector<std::int32_t> faces, curves;
-        std::vector<std::array<double, 9>> curve_points;
+        std::vector<std::array<Vec3, 3>> curve_points;
     };
     std::uint64_t solid = 0;
     std::vector<Found> sources;
@@ -171,14 +171,14 @@ struct SplineSurfaceData {
 };
 /// An edge of the solid.
 struct SolidEdge {
-    enum Kind : std::uint8_t { exact, lines, spline, count };
+    enum Kind : std::uint8_t { exact, lines, spline };
     std::uint8_t kind = lines;
     std::int32_t source = -1, curve = 0; ///< exact
     std::vector<Index> points;           ///< lines: in SolidRequest::points
     SplineCurveData curve_data;          ///< spline
 };
 struct SolidFace {
-    enum Kind : std::uint8_t { exact, plane, patches, filling, count };
+    enum Kind : std::uint8_t { exact, plane, patches, filling };
     std::uint8_t kind = plane;
     NamedEntity entity;                                   ///< for messages
     std::int32_t source = -1, face = 0;                   ///< exact
@@ -188,7 +188,7 @@ struct SolidFace {
     double area = 0;                                      ///< filling: area of its facets
 };
 struct MakeSolidRequest {
-    enum Format : std::uint8_t { step, brep, format_count };
+    enum Format : std::uint8_t { step, brep };
     std::uint64_t solid = 0;
     std::uint8_t format = step;
     std::vector<Vec3> points; ///< [model length]
@@ -208,10 +208,40 @@ struct ReleaseRequest {
 
 // --- bytes --------------------------------------------------------------------------------------------
 
+/// Check that the numbers of a reply are finite, and its indices in range. The CAD process checks the indices
+/// of a request where it uses them.
+/// @throw ProtocolError
 template <class T>
-std::string encode(const T& message);
-/// @throw ProtocolError  the bytes are not such a message, or an index in it is out of range.
+void check(const T&)
+{
+}
+void check(const Failure& m);
+void check(const LoadReply& m);
+void check(const EvaluateReply& m);
+void check(const ProjectRequest& m);
+void check(const ProjectReply& m);
+void check(const RecombineRequest& m);
+void check(const RecombineReply& m);
+void check(const BeginSolidReply& m);
+void check(const MakeSolidRequest& m);
+
 template <class T>
-T decode(std::string_view bytes);
+std::string encode(const T& message)
+{
+    Writer writer;
+    writer(message);
+    return std::move(writer).take();
+}
+/// @throw ProtocolError  the bytes are not such a message, or as check().
+template <class T>
+T decode(std::string_view bytes)
+{
+    Reader reader(bytes);
+    T message;
+    reader(message);
+    reader.finish();
+    check(message);
+    return message;
+}
 
 } // namespace lacuna::cad_protocol
