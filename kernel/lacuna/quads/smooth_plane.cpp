@@ -147,10 +147,7 @@ private:
     /// Compiled for the widest vectors of the machine; results are the same bit for bit.
     std::size_t sweep_range(const Range& range)
     {
-#if defined(LACUNA_WIDER_VECTORS)
-        if (has_avx2()) return sweep_avx2(range);
-#endif
-        return sweep_points(range);
+        return with_avx2([&]() LACUNA_INLINE_BODY { return sweep_points(range); });
     }
 
     LACUNA_INLINE std::size_t sweep_points(const Range& range)
@@ -193,10 +190,6 @@ private:
         }
         return moved;
     }
-
-#if defined(LACUNA_WIDER_VECTORS)
-    [[gnu::target("avx2")]] std::size_t sweep_avx2(const Range& range) { return sweep_points(range); }
-#endif
 
     /// Mark a point and its neighbours that are not fixed.
     void wake(std::size_t p, std::vector<char>& marks) const

@@ -244,10 +244,7 @@ private:
     /// bound. Compiled for the widest vectors of the machine; results are the same bit for bit.
     [[nodiscard]] double cost_above(Index p, double bound) const
     {
-#if defined(LACUNA_WIDER_VECTORS)
-        if (has_avx2()) return cost_avx2(p, bound);
-#endif
-        return sum_up(p, bound);
+        return with_avx2([&]() LACUNA_INLINE_BODY { return sum_up(p, bound); });
     }
 
     [[nodiscard]] LACUNA_INLINE double sum_up(Index p, double bound) const
@@ -260,13 +257,6 @@ private:
         lanes_.add_shapes(cost, at(p), kShape, bound);
         return cost;
     }
-
-#if defined(LACUNA_WIDER_VECTORS)
-    [[nodiscard, gnu::target("avx2")]] double cost_avx2(Index p, double bound) const
-    {
-        return sum_up(p, bound);
-    }
-#endif
 
     /// @return length of the move, relative to the mean length of the node's sides.
     double move(Index p)

@@ -108,10 +108,7 @@ public:
     /// Compiled for the widest vectors of the machine; results are the same bit for bit.
     double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
-#if defined(LACUNA_WIDER_VECTORS)
-        if (has_avx2()) return sum_avx2(x, gradient);
-#endif
-        return sum_up(x, gradient);
+        return with_avx2([&]() LACUNA_INLINE_BODY { return sum_up(x, gradient); });
     }
 
     /// Least determinant over all corners that move, relative to the squared reference lengths.
@@ -184,13 +181,6 @@ private:
         }
         return sum;
     }
-
-#if defined(LACUNA_WIDER_VECTORS)
-    [[gnu::target("avx2")]] double sum_avx2(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
-    {
-        return sum_up(x, gradient);
-    }
-#endif
 
     std::span<const Vec2> points_;
     const FoldedPart& part_;

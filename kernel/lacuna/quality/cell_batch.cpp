@@ -263,29 +263,11 @@ LACUNA_INLINE void evaluate_lanes(const CellBatch<N>& batch, CellValues<N>& valu
 using Batch = CellBatch<kLanes>;
 using Values = CellValues<kLanes>;
 
-#if defined(LACUNA_WIDER_VECTORS)
-template <Wanted kWanted>
-[[gnu::target("avx512f,avx512dq")]] void evaluate_avx512(const Batch& batch, Values& values)
-{
-    evaluate_lanes<kLanes, kWanted>(batch, values);
-}
-
-template <Wanted kWanted>
-[[gnu::target("avx2")]] void evaluate_avx2(const Batch& batch, Values& values)
-{
-    evaluate_lanes<kLanes, kWanted>(batch, values);
-}
-#endif
-
 /// With the widest vectors of the processor.
 template <Wanted kWanted>
 void evaluate_widest(const Batch& batch, Values& values)
 {
-#if defined(LACUNA_WIDER_VECTORS)
-    if (has_avx512()) return evaluate_avx512<kWanted>(batch, values);
-    if (has_avx2()) return evaluate_avx2<kWanted>(batch, values);
-#endif
-    evaluate_lanes<kLanes, kWanted>(batch, values);
+    with_avx512([&]() LACUNA_INLINE_BODY { evaluate_lanes<kLanes, kWanted>(batch, values); });
 }
 
 CellBatch<1> batch_of(std::span<const Vec3, 8> corners)

@@ -421,23 +421,12 @@ LACUNA_INLINE void evaluate_lanes(const Batch& batch, std::span<const Metric> me
     }
 }
 
-#if defined(LACUNA_WIDER_VECTORS)
-[[gnu::target("avx2")]] void evaluate_avx2(const Batch& batch, std::span<const Metric> metrics,
-                                           double average_volume, double* values)
-{
-    evaluate_lanes(batch, metrics, average_volume, values);
-}
-#endif
-
 } // namespace
 
 void evaluate_metrics(const CellBatch<kMetricLanes>& batch, std::span<const Metric> metrics,
                       double average_volume, double* values)
 {
-#if defined(LACUNA_WIDER_VECTORS)
-    if (has_avx2()) return evaluate_avx2(batch, metrics, average_volume, values);
-#endif
-    evaluate_lanes(batch, metrics, average_volume, values);
+    with_avx2([&]() LACUNA_INLINE_BODY { evaluate_lanes(batch, metrics, average_volume, values); });
 }
 
 double metric(Metric metric, std::span<const Vec3, 8> corners, double average_volume)

@@ -30,23 +30,15 @@ template <std::size_t N>
 using Table = std::array<std::array<double, 3>, N>;
 
 template <std::size_t N>
-constexpr Table<N> values_at()
+constexpr Table<N> lagrange(bool slopes)
 {
     Table<N> table{};
     for (std::size_t i = 0; i < N; ++i) {
         const double t = static_cast<double>(i) / static_cast<double>(N - 1);
-        table[i] = {(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)};
-    }
-    return table;
-}
-
-template <std::size_t N>
-constexpr Table<N> slopes_at()
-{
-    Table<N> table{};
-    for (std::size_t i = 0; i < N; ++i) {
-        const double t = static_cast<double>(i) / static_cast<double>(N - 1);
-        table[i] = {4 * t - 3, 4 - 8 * t, 4 * t - 1};
+        if (slopes)
+            table[i] = {4 * t - 3, 4 - 8 * t, 4 * t - 1};
+        else
+            table[i] = {(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)};
     }
     return table;
 }
@@ -112,7 +104,7 @@ struct Slopes {
 template <std::size_t N>
 LACUNA_INLINE void find_slopes(const std::array<double, 27> (&nodes)[3], Slopes<N>& slopes)
 {
-    static constexpr Table<N> kValues = values_at<N>(), kSlopes = slopes_at<N>();
+    static constexpr Table<N> kValues = lagrange<N>(false), kSlopes = lagrange<N>(true);
     for (std::size_t d = 0; d < 3; ++d) {
         to_grid<N>(nodes[d], kSlopes, kValues, kValues, slopes.at[0][d].data());
         to_grid<N>(nodes[d], kValues, kSlopes, kValues, slopes.at[1][d].data());
@@ -233,29 +225,6 @@ LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3],
     return least_scaled(nodes);
 }
 
-#if defined(LACUNA_WIDER_VECTORS)
-[[gnu::target("avx512f,avx512dq")]] double coefficients_avx512(const std::array<double, 27> (&nodes)[3],
-                                                               Bezier& bezier)
-{
-    return find_coefficients(nodes, bezier);
-}
-
-[[gnu::target("avx2")]] double coefficients_avx2(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
-{
-    return find_coefficients(nodes, bezier);
-}
-#endif
-
-/// With the widest vectors of the processor; the same bits on every processor.
-double coefficients(const std::array<double, 27> (&nodes)[3], Bezier& bezier)
-{
-#if defined(LACUNA_WIDER_VECTORS)
-    if (has_avx512()) return coefficients_avx512(nodes, bezier);
-    if (has_avx2()) return coefficients_avx2(nodes, bezier);
-#endif
-    return find_coefficients(nodes, bezier);
-}
-
 } // namespace
 
 CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
@@ -264,7 +233,7 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
     for (std::size_t n = 0; n < 27; ++n) // relative to a corner, to keep precision far from the origin
         for (int d = 0; d < 3; ++d) nodes[d][kGrid[n]] = places[n][d] - places[0][d];
     Bezier bezier;
-    const double scaled = coefficients(nodes, bezier);
+    const double scaled = with_avx512([&]() LACUNA_INLINE_BODY { return find_coefficients(nodes, bezier); });
     CurvedCell cell;
     double sum = 0, largest = 0, least = kInfinity;
     for (const double value : bezier) {

@@ -106,13 +106,13 @@ LACUNA_INLINE double split_along(const Part& whole, Part& low, Part& high)
     return corners[0];
 }
 
-using Further = bool (*)(const Part& part, const CutsLeft& cuts_left);
+bool positive_half(const Part& part, const CutsLeft& cuts_left);
 
 /// Depth-first bisection along the most effective direction. By the convex hull property, coefficients only
-/// rise, so this proves every part that eight-fold subdivision to the same depth proves.
-/// @param further  recursion for one half; this function continues with the other half
+/// rise, so this proves every part that eight-fold subdivision to the same depth proves. One half is bisected
+/// by recursion, the other in the loop.
 /// @pre  `given` is positive at its corners, and finite
-LACUNA_INLINE bool positive_parts(const Part& given, CutsLeft cuts_left, Further further)
+LACUNA_INLINE bool positive_parts(const Part& given, CutsLeft cuts_left)
 {
     Part halves[2][2]; // of this cut and the one before
     const Part* whole = &given;
@@ -127,14 +127,14 @@ LACUNA_INLINE bool positive_parts(const Part& given, CutsLeft cuts_left, Further
         if (!(least_cut > 0)) return false;
         const bool low_done = all_positive(low), high_done = all_positive(high);
         if (low_done && high_done) return true;
-        if (!low_done && !high_done && !further(low, cuts_left)) return false;
+        if (!low_done && !high_done && !positive_half(low, cuts_left)) return false;
         whole = high_done ? &low : &high;
     }
 }
 
-bool positive_plain(const Part& part, const CutsLeft& cuts_left)
+bool positive_half(const Part& part, const CutsLeft& cuts_left)
 {
-    return positive_parts(part, cuts_left, positive_plain);
+    return with_avx2([&]() LACUNA_INLINE_BODY { return positive_parts(part, cuts_left); });
 }
 
 /// Whether all are finite: x - x is NaN otherwise.
@@ -152,12 +152,12 @@ LACUNA_INLINE double least_corner(const Part& part)
     return least[2] < least[0] ? least[2] : least[0];
 }
 
-LACUNA_INLINE bool positive_whole(const CoefficientsView& bezier, int max_depth, Further further)
+LACUNA_INLINE bool positive_whole(const CoefficientsView& bezier, int max_depth)
 {
     const Part whole = part_of(bezier);
     if (!all_finite(whole)) return false;
     if (all_positive(whole)) return true;
-    return least_corner(whole) > 0 && further(whole, {max_depth, max_depth, max_depth});
+    return least_corner(whole) > 0 && positive_half(whole, {max_depth, max_depth, max_depth});
 }
 
 using Values = CellValues<kLanes>;
@@ -214,44 +214,17 @@ LACUNA_INLINE void find_signs(const Values& values, std::array<Sign, kLanes>& si
         if (!(least_of(four_of(values.smallest, first)) > 0)) find_signs(values, first, &sign[index(first)]);
 }
 
-#if defined(LACUNA_WIDER_VECTORS)
-[[gnu::target("avx2")]] bool positive_avx2(const Part& part, const CutsLeft& cuts_left)
-{
-    return positive_parts(part, cuts_left, positive_avx2);
-}
-
-[[gnu::target("avx2")]] bool whole_avx2(const CoefficientsView& bezier, int max_depth)
-{
-    return positive_whole(bezier, max_depth, positive_avx2);
-}
-
-[[gnu::target("avx2")]] void find_signs_avx2(const Values& values, std::array<Sign, kLanes>& sign)
-{
-    find_signs(values, sign);
-}
-
-#endif
-
 } // namespace
 
 bool positive_everywhere(const CoefficientsView& bezier, int max_depth)
 {
-#if defined(LACUNA_WIDER_VECTORS)
-    if (has_avx2()) return whole_avx2(bezier, max_depth);
-#endif
-    return positive_whole(bezier, max_depth, positive_plain);
+    return with_avx2([&]() LACUNA_INLINE_BODY { return positive_whole(bezier, max_depth); });
 }
 
 std::array<Sign, kLanes> signs_after_cut(const CellValues<kLanes>& values)
 {
     std::array<Sign, kLanes> sign{}; // all undecided
-#if defined(LACUNA_WIDER_VECTORS)
-    if (has_avx2()) {
-        find_signs_avx2(values, sign);
-        return sign;
-    }
-#endif
-    find_signs(values, sign);
+    with_avx2([&]() LACUNA_INLINE_BODY { find_signs(values, sign); });
     return sign;
 }
 

@@ -124,7 +124,7 @@ namespace {
 
 /// Forward and backward substitution and the diagonal for a block of right-hand sides, row-major in the
 /// factor's order: kPacks packs of numbers. The result of a number does not depend on how many there are.
-template <class Pack, int kPacks>
+template <int kPacks>
 LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, const double* diagonal,
                                    double* block)
 {
@@ -132,20 +132,20 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
     const int* inner = lower.innerIndexPtr();
     const double* value = lower.valuePtr();
     const auto unknowns = static_cast<int>(lower.cols());
-    const auto row = [&](int i) { return reinterpret_cast<Pack*>(block) + std::ptrdiff_t{kPacks} * i; };
+    const auto row = [&](int i) { return reinterpret_cast<Four*>(block) + std::ptrdiff_t{kPacks} * i; };
     for (int j = 0; j < unknowns; ++j) {
-        Pack known[kPacks];
+        Four known[kPacks];
         for (int k = 0; k < kPacks; ++k) known[k] = row(j)[k];
         int p = begin[j];
         const int end = begin[j + 1];
         // A column often has the entries of the next one plus its own: both are applied in one pass through
         // memory. Subtractions keep the same order.
         if (p < end && inner[p] == j + 1 && end - p - 1 == begin[j + 2] - end) {
-            Pack next[kPacks];
+            Four next[kPacks];
             for (int k = 0; k < kPacks; ++k) row(j + 1)[k] = next[k] = row(j + 1)[k] - value[p] * known[k];
             for (++p; p < end; ++p) {
                 const double low = value[p], high = value[p + (end - begin[j]) - 1];
-                Pack* below = row(inner[p]);
+                Four* below = row(inner[p]);
                 for (int k = 0; k < kPacks; ++k) below[k] = below[k] - low * known[k] - high * next[k];
             }
             ++j;
@@ -153,29 +153,20 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
         }
         for (; p < end; ++p) {
             const double entry = value[p];
-            Pack* below = row(inner[p]);
+            Four* below = row(inner[p]);
             for (int k = 0; k < kPacks; ++k) below[k] -= entry * known[k];
         }
     }
     for (int j = unknowns - 1; j >= 0; --j) {
-        Pack sum[kPacks];
+        Four sum[kPacks];
         for (int k = 0; k < kPacks; ++k) sum[k] = row(j)[k] / diagonal[j];
         for (int p = begin[j]; p < begin[j + 1]; ++p) {
-            const Pack* known = row(inner[p]);
+            const Four* known = row(inner[p]);
             for (int k = 0; k < kPacks; ++k) sum[k] -= value[p] * known[k];
         }
         for (int k = 0; k < kPacks; ++k) row(j)[k] = sum[k];
     }
 }
-
-#if defined(LACUNA_WIDER_VECTORS)
-template <int kNumbers>
-[[gnu::target("avx2")]] void substitute_avx2(const Eigen::SparseMatrix<double>& lower, const double* diagonal,
-                                             double* block)
-{
-    substitute_rows<Four, kNumbers / 4>(lower, diagonal, block);
-}
-#endif
 
 /// Solve rows of `kNumbers` with the widest vectors of the machine; bit-identical on every machine.
 template <int kNumbers>
@@ -183,10 +174,8 @@ void substitute(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXd&
                 std::vector<double>& block)
 {
     static_assert(kNumbers % 4 == 0);
-#if defined(LACUNA_WIDER_VECTORS)
-    if (has_avx2()) return substitute_avx2<kNumbers>(lower, diagonal.data(), block.data());
-#endif
-    substitute_rows<Two, kNumbers / 2>(lower, diagonal.data(), block.data());
+    with_avx2(
+        [&]() LACUNA_INLINE_BODY { substitute_rows<kNumbers / 4>(lower, diagonal.data(), block.data()); });
 }
 
 } // namespace

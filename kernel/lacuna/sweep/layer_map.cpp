@@ -74,15 +74,6 @@ LACUNA_INLINE void map_each(const Layers& layers, std::size_t count, const Vec3*
     }
 }
 
-#if defined(LACUNA_WIDER_VECTORS)
-[[gnu::target("avx2")]] void map_avx2(const Layers& layers, std::size_t count, const Vec3* source,
-                                      const Vec3* target, std::size_t begin, std::size_t end,
-                                      const HarmonicSpread::Fields* residuals)
-{
-    map_each(layers, count, source, target, begin, end, residuals);
-}
-#endif
-
 } // namespace
 
 void map_nodes(std::span<const LayerMap> maps, const Vec3* source, const Vec3* target, std::size_t begin,
@@ -94,10 +85,8 @@ void map_nodes(std::span<const LayerMap> maps, const Vec3* source, const Vec3* t
         layers[l] = {columns_of(maps[l].from_source), columns_of(maps[l].from_target),
                      Four{shift[0], shift[1], shift[2], 0}, out + l * stride};
     }
-#if defined(LACUNA_WIDER_VECTORS)
-    if (has_avx2()) return map_avx2(layers, maps.size(), source, target, begin, end, residuals);
-#endif
-    map_each(layers, maps.size(), source, target, begin, end, residuals);
+    with_avx2(
+        [&]() LACUNA_INLINE_BODY { map_each(layers, maps.size(), source, target, begin, end, residuals); });
 }
 
 } // namespace lacuna::sweep

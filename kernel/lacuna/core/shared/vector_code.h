@@ -3,11 +3,14 @@
 
 /// Macros and types for functions compiled for several instruction sets; the widest is chosen at run time.
 
-/// A function that is inlined into each caller, and so compiled for the instruction set of the caller.
+/// A function that is inlined into each caller, and so compiled for the instruction set of the caller; the
+/// second follows the parameters of a lambda.
 #if defined(__GNUC__)
 #define LACUNA_INLINE [[gnu::always_inline]] inline
+#define LACUNA_INLINE_BODY __attribute__((always_inline))
 #else
 #define LACUNA_INLINE inline
+#define LACUNA_INLINE_BODY
 #endif
 
 /// Whether the compiler can compile single functions for wider vectors: `[[gnu::target("avx2")]]`.
@@ -19,8 +22,6 @@ namespace lacuna {
 
 /// Four doubles, processed two or four at a time by the processor. May be unaligned.
 using Four = double __attribute__((vector_size(32), aligned(8)));
-/// Two doubles: one vector of the baseline instruction set.
-using Two = double __attribute__((vector_size(16), aligned(8)));
 
 #if defined(LACUNA_WIDER_VECTORS)
 inline bool has_avx2()
@@ -36,6 +37,39 @@ inline bool has_avx512()
                               __builtin_cpu_supports("avx512dq") != 0;
     return found;
 }
+
+template <class Body>
+[[gnu::target("avx2")]] auto in_avx2(const Body& body)
+{
+    return body();
+}
+
+template <class Body>
+[[gnu::target("avx512f,avx512dq")]] auto in_avx512(const Body& body)
+{
+    return body();
+}
 #endif
+
+/// Call `body`, compiled for AVX2 where the processor has it. Results are the same bit for bit.
+/// @param body  a lambda marked LACUNA_INLINE_BODY, which calls LACUNA_INLINE functions.
+template <class Body>
+auto with_avx2(const Body& body)
+{
+#if defined(LACUNA_WIDER_VECTORS)
+    if (has_avx2()) return in_avx2(body);
+#endif
+    return body();
+}
+
+/// As `with_avx2()`, or for AVX-512 where the processor has it.
+template <class Body>
+auto with_avx512(const Body& body)
+{
+#if defined(LACUNA_WIDER_VECTORS)
+    if (has_avx512()) return in_avx512(body);
+#endif
+    return with_avx2(body);
+}
 
 } // namespace lacuna
