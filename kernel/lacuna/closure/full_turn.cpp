@@ -127,11 +127,7 @@ double arc_length(const OpenVolume& volume)
     std::set<Index> used;
     for (const Triangle& t : walls) used.insert(t.begin(), t.end());
     std::erase_if(ends, [&](const auto& end) { return !used.contains(end.first); });
-    problem.fixed_values.resize(static_cast<Eigen::Index>(ends.size()), 1);
-    for (const auto& [point, value] : ends) {
-        problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size()), 0) = value;
-        problem.fixed.push_back(point);
-    }
+    problem.fix(ends);
     const Eigen::MatrixXd height = geometry::solve_harmonic(problem);
     for (std::size_t k = 1; k < kSections; ++k) {
         const double level = static_cast<double>(k) / kSections;

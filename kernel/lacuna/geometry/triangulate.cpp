@@ -187,12 +187,10 @@ private:
         state.settled = true;
         const DelaunayTriangle& tri = mesh_[t];
         if (!tri.inside) return;
-        double longest = 0;
         double shortest = kInfinity;
         double product = 1;
         for (int side = 0; side < 3; ++side) {
             const double length = (mesh_.at(tri.to(side)) - mesh_.at(tri.from(side))).norm();
-            longest = std::max(longest, length);
             shortest = std::min(shortest, length);
             product *= length;
         }

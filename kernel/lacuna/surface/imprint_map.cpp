@@ -81,11 +81,7 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
     }
     problem.points = model.points;
     problem.triangles = triangles;
-    problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()), 2);
-    for (const auto& [point, place] : fixed) {
-        problem.fixed_values.row(static_cast<Eigen::Index>(problem.fixed.size())) = place.transpose();
-        problem.fixed.push_back(point);
-    }
+    problem.fix(fixed);
     const Eigen::MatrixXd places = geometry::solve_harmonic(problem);
     target_.reserve(model.points.size());
     for (Eigen::Index i = 0; i < places.rows(); ++i) target_.emplace_back(places(i, 0), places(i, 1));

@@ -187,11 +187,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     geometry::HarmonicProblem problem;
     problem.points = model.points;
     problem.triangles = facets;
-    problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()), 2);
-    for (const auto& [point, value] : fixed) {
-        problem.fixed_values.row(static_cast<Eigen::Index>(problem.fixed.size())) = value.transpose();
-        problem.fixed.push_back(point);
-    }
+    problem.fix(fixed);
     problem.corner_turns = geometry::turns_along(facets, cut);
     problem.period = Eigen::RowVector2d(1, 0);
     check_cancelled(context);

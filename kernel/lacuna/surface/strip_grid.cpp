@@ -383,11 +383,7 @@ private:
             geometry::HarmonicProblem problem;
             problem.points = points;
             problem.triangles = triangles;
-            problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()), 1);
-            for (const auto& [node, off] : fixed) {
-                problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size()), 0) = off;
-                problem.fixed.push_back(node);
-            }
+            problem.fix(fixed);
             const Eigen::MatrixXd moves = geometry::solve_harmonic(problem, context_);
             for (std::size_t n = 0; n < laid_.place.size(); ++n)
                 laid_.place[n][axis] += moves(static_cast<Eigen::Index>(n), 0);

@@ -5,6 +5,7 @@
 #include <lacuna/core/types.h>
 
 #include <array>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,17 @@ struct HarmonicProblem {
     std::span<const Triangle> triangles; ///< in either orientation
     std::vector<Index> fixed;            ///< points with known values, without duplicates
     Eigen::MatrixXd fixed_values;        ///< fixed.size() × k, one row for each point
+
+    /// Add points with known values, which are numbers or vectors. @pre  no point is fixed yet
+    template <class Value>
+    void fix(const std::map<Index, Value>& values)
+    {
+        fixed_values.resize(static_cast<Eigen::Index>(values.size()), sizeof(Value) / sizeof(double));
+        for (const auto& [point, value] : values) {
+            fixed_values.row(static_cast<Eigen::Index>(fixed.size())).transpose() << value;
+            fixed.push_back(point);
+        }
+    }
 
     /// For values known up to a period only, such as the angle around a cylinder: for each triangle corner,
     /// the multiple of `period` to add to the value of its point to be on the branch of the triangle. Corners
