@@ -28,55 +28,6 @@ struct Entry {
     Index point;
 };
 
-/// A grid of cubes with sides of 1024 tolerances. A point within a tolerance of a side is entered in the cube
-/// beyond it too, which is rare. The grid is shifted by a fraction of a cube against the bounds, as meshes
-/// often have whole planes of nodes exactly there.
-struct Grid {
-    Vec3 corner;
-    double tolerance;
-    double per_length;
-
-    Grid(const Eigen::AlignedBox3d& bounds, double within) : tolerance(within)
-    {
-        const double size = 1024 * tolerance;
-        per_length = 1 / size;
-        corner = bounds.min() - size * Vec3(0.381966, 0.618034, 0.271828);
-    }
-
-    static std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t z)
-    {
-        auto h = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(y);
-        h = (h ^ (h >> 29)) * 0xBF58476D1CE4E5B9u + static_cast<std::uint64_t>(z);
-        h = (h ^ (h >> 32)) * 0x94D049BB133111EBu;
-        return static_cast<std::uint32_t>(h >> 32);
-    }
-
-    /// Call `enter` with the hash of every cube that contains the point or is within a tolerance of it.
-    template <class Enter>
-    void visit(const Vec3& point, const Enter& enter) const
-    {
-        const Vec3 at = (point - corner) * per_length;
-        constexpr double kNear = 1.0 / 1024;
-        std::int64_t low[3], high[3];
-        for (int d = 0; d < 3; ++d) {
-            low[d] = static_cast<std::int64_t>(at[d] - kNear);
-            high[d] = static_cast<std::int64_t>(at[d] + kNear);
-        }
-        enter(hash(low[0], low[1], low[2]));
-        if (low[0] == high[0] && low[1] == high[1] && low[2] == high[2]) return;
-        for (int corner_of = 1; corner_of < 8; ++corner_of) {
-            std::int64_t c[3];
-            bool other = true;
-            for (int d = 0; d < 3; ++d) {
-                const bool up = (corner_of >> d & 1) != 0;
-                c[d] = up ? high[d] : low[d];
-                if (up && low[d] == high[d]) other = false;
-            }
-            if (other) enter(hash(c[0], c[1], c[2]));
-        }
-    }
-};
-
 /// Hashes computed in the first pass over a chunk.
 struct ChunkHashes {
     std::array<std::uint32_t, kChunk> first; ///< for each point
@@ -86,7 +37,7 @@ struct ChunkHashes {
 
 std::size_t bin_of(std::uint32_t hash) { return hash >> (32 - kBinBits); }
 
-std::unique_ptr<ChunkHashes[]> hashes_of(std::span<const Vec3> points, const Grid& grid,
+std::unique_ptr<ChunkHashes[]> hashes_of(std::span<const Vec3> points, const CoincidenceGrid& grid,
                                          const RunContext& context)
 {
     const std::size_t chunks = chunk_count(points.size());
@@ -186,7 +137,8 @@ std::optional<Pair> least_of(const std::vector<std::optional<Pair>>& found)
     return least;
 }
 
-std::optional<Pair> search_all(std::span<const Vec3> points, const Grid& grid, const RunContext& context)
+std::optional<Pair> search_all(std::span<const Vec3> points, const CoincidenceGrid& grid,
+                               const RunContext& context)
 {
     const auto hashes = hashes_of(points, grid, context);
     // With many points, process a sixteenth of the bins at a time, which takes a sixteenth of the memory.
@@ -233,8 +185,8 @@ bool are_apart(std::span<const Vec3> points, std::size_t level, double tolerance
 }
 
 /// Search level by level, while the entries are in the second-level cache.
-std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t level, const Grid& grid,
-                                  const RunContext& context)
+std::optional<Pair> search_levels(std::span<const Vec3> points, std::size_t level,
+                                  const CoincidenceGrid& grid, const RunContext& context)
 {
     constexpr std::size_t kTogether = 4; // levels that share a table, to save allocations
     std::vector<std::optional<Pair>> found(points.size() / level);
@@ -312,7 +264,7 @@ std::optional<Pair> find_coincident(std::span<const Vec3> points, std::size_t le
 {
     if (points.size() < 2) return std::nullopt;
     if (!(tolerance > 0)) return Pair{0, 1};
-    const Grid grid(bounds, tolerance);
+    const CoincidenceGrid grid(bounds, tolerance);
     return are_apart(points, level, tolerance, context) ? search_levels(points, level, grid, context)
                                                         : search_all(points, grid, context);
 }

@@ -119,7 +119,7 @@ public:
           slabs_(slabs),
           boxes_(std::move(boxes)),
           bounds_(bounds),
-          tolerance_(tolerance),
+          grid_(bounds, tolerance),
           context_(context),
           beside_(slabs.size())
     {
@@ -146,7 +146,7 @@ public:
             }
             std::vector<Vec3> places;
             for (const Entry& entry : entries_) places.push_back(entry.place);
-            const auto pair = find_coincident(places, 0, tolerance_, bounds_, context_);
+            const auto pair = find_coincident(places, 0, grid_.tolerance, bounds_, context_);
             if (!pair) continue;
             const std::array<Index, 2> nodes{entries_[index((*pair)[0])].node,
                                              entries_[index((*pair)[1])].node};
@@ -179,8 +179,8 @@ private:
         }
     }
 
-    /// Collect the nodes, ascending, of one share of the cubes with sides of eight tolerances. A node within
-    /// a tolerance of another cube belongs to that too. @return false if there are too many
+    /// Collect the nodes, ascending, of one share of the grid's cubes. A node within a tolerance of another
+    /// cube belongs to that too. @return false if there are too many
     bool gather(std::size_t share, std::size_t shares)
     {
         entries_.clear();
@@ -200,33 +200,16 @@ private:
 
     [[nodiscard]] bool is_in_share(const Vec3& p, std::size_t share, std::size_t shares) const
     {
-        const double side = 8 * tolerance_;
-        std::array<std::array<std::int64_t, 2>, 3> range;
-        for (int d = 0; d < 3; ++d) {
-            const double at = p[d] - bounds_.min()[d];
-            range[std::size_t(d)] = {static_cast<std::int64_t>(std::floor((at - tolerance_) / side)),
-                                     static_cast<std::int64_t>(std::floor((at + tolerance_) / side))};
-        }
-        for (std::int64_t x = range[0][0]; x <= range[0][1]; ++x)
-            for (std::int64_t y = range[1][0]; y <= range[1][1]; ++y)
-                for (std::int64_t z = range[2][0]; z <= range[2][1]; ++z)
-                    if ((mixed(x, y, z) >> 40) % shares == share) return true;
-        return false;
-    }
-
-    static std::uint64_t mixed(std::int64_t x, std::int64_t y, std::int64_t z)
-    {
-        std::uint64_t h = static_cast<std::uint64_t>(x) * 0x9E3779B97F4A7C15u;
-        h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(y)) * 0xBF58476D1CE4E5B9u;
-        h = (h ^ (h >> 32) ^ static_cast<std::uint64_t>(z)) * 0x94D049BB133111EBu;
-        return h ^ (h >> 31);
+        bool found = false;
+        grid_.visit(p, [&](std::uint32_t hash) { found = found || hash % shares == share; });
+        return found;
     }
 
     const LayeredMesh& layered_;
     const std::vector<Slab>& slabs_;
     std::vector<SlabPlace> boxes_;
     Eigen::AlignedBox3d bounds_; ///< bounding box of all nodes
-    double tolerance_;
+    CoincidenceGrid grid_;
     const RunContext& context_;
     std::vector<std::vector<std::size_t>> beside_; ///< non-neighbours whose boxes overlap
     std::vector<Vec3> nodes_;

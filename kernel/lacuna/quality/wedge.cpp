@@ -15,7 +15,7 @@ namespace {
 double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
 
 /// Scaled Jacobian at corner `i` of the triangle whose first corner is `level`.
-double scaled_at(const WedgeCorners& corners, std::size_t level, std::size_t i)
+double scaled_at(std::span<const Vec3, 6> corners, std::size_t level, std::size_t i)
 {
     const Vec3& p = corners[level + i];
     const Vec3 next = corners[level + (i + 1) % 3] - p, before = corners[level + (i + 2) % 3] - p;
@@ -27,7 +27,7 @@ double scaled_at(const WedgeCorners& corners, std::size_t level, std::size_t i)
 
 } // namespace
 
-WedgeValues evaluate_wedge(const WedgeCorners& corners)
+WedgeValues evaluate_wedge(std::span<const Vec3, 6> corners)
 {
     WedgeValues values;
     values.scaled = 1;
@@ -84,18 +84,11 @@ std::optional<double> wedge_metric(Metric metric, const WedgeCorners& corners)
     return least;
 }
 
-double wedge_scaled_jacobian(std::span<const Vec3, 6> corners)
-{
-    WedgeCorners copy;
-    std::copy(corners.begin(), corners.end(), copy.begin());
-    return evaluate_wedge(copy).scaled;
-}
+double wedge_scaled_jacobian(std::span<const Vec3, 6> corners) { return evaluate_wedge(corners).scaled; }
 
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth)
 {
-    WedgeCorners copy;
-    std::copy(corners.begin(), corners.end(), copy.begin());
-    const WedgeValues values = evaluate_wedge(copy);
+    const WedgeValues values = evaluate_wedge(corners);
     return values.smallest > 0 || positive_everywhere(view_of(over_cube(values)), max_depth);
 }
 

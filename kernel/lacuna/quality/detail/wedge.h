@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 /// Arithmetic of one wedge. Internal to this folder.
 ///
@@ -28,7 +29,7 @@ struct WedgeValues {
     std::array<std::array<double, 3>, 3> coefficients{}; ///< [i][power of w]
 };
 
-WedgeValues evaluate_wedge(const WedgeCorners& corners);
+WedgeValues evaluate_wedge(std::span<const Vec3, 6> corners);
 
 /// The coefficients as those of a cell over the unit cube, whose square is mapped to the triangle by
 /// collapsing one side to the third corner. They are positive everywhere if and only if the wedge's are.
