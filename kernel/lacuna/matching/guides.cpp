@@ -474,9 +474,8 @@ Sections cut_sections(const OpenVolume& volume, const std::vector<SideLine>& lin
     RunContext threads = context;
     if (std::ranges::any_of(volume.faces(Role::wall), [&](FaceId f) { return model[f].surface != nullptr; }))
         threads.threads = 1;
-    parallel_for(threads, walls.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p)
-            parts[p] = sections_of(volume, walls[p], result.heights, up, on_line, count, context);
+    parallel_each(threads, walls.size(), 1, [&](std::size_t p) {
+        parts[p] = sections_of(volume, walls[p], result.heights, up, on_line, count, context);
     });
     for (std::size_t p = 0; p < walls.size(); ++p) {
         result.closed = result.closed || parts[p].closed;

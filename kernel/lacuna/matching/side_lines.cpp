@@ -116,20 +116,18 @@ std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::
     for (const std::vector<FaceId>& part : parts)
         found.push_back(part_heights(model, part, low, high, on_lines, local));
     std::vector<Eigen::MatrixXd> solved(found.size());
-    parallel_for(context, found.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PartHeights& part = found[i];
-            if (!part.joins) continue;
-            const std::vector<Vec3> points = places_at(model, part.used);
-            geometry::HarmonicProblem problem;
-            problem.nine_digits = digits == Digits::nine;
-            problem.points = points;
-            problem.triangles = part.triangles;
-            problem.fixed = part.fixed;
-            problem.fixed_values = Eigen::Map<const Eigen::VectorXd>(
-                part.values.data(), static_cast<Eigen::Index>(part.values.size()));
-            solved[i] = geometry::solve_harmonic(problem, context);
-        }
+    parallel_each(context, found.size(), 1, [&](std::size_t i) {
+        const PartHeights& part = found[i];
+        if (!part.joins) return;
+        const std::vector<Vec3> points = places_at(model, part.used);
+        geometry::HarmonicProblem problem;
+        problem.nine_digits = digits == Digits::nine;
+        problem.points = points;
+        problem.triangles = part.triangles;
+        problem.fixed = part.fixed;
+        problem.fixed_values = Eigen::Map<const Eigen::VectorXd>(
+            part.values.data(), static_cast<Eigen::Index>(part.values.size()));
+        solved[i] = geometry::solve_harmonic(problem, context);
     });
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (!found[i].joins) continue;

@@ -327,9 +327,8 @@ std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& di
     const Window window = window_at(mesh, divided, middle);
     const std::vector<Row> rows = rows_from(window);
     std::vector<std::optional<Closed>> found(rows.size());
-    parallel_for(context, rows.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t r = begin; r < end; ++r)
-            found[r] = close(window.mesh, window.on_rim, rows[r], window.middle, rounds);
+    parallel_each(context, rows.size(), 1, [&](std::size_t r) {
+        found[r] = close(window.mesh, window.on_rim, rows[r], window.middle, rounds);
     });
     const Closed* best = than ? &*than : nullptr;
     const Row* row = nullptr;

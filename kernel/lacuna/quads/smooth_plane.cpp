@@ -65,11 +65,9 @@ public:
     {
         if (inside_.empty()) return sweep_range({fixed_, points_.size(), 0, floor, overstep});
         std::vector<std::size_t> moved((points_.size() - fixed_ + kBlock - 1) / kBlock, 0);
-        parallel_for(context, moved.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t b = begin; b < end; ++b) {
-                const std::size_t first = fixed_ + b * kBlock;
-                moved[b] = sweep_range({first, std::min(first + kBlock, points_.size()), 1, floor, overstep});
-            }
+        parallel_each(context, moved.size(), 1, [&](std::size_t b) {
+            const std::size_t first = fixed_ + b * kBlock;
+            moved[b] = sweep_range({first, std::min(first + kBlock, points_.size()), 1, floor, overstep});
         });
         return std::accumulate(moved.begin(), moved.end(),
                                sweep_range({fixed_, points_.size(), 0, floor, overstep}));
@@ -84,13 +82,10 @@ public:
             least_side_ = sides_to_keep(points_, stars_, fixed_);
         }
         std::vector<char> is_poor(quads_.size(), 0), poor(points_.size(), 0);
-        parallel_for(context, quads_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t q = begin; q < end; ++q) {
-                const Quad& quad = quads_[q];
-                const bool still = std::ranges::none_of(quad,
-                                                        [&](Index p) { return restless_[index(p)] != 0; });
-                is_poor[q] = !still && scaled_jacobian(points_, quad) < floor;
-            }
+        parallel_each(context, quads_.size(), kBlock, [&](std::size_t q) {
+            const Quad& quad = quads_[q];
+            const bool still = std::ranges::none_of(quad, [&](Index p) { return restless_[index(p)] != 0; });
+            is_poor[q] = !still && scaled_jacobian(points_, quad) < floor;
         });
         for (std::size_t q = 0; q < quads_.size(); ++q) {
             if (is_poor[q] == 0) continue;
@@ -112,11 +107,9 @@ public:
         if (!options_.size || !(options_.size_weight > 0)) return;
         areas_.weight = options_.size_weight;
         areas_.asked.resize(points_.size());
-        parallel_for(context, points_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t p = begin; p < end; ++p) {
-                const double size = options_.size(points_[p]);
-                areas_.asked[p] = {size * size, 1 / (size * size)};
-            }
+        parallel_each(context, points_.size(), kBlock, [&](std::size_t p) {
+            const double size = options_.size(points_[p]);
+            areas_.asked[p] = {size * size, 1 / (size * size)};
         });
     }
 

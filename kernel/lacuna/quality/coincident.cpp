@@ -43,20 +43,18 @@ std::unique_ptr<ChunkHashes[]> hashes_of(std::span<const Vec3> points, const Coi
     const std::size_t chunks = chunk_count(points.size());
     auto hashes = std::make_unique_for_overwrite<ChunkHashes[]>(chunks);
     use_large_pages(hashes.get(), chunks * sizeof(ChunkHashes));
-    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            ChunkHashes& chunk = hashes[c];
-            for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p) {
-                bool first = true;
-                grid.visit(points[p], [&](std::uint32_t hash) {
-                    ++chunk.count[bin_of(hash)];
-                    if (first)
-                        chunk.first[p - c * kChunk] = hash;
-                    else
-                        chunk.more.push_back({hash, static_cast<Index>(p)});
-                    first = false;
-                });
-            }
+    parallel_each(context, chunks, 1, [&](std::size_t c) {
+        ChunkHashes& chunk = hashes[c];
+        for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points.size()); ++p) {
+            bool first = true;
+            grid.visit(points[p], [&](std::uint32_t hash) {
+                ++chunk.count[bin_of(hash)];
+                if (first)
+                    chunk.first[p - c * kChunk] = hash;
+                else
+                    chunk.more.push_back({hash, static_cast<Index>(p)});
+                first = false;
+            });
         }
     });
     return hashes;
@@ -87,16 +85,14 @@ void sort_into_bins(std::size_t points, const ChunkHashes* hashes, std::size_t f
     bins.entries.reset(); // free it before the new array is allocated
     bins.entries = std::make_unique_for_overwrite<Entry[]>(total);
     use_large_pages(bins.entries.get(), total * sizeof(Entry));
-    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            const auto enter = [&](std::uint32_t hash, Index point) {
-                const std::size_t b = bin_of(hash) - first;
-                if (b < width) bins.entries[next[c * width + b]++] = {hash, point};
-            };
-            for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points); ++p)
-                enter(hashes[c].first[p - c * kChunk], static_cast<Index>(p));
-            for (const Entry& entry : hashes[c].more) enter(entry.hash, entry.point);
-        }
+    parallel_each(context, chunks, 1, [&](std::size_t c) {
+        const auto enter = [&](std::uint32_t hash, Index point) {
+            const std::size_t b = bin_of(hash) - first;
+            if (b < width) bins.entries[next[c * width + b]++] = {hash, point};
+        };
+        for (std::size_t p = c * kChunk; p < std::min((c + 1) * kChunk, points); ++p)
+            enter(hashes[c].first[p - c * kChunk], static_cast<Index>(p));
+        for (const Entry& entry : hashes[c].more) enter(entry.hash, entry.point);
     });
 }
 
@@ -168,16 +164,14 @@ bool are_apart(std::span<const Vec3> points, std::size_t level, double tolerance
     for (std::size_t i = 0; i < level; ++i) way += points[points.size() - level + i] - points[i];
     way = way.stableNormalized();
     std::vector<std::array<double, 2>> range(levels);
-    parallel_for(context, levels, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t l = begin; l < end; ++l) {
-            double low = kInfinity, high = -low;
-            for (const Vec3& point : points.subspan(l * level, level)) {
-                const double at = way.dot(point);
-                low = std::min(low, at);
-                high = std::max(high, at);
-            }
-            range[l] = {low, high};
+    parallel_each(context, levels, 1, [&](std::size_t l) {
+        double low = kInfinity, high = -low;
+        for (const Vec3& point : points.subspan(l * level, level)) {
+            const double at = way.dot(point);
+            low = std::min(low, at);
+            high = std::max(high, at);
         }
+        range[l] = {low, high};
     });
     for (std::size_t l = 1; l < levels; ++l)
         if (!(range[l][0] - range[l - 1][1] > 2 * tolerance)) return false; // twice, for rounding
@@ -245,11 +239,9 @@ Eigen::AlignedBox3d finite_bounds(std::span<const Vec3> points, const RunContext
     const std::size_t chunks = chunk_count(points.size());
     std::vector<Eigen::AlignedBox3d> boxes(chunks);
     std::vector<char> finite(chunks, 1);
-    parallel_for(context, chunks, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            const std::size_t first = c * kChunk;
-            finite[c] = extend(boxes[c], points.subspan(first, std::min(kChunk, points.size() - first)));
-        }
+    parallel_each(context, chunks, 1, [&](std::size_t c) {
+        const std::size_t first = c * kChunk;
+        finite[c] = extend(boxes[c], points.subspan(first, std::min(kChunk, points.size() - first)));
     });
     Eigen::AlignedBox3d bounds;
     for (std::size_t c = 0; c < chunks; ++c) {

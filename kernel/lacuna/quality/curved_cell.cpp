@@ -273,13 +273,11 @@ std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunConte
 {
     const std::size_t count = mesh.hex_count();
     std::vector<std::uint8_t> invalid(count, 0);
-    parallel_for(context, count, kCurvedGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
-            const bool fine = is_straight(nodes) ? certified_positive(std::span(nodes).first<8>())
-                                                 : judge(nodes).positive;
-            invalid[c] = fine ? 0 : 1;
-        }
+    parallel_each(context, count, kCurvedGrain, [&](std::size_t c) {
+        const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
+        const bool fine = is_straight(nodes) ? certified_positive(std::span(nodes).first<8>())
+                                             : judge(nodes).positive;
+        invalid[c] = fine ? 0 : 1;
     });
     std::vector<std::size_t> cells;
     for (std::size_t c = 0; c < count; ++c)

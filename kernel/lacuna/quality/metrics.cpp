@@ -312,11 +312,9 @@ std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, cons
 {
     std::vector<double> values = values_of(SweptCells{mesh}, metric, average_volume, context);
     if (mesh.order() == 1 || metric != Metric::scaled_jacobian) return values;
-    parallel_for(context, values.size(), kCurvedGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
-            if (!is_straight(nodes)) values[c] = in_single_precision(judge(nodes, 0).scaled_jacobian);
-        }
+    parallel_each(context, values.size(), kCurvedGrain, [&](std::size_t c) {
+        const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
+        if (!is_straight(nodes)) values[c] = in_single_precision(judge(nodes, 0).scaled_jacobian);
     });
     return values;
 }

@@ -184,17 +184,15 @@ void Trimming::keep_inside(std::span<const Projected> points, const RunContext& 
         });
     }
     std::vector<char> clear(points.size(), 0);
-    parallel_for(context, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) clear[i] = is_clear(points[i], measured) ? 1 : 0;
-    });
+    parallel_each(context, points.size(), kGrain,
+                  [&](std::size_t i) { clear[i] = is_clear(points[i], measured) ? 1 : 0; });
     std::vector<Near> near;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (clear[i] == 0) near.emplace_back().point = i;
     }
     std::vector<char> taken(near.size(), 0);
-    parallel_for(context, near.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) taken[i] = is_near(points[near[i].point], near[i]) ? 1 : 0;
-    });
+    parallel_each(context, near.size(), kGrain,
+                  [&](std::size_t i) { taken[i] = is_near(points[near[i].point], near[i]) ? 1 : 0; });
     std::map<EdgeId, std::vector<Near>> by_edge;
     for (std::size_t i = 0; i < near.size(); ++i) {
         if (taken[i] != 0) by_edge[sides_[near[i].side].use.edge].push_back(near[i]);

@@ -105,16 +105,14 @@ std::vector<char> poor_cells(const mesh::HexMesh& mesh, const std::vector<char>&
                              const RunContext& context)
 {
     std::vector<char> poor(mesh.cell_count(), 0);
-    parallel_for(context, poor.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            const Hex hex = mesh.hex(c);
-            const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
-            const double scaled = scaled_jacobian(hex, corners);
-            if (scaled >= good_enough) {
-                poor[c] = certified_positive(hex, corners) ? 0 : 1;
-            } else {
-                poor[c] = scaled <= 0 || scaled + kLeastRoom < bound_of(corners, hex, locked) ? 1 : 0;
-            }
+    parallel_each(context, poor.size(), kChunk, [&](std::size_t c) {
+        const Hex hex = mesh.hex(c);
+        const std::array<Vec3, 8> corners = corners_of(mesh.nodes, hex);
+        const double scaled = scaled_jacobian(hex, corners);
+        if (scaled >= good_enough) {
+            poor[c] = certified_positive(hex, corners) ? 0 : 1;
+        } else {
+            poor[c] = scaled <= 0 || scaled + kLeastRoom < bound_of(corners, hex, locked) ? 1 : 0;
         }
     });
     return poor;
@@ -269,13 +267,11 @@ double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradi
             std::copy(slope.begin(), slope.end(), slopes_.begin() + static_cast<std::ptrdiff_t>(8 * c));
         }
     });
-    parallel_for(context_, region_.free, kChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            Vec3 sum = Vec3::Zero();
-            for (const Index use : region_.uses.of(i)) sum += slopes_[index(use)];
-            sum -= normal_[i] * normal_[i].dot(sum);
-            gradient.segment<3>(3 * static_cast<Eigen::Index>(i)) = sum;
-        }
+    parallel_each(context_, region_.free, kChunk, [&](std::size_t i) {
+        Vec3 sum = Vec3::Zero();
+        for (const Index use : region_.uses.of(i)) sum += slopes_[index(use)];
+        sum -= normal_[i] * normal_[i].dot(sum);
+        gradient.segment<3>(3 * static_cast<Eigen::Index>(i)) = sum;
     });
     double sum = 0;
     for (const double value : part) sum += value;

@@ -136,16 +136,14 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     quiet.threads = context.threads;
     quiet.cancel = context.cancel;
     std::vector<FaceFidelity> compared(skin.faces.size());
-    parallel_for(context, skin.faces.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f) {
-            const SkinOfFace& patch = skin.faces[f];
-            if (patch.quads.empty()) continue;
-            const DeviationLimit limit = limit_of(model, patch.face, options);
-            compared[f].face = patch.face;
-            compared[f].quads = patch.quads.size();
-            if (!kept.contains(patch.face))
-                compared[f] = compare_face(mesh, skin, patch, std::move(shapes[f]), sign, limit, quiet);
-        }
+    parallel_each(context, skin.faces.size(), 1, [&](std::size_t f) {
+        const SkinOfFace& patch = skin.faces[f];
+        if (patch.quads.empty()) return;
+        const DeviationLimit limit = limit_of(model, patch.face, options);
+        compared[f].face = patch.face;
+        compared[f].quads = patch.quads.size();
+        if (!kept.contains(patch.face))
+            compared[f] = compare_face(mesh, skin, patch, std::move(shapes[f]), sign, limit, quiet);
     });
     double area = 0;
     for (const SkinOfFace& patch : skin.faces) {

@@ -108,26 +108,24 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
         bool exact = true;
     };
     std::vector<Fitted> fitted(inner);
-    parallel_for(context, inner, 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const double height = heights[i + 1];
-            const std::span<const Vec3> rim = columns_.row(static_cast<int>(i) + 1);
-            const Vec3 area = rim_area(rim, sides);
-            const double size = radius(rim);
-            const double negligible = kNegligible * side_by_radius * size;
-            const geometry::AffineFit up = from_source.fit(rim, area, negligible);
-            const geometry::AffineFit down = from_target.fit(rim, area, negligible);
-            maps_[i] = {(1 - height) * up.linear, height * down.linear,
-                        (1 - height) * (up.to_centre - up.linear * up.from_centre) +
-                            height * (down.to_centre - down.linear * down.from_centre)};
-            fitted[i].size = size;
-            for (std::size_t k = 0; k < rim.size(); ++k) {
-                Vec3& residual = residuals_[i * rim.size() + k];
-                residual = rim[k] - (1 - height) * up(low[k]) - height * down(high[k]);
-                const double length = residual.norm();
-                fitted[i].exact = fitted[i].exact && length <= negligible;
-                fitted[i].residual = std::max(fitted[i].residual, length);
-            }
+    parallel_each(context, inner, 4, [&](std::size_t i) {
+        const double height = heights[i + 1];
+        const std::span<const Vec3> rim = columns_.row(static_cast<int>(i) + 1);
+        const Vec3 area = rim_area(rim, sides);
+        const double size = radius(rim);
+        const double negligible = kNegligible * side_by_radius * size;
+        const geometry::AffineFit up = from_source.fit(rim, area, negligible);
+        const geometry::AffineFit down = from_target.fit(rim, area, negligible);
+        maps_[i] = {(1 - height) * up.linear, height * down.linear,
+                    (1 - height) * (up.to_centre - up.linear * up.from_centre) +
+                        height * (down.to_centre - down.linear * down.from_centre)};
+        fitted[i].size = size;
+        for (std::size_t k = 0; k < rim.size(); ++k) {
+            Vec3& residual = residuals_[i * rim.size() + k];
+            residual = rim[k] - (1 - height) * up(low[k]) - height * down(high[k]);
+            const double length = residual.norm();
+            fitted[i].exact = fitted[i].exact && length <= negligible;
+            fitted[i].residual = std::max(fitted[i].residual, length);
         }
     });
     bool exact = true;
@@ -152,9 +150,8 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
     // Both ends are used, so that the result does not depend on which one is the source.
     const std::array<std::span<const Vec3>, 2> ends{source_.nodes, target_};
     std::array<std::vector<double>, 2> weights;
-    parallel_for(context, 2, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t e = begin; e < end; ++e) weights[e] = side_weights(graph, source_.quads, ends[e]);
-    });
+    parallel_each(context, 2, 1,
+                  [&](std::size_t e) { weights[e] = side_weights(graph, source_.quads, ends[e]); });
     for (std::size_t k = 0; k < weights[0].size(); ++k) weights[0][k] += weights[1][k];
     spread_.emplace(graph, weights[0], columns_.rim, context);
     enough = true;

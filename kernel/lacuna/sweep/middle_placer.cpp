@@ -154,10 +154,8 @@ void MiddlePlacer::place(int first, int last, std::span<Vec3> out, const RunCont
     const auto layers = index(last - first);
     // Call `visit` for a level or a layer, whose nodes begin `skip` after the level below.
     const auto each = [&](std::size_t count, std::size_t skip, const auto& visit) {
-        parallel_for(context, count, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                visit(first + static_cast<int>(i), &out[i * period + skip]);
-        });
+        parallel_each(context, count, 1,
+                      [&](std::size_t i) { visit(first + static_cast<int>(i), &out[i * period + skip]); });
     };
     each(layers + 1, 0, [&](int l, Vec3* at) { place_level(l, corners, at); });
     each(layers, on_level, [&](int l, Vec3* at) { place_columns(l, corners, at); });

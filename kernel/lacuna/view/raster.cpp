@@ -290,18 +290,16 @@ Image rasterise(const Scene& scene, const PictureOptions& options, const RunCont
     image.rgb.resize(3 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
     constexpr std::size_t kRows = 64; // rows of a band: its samples fit in the cache
     const std::size_t bands = (static_cast<std::size_t>(options.height) + kRows - 1) / kRows;
-    parallel_for(context, bands, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t b = begin; b < end; ++b) {
-            check_cancelled(context);
-            const int first = static_cast<int>(b * kRows);
-            const int rows = std::min(static_cast<int>(kRows), options.height - first);
-            Band band(options.width * kSamples, first * kSamples, rows * kSamples);
-            for (const Placed& side : sides) band.draw(side);
-            for (const DrawnLine& line : scene.lines)
-                band.draw(project(line.from), project(line.to), line.colour, line.width * kSamples / 2);
-            draw_marks(band, legend.marks);
-            band.resolve(image);
-        }
+    parallel_each(context, bands, 1, [&](std::size_t b) {
+        check_cancelled(context);
+        const int first = static_cast<int>(b * kRows);
+        const int rows = std::min(static_cast<int>(kRows), options.height - first);
+        Band band(options.width * kSamples, first * kSamples, rows * kSamples);
+        for (const Placed& side : sides) band.draw(side);
+        for (const DrawnLine& line : scene.lines)
+            band.draw(project(line.from), project(line.to), line.colour, line.width * kSamples / 2);
+        draw_marks(band, legend.marks);
+        band.resolve(image);
     });
     return image;
 }

@@ -18,6 +18,15 @@ namespace lacuna {
 void parallel_for(const RunContext& context, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
 
+/// As `parallel_for()`, with `body(i)` for each index.
+template <class Body>
+void parallel_each(const RunContext& context, std::size_t count, std::size_t grain, const Body& body)
+{
+    parallel_for(context, count, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) body(i);
+    });
+}
+
 /// The smallest value of `least_of(begin, end)` over the ranges of [0, count), `grain` indices each, in
 /// parallel. Returns `none` if there are no ranges or no value is smaller.
 /// @throw as `parallel_for()`

@@ -76,10 +76,8 @@ struct Chunks {
     template <class Body>
     void for_each(const RunContext& context, const Body& body) const
     {
-        parallel_for(context, count, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c)
-                body(c, c * width, std::min((c + 1) * width, cells.columns()));
-        });
+        parallel_each(context, count, 1,
+                      [&](std::size_t c) { body(c, c * width, std::min((c + 1) * width, cells.columns())); });
     }
 };
 
