@@ -4,10 +4,10 @@
 #include <lacuna/core/shared/bytes.h>
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
+#include <lacuna/quality/detail/worst_list.h>
 #include <lacuna/quality/shared/metrics.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -65,20 +65,6 @@ std::vector<Value> gathered(const Team* team, Writer own, std::size_t count, con
         while (!reader.is_empty()) all.push_back(read(reader));
     }
     return all;
-}
-
-/// Merge lists of worst cells: one for each column, worst first.
-void add_worst(std::vector<WorstCell>& worst, std::vector<WorstCell> more, std::size_t columns)
-{
-    constexpr std::size_t kMost = 10; // as in Quality::worst
-    worst.insert(worst.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-    std::stable_sort(worst.begin(), worst.end(), [](const WorstCell& a, const WorstCell& b) {
-        return std::pair(a.scaled_jacobian, a.cell) < std::pair(b.scaled_jacobian, b.cell);
-    });
-    std::set<std::size_t> known;
-    std::erase_if(worst, [&](const WorstCell& cell) {
-        return known.size() == kMost || !known.insert(cell.cell % columns).second;
-    });
 }
 
 /// An oriented box of a slab: its first axis points from the lowest level to the highest.
@@ -319,6 +305,7 @@ MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, co
     const HexMesh& mesh = layered.mesh;
     MeasuredLayers measured;
     Quality& all = measured.quality;
+    WorstList worst;
     double sum = 0;
     const std::vector<Slab> slabs = slabs_of(mesh);
     Writer own_found;
@@ -344,10 +331,11 @@ MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, co
         all.volume += own.volume;
         sum += own.mean_scaled_jacobian * static_cast<double>(own.hexes + own.wedges);
         for (std::size_t b = 0; b < own.histogram.size(); ++b) all.histogram[b] += own.histogram[b];
-        add_worst(all.worst, std::move(own.worst), mesh.quads.size());
+        for (const WorstCell& cell : own.worst) worst.offer(cell, cell.cell % mesh.quads.size());
     }
     if (all.hexes + all.wedges == 0) return measured;
     all.mean_scaled_jacobian = sum / static_cast<double>(all.hexes + all.wedges);
+    for (const auto& [cell, column] : worst.entries) all.worst.push_back(cell);
     all.min_scaled_jacobian = all.worst.front().scaled_jacobian;
     return measured;
 }
@@ -371,14 +359,11 @@ Proof prove(const LayeredMesh& layered, Quality measured, std::optional<Finding>
             double min_scaled_jacobian)
 {
     Proof proof;
-    const auto found = [&](Found finding) {
-        proof.finding = std::move(finding);
-        return proof.finding.has_value();
-    };
-    if (found(check_arrays(layered.mesh, index(layered.mesh.nodes_per_layer)))) return proof;
+    proof.finding = check_arrays(layered.mesh, index(layered.mesh.nodes_per_layer));
+    if (proof.finding) return proof;
     proof.quality = std::move(measured);
-    if (!found(check_quality(proof.quality, min_scaled_jacobian, layered.mesh.layers)))
-        found(std::move(misplaced));
+    proof.finding = check_quality(proof.quality, min_scaled_jacobian, layered.mesh.layers);
+    if (!proof.finding) proof.finding = std::move(misplaced);
     return proof;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/cell_columns.h>
+#include <lacuna/quality/detail/worst_list.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/quality/shared/second_order.h>
 
@@ -8,41 +9,7 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr int kDepth = 6;          ///< as in `certified_positive()`
-constexpr std::size_t kWorst = 10; ///< as `Quality::worst` says
-
-struct Ranked {
-    double scaled_jacobian;
-    std::size_t cell, column;
-
-    bool operator<(const Ranked& other) const
-    {
-        return scaled_jacobian != other.scaled_jacobian ? scaled_jacobian < other.scaled_jacobian
-                                                        : cell < other.cell;
-    }
-};
-
-/// The worst cells, one for each column, sorted.
-struct WorstList {
-    std::array<Ranked, kWorst> cells{};
-    std::size_t count = 0;
-
-    /// Whether a cell with this value belongs to the list.
-    [[nodiscard]] bool takes(double scaled_jacobian) const
-    {
-        return count < kWorst || scaled_jacobian <= cells[kWorst - 1].scaled_jacobian;
-    }
-    void offer(const Ranked& candidate)
-    {
-        if (count == kWorst && !(candidate < cells[kWorst - 1])) return;
-        std::size_t i = 0; // entry to replace: that of the same column, else a new one, else the last
-        while (i < count && cells[i].column != candidate.column) ++i;
-        if (i < count && !(candidate < cells[i])) return;
-        if (i == count) i = count < kWorst ? count++ : kWorst - 1;
-        for (; i > 0 && candidate < cells[i - 1]; --i) cells[i] = cells[i - 1];
-        cells[i] = candidate;
-    }
-};
+constexpr int kDepth = 6; ///< as in `certified_positive()`
 
 struct Partial {
     double sum = 0;
@@ -111,7 +78,7 @@ void add_batch(Partial& partial, const Cells& cells, const Values& values, const
         ++partial.histogram[static_cast<std::size_t>(bin_of(values.scaled[lane]))];
     const std::size_t end = first + static_cast<std::size_t>(filled);
     for (std::size_t c = first; c < end && partial.worst.takes(least); ++c)
-        partial.worst.offer({values.scaled[c - first], c, cells.column_of(c)});
+        partial.worst.offer({.cell = c, .scaled_jacobian = values.scaled[c - first]}, cells.column_of(c));
     if (!positive) count_bad(partial, values, signs, filled);
 }
 
@@ -163,18 +130,13 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
         quality.uncertified += partial.uncertified;
         for (std::size_t b = 0; b < quality.histogram.size(); ++b)
             quality.histogram[b] += partial.histogram[b];
-        for (std::size_t i = 0; i < partial.worst.count; ++i) worst.offer(partial.worst.cells[i]);
+        for (const auto& [cell, column] : partial.worst.entries) worst.offer(cell, column);
     }
     quality.hexes -= quality.wedges;
     quality.mean_scaled_jacobian = sum / static_cast<double>(count);
-    quality.min_scaled_jacobian = worst.cells[0].scaled_jacobian;
-    for (std::size_t i = 0; i < worst.count; ++i) {
-        WorstCell cell;
-        cell.cell = worst.cells[i].cell;
-        cell.scaled_jacobian = worst.cells[i].scaled_jacobian;
-        cell.centre = centre_of(cells, cell.cell);
-        quality.worst.push_back(cell);
-    }
+    for (const auto& [cell, column] : worst.entries)
+        quality.worst.push_back({cell.cell, -1, centre_of(cells, cell.cell), cell.scaled_jacobian});
+    quality.min_scaled_jacobian = quality.worst.front().scaled_jacobian;
     return quality;
 }
 

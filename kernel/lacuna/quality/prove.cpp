@@ -285,10 +285,6 @@ Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double m
             const RunContext& context)
 {
     Proof proof;
-    const auto found = [&](Found finding) {
-        proof.finding = std::move(finding);
-        return proof.finding.has_value();
-    };
     const std::size_t levels = static_cast<std::size_t>(std::max(mesh.layers, 0)) + 1;
     const std::size_t nodes = levels * index(std::max<Index>(mesh.nodes_per_layer, 0));
     // Arrays of a measured mesh have valid sizes. Check them nevertheless, in
@@ -301,13 +297,13 @@ Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double m
         arrays.emplace(context, [&](const RunContext&) { return check_arrays(mesh, nodes); });
         misplaced = check_nodes(mesh.nodes, mesh.nodes_per_layer, context);
     }
-    if (found(arrays ? arrays->take() : check_arrays(mesh, nodes))) return proof;
+    proof.finding = arrays ? arrays->take() : check_arrays(mesh, nodes);
+    if (proof.finding) return proof;
     check_cancelled(context);
     proof.quality = measured ? std::move(*measured) : measure(mesh, context, Keep::of_cells);
-    if (beside)
-        found(std::move(misplaced));
-    else if (!found(check_quality(proof.quality, min_scaled_jacobian, mesh.layers)))
-        found(check_nodes(mesh.nodes, mesh.nodes_per_layer, context));
+    proof.finding = beside ? std::move(misplaced)
+                           : check_quality(proof.quality, min_scaled_jacobian, mesh.layers);
+    if (!beside && !proof.finding) proof.finding = check_nodes(mesh.nodes, mesh.nodes_per_layer, context);
     return proof;
 }
 
