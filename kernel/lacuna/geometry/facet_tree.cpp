@@ -172,11 +172,6 @@ struct FacetTree::Parts {
     std::span<const Box> box;
 };
 
-FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles)
-    : FacetTree(points, triangles, RunContext{1, nullptr, {}, {}})
-{
-}
-
 FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles,
                      const RunContext& context)
 {

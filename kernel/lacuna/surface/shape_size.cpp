@@ -10,6 +10,7 @@
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/graded_points.h>
 #include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -70,10 +71,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
             area += other.area;
         }
     };
-    std::vector<Index> number; // model points of the face, sorted
-    for (const Triangle& t : f.triangles) number.insert(number.end(), t.begin(), t.end());
-    std::ranges::sort(number);
-    number.erase(std::unique(number.begin(), number.end()), number.end());
+    const std::vector<Index> number = corner_points(f);
     const auto place = [&](Index p) {
         return static_cast<std::size_t>(std::lower_bound(number.begin(), number.end(), p) - number.begin());
     };

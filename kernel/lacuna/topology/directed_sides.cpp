@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/detail/directed_sides.h>
 
+#include <lacuna/topology/shared/face_parts.h>
+
 #include <algorithm>
 
 namespace lacuna::topology {
@@ -67,9 +69,7 @@ std::size_t DirectedSides::undirected_count() const
 
 long euler_number(const Model& model, const std::vector<FaceId>& faces, DirectedSides& sides)
 {
-    std::vector<Triangle> triangles;
-    for (const FaceId face : faces)
-        triangles.insert(triangles.end(), model[face].triangles.begin(), model[face].triangles.end());
+    const std::vector<Triangle> triangles = facets_of(model, faces);
     sides.read(triangles);
     const long number = static_cast<long>(sides.point_count()) - static_cast<long>(sides.undirected_count()) +
                         static_cast<long>(triangles.size());

@@ -47,12 +47,8 @@ std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
 {
     if (shells.size() < 2) return {};
     std::vector<geometry::FacetTree> trees;
-    for (const std::vector<FaceId>& shell : shells) {
-        std::vector<Triangle> facets;
-        for (const FaceId face : shell)
-            facets.insert(facets.end(), model[face].triangles.begin(), model[face].triangles.end());
-        trees.emplace_back(model.points, facets, context);
-    }
+    for (const std::vector<FaceId>& shell : shells)
+        trees.emplace_back(model.points, facets_of(model, shell), context);
     std::vector<std::vector<FaceId>> turned;
     for (std::size_t inner = 0; inner < shells.size(); ++inner) {
         check_cancelled(context);

@@ -42,9 +42,6 @@ public:
     /// @pre to.size() equals from.size()
     [[nodiscard]] AffineFit fit(std::span<const Vec3> to, const Vec3& to_area = Vec3::Zero()) const;
 
-    /// Root mean square spread along the three principal directions, largest first, with
-    /// the pseudo-normal [model length].
-    [[nodiscard]] const Vec3& spread() const { return spread_; }
     /// Distance of p from the centre relative to the spread in that direction (Mahalanobis); infinite in
     /// directions that are not in the data.
     [[nodiscard]] double reach(const Vec3& p) const;
@@ -56,6 +53,7 @@ private:
     Vec3 centre_{0, 0, 0};
     bool has_normal_ = false;
     int rank_ = 0;
+    /// Root mean square spread along the axes, largest first, with the pseudo-normal [model length].
     Vec3 spread_{0, 0, 0};
     Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity(); ///< principal directions as columns, right-handed
     Eigen::Matrix<double, Eigen::Dynamic, 3> basis_; ///< orthonormal columns: (row − centre) · axes / spread

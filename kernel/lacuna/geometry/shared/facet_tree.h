@@ -21,11 +21,10 @@ namespace lacuna::geometry {
 class FacetTree {
 public:
     FacetTree() = default;
-    /// Build the tree on one thread.
-    /// @pre every corner is an index into `points`. O(triangles log triangles).
-    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles);
-    /// Build the same tree on the threads of the context. @throw Cancelled
-    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles, const RunContext& context);
+    /// Build the tree on the threads of the context, by default on one; it is the same on any number.
+    /// @pre every corner is an index into `points`. O(triangles log triangles). @throw Cancelled
+    FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles,
+              const RunContext& context = {1, nullptr, {}, {}});
 
     /// The point of the facets closest to a given point.
     struct Hit {
