@@ -9,6 +9,7 @@
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 namespace lacuna::fill {
@@ -18,24 +19,11 @@ using topology::Role;
 
 namespace {
 
-const char* word(topology::Geometry geometry)
-{
-    switch (geometry) {
-    case topology::Geometry::given:
-        return "given";
-    case topology::Geometry::newell:
-        return "Newell";
-    case topology::Geometry::transfinite:
-        return "transfinite";
-    case topology::Geometry::annular:
-        return "annular strip";
-    case topology::Geometry::followed:
-        return "followed sides";
-    case topology::Geometry::parallel:
-        return "parallel to the other end";
-    }
-    return "unknown";
-}
+/// In the order of `topology::Geometry`.
+constexpr std::array kGeometries{"given",         "Newell",         "transfinite",
+                                 "annular strip", "followed sides", "parallel to the other end"};
+
+const char* word(topology::Geometry geometry) { return kGeometries[static_cast<std::size_t>(geometry)]; }
 
 const char* word(Role role)
 {

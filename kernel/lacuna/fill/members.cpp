@@ -169,16 +169,13 @@ template <class Do>
 bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& region, const Member& member,
                      const Do& what)
 {
-    if (member.options.fallback != sweep::Fallback::leave_out) {
-        what();
-        return true;
-    }
     try {
         what();
         return true;
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) {
+        if (member.options.fallback != sweep::Fallback::leave_out) throw;
         left_out.push_back({region, error.message().about(region)});
         return false;
     }
