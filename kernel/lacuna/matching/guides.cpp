@@ -18,6 +18,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <span>
 
@@ -233,11 +234,11 @@ void start_at_first_anchor(LevelLine& line)
     std::sort(line.anchors.begin(), line.anchors.end());
 }
 
-std::vector<std::size_t> anchor_lines(const LevelLine& line)
+/// Whether two lines cross the same side lines in the same order, and are both closed or both open.
+bool are_alike(const LevelLine& a, const LevelLine& b)
 {
-    std::vector<std::size_t> numbers;
-    for (const auto& [point, number] : line.anchors) numbers.push_back(number);
-    return numbers;
+    return a.closed == b.closed &&
+           std::ranges::equal(a.anchors | std::views::values, b.anchors | std::views::values);
 }
 
 /// @param start  start of a closed line without anchors [running length].
@@ -401,9 +402,7 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     put_on_surfaces(volume.model, part, lines, context);
     for (std::size_t k = 0; k < levels.size(); ++k) {
         start_at_first_anchor(lines[k]);
-        if (k > 0 && (anchor_lines(lines[k]) != anchor_lines(lines.front()) ||
-                      lines[k].closed != lines.front().closed))
-            return {};
+        if (!are_alike(lines[k], lines.front())) return {};
     }
     if (!cut_to_shared(lines)) return {};
     PartSections result;
