@@ -5,13 +5,14 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
-#include <lacuna/healing/detail/repeated_cells.h>
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/healing/detail/t_junctions.h>
 #include <lacuna/healing/shared/weld.h>
 #include <lacuna/topology/shared/side_points.h>
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <span>
 
 namespace lacuna::healing {
@@ -126,13 +127,34 @@ void drop_unused_points(Facets& facets)
         for (Index& p : q) p = number[index(p)];
 }
 
+/// Whether each cell has the same corners as an earlier cell of its label, in any order.
+template <std::size_t N>
+std::vector<bool> repeated_cells(std::size_t points, const std::vector<std::array<Index, N>>& cells,
+                                 const std::vector<int>& labels)
+{
+    std::vector<bool> repeated(cells.size(), false);
+    const auto each = [&](const auto& visit) {
+        for (std::size_t c = 0; c < cells.size(); ++c) {
+            Quad corners{-1, -1, -1, -1};
+            std::ranges::copy(cells[c], corners.begin());
+            visit(corners, c);
+        }
+    };
+    each_with_same_corners(points, each, [&](std::span<const NumberedCell> alike) {
+        std::set<int> known;
+        for (const auto& [others, cell] : alike)
+            repeated[cell] = alike.size() > 1 && !known.insert(labels[cell]).second;
+    });
+    return repeated;
+}
+
 /// Remove duplicates; halves of quads are removed with their quads.
 void drop_repeated(Facets& facets)
 {
     std::vector<int> quad_label(facets.quads.size(), 0);
     for (std::size_t f = 0; f < facets.count(); ++f)
         if (facets.quad[f] >= 0) quad_label[index(facets.quad[f])] = facets.label[f];
-    const std::vector<bool> quad_gone = repeated_cells(std::span<const Quad>(facets.quads), quad_label);
+    const std::vector<bool> quad_gone = repeated_cells(facets.points.size(), facets.quads, quad_label);
     const auto gone_with_quad = [&](std::size_t f) {
         return facets.quad[f] >= 0 && quad_gone[index(facets.quad[f])];
     };
@@ -143,7 +165,7 @@ void drop_repeated(Facets& facets)
         left.push_back(facets.corner[f]);
         label.push_back(facets.label[f]);
     }
-    const std::vector<bool> repeated = repeated_cells(std::span<const Triangle>(left), label);
+    const std::vector<bool> repeated = repeated_cells(facets.points.size(), left, label);
     std::vector<Index> number(facets.quads.size(), -1);
     std::vector<Quad> quads;
     for (std::size_t q = 0; q < quad_gone.size(); ++q) {

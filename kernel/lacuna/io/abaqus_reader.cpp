@@ -195,9 +195,9 @@ private:
 
     Scope* find_part(std::string_view name) const
     {
-        for (std::size_t p = 1; p < parts_.size(); ++p)
-            if (same_word(parts_[p]->name, name)) return parts_[p].get();
-        return nullptr;
+        const auto found = std::find_if(parts_.begin() + 1, parts_.end(),
+                                        [&](const auto& part) { return same_word(part->name, name); });
+        return found == parts_.end() ? nullptr : found->get();
     }
 
     void begin_instance(const Keyword& keyword)
@@ -322,9 +322,8 @@ private:
     Index find_instance(std::string_view name) const
     {
         const std::vector<DeckInstance>& all = into_.deck().instances;
-        for (std::size_t i = 0; i < all.size(); ++i)
-            if (same_word(all[i].name, name)) return static_cast<Index>(i);
-        return -1;
+        const auto found = find_word(all, name, &DeckInstance::name);
+        return found == all.end() ? -1 : static_cast<Index>(found - all.begin());
     }
 
     /// Add the members that a word stands for: a number, a set, or either of an instance as "instance.word".
@@ -550,8 +549,7 @@ private:
     static Index region_called(Scope& scope, const std::string& name)
     {
         const std::vector<DeckRegion>& all = scope.builder.deck().regions;
-        const auto found = std::ranges::find_if(
-            all, [&](const DeckRegion& region) { return same_word(region.name, name); });
+        const auto found = find_word(all, name, &DeckRegion::name);
         return found == all.end() ? scope.builder.add_region(0, name)
                                   : static_cast<Index>(found - all.begin());
     }
@@ -724,6 +722,29 @@ Keyword parse_keyword(std::string_view words)
         if (!key.empty()) keyword.parameters.emplace_back(std::move(key), std::string(value));
     }
     return keyword;
+}
+
+std::vector<AbaqusCard> abaqus_cards(std::string_view text)
+{
+    std::vector<AbaqusCard> cards(1);
+    for (std::size_t begin = 0, at = 0; at < text.size(); begin = at) {
+        const auto next_line = [&] {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            return trimmed(text.substr(std::exchange(at, std::min(end + 1, text.size())), end - begin));
+        };
+        std::string words(next_line());
+        const bool comment = words.starts_with("**"), keyword = !comment && words.starts_with('*');
+        while (keyword && words.ends_with(',') && at < text.size()) words += next_line();
+        if (keyword) cards.push_back({parse_keyword(words)});
+        AbaqusCard& card = cards.back();
+        const auto extend = [&](std::string_view& lines) {
+            lines = text.substr(lines.empty() ? begin : static_cast<std::size_t>(lines.data() - text.data()));
+            lines = lines.substr(0, at - static_cast<std::size_t>(lines.data() - text.data()));
+        };
+        extend(card.text);
+        if (!keyword && !comment) extend(card.data);
+    }
+    return cards;
 }
 
 bool is_section(const Keyword& keyword)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/message.h>
+#include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/format_table.h>
@@ -45,18 +46,8 @@ struct Cards {
 Cards cards_of(const MeshView::KeptText& kept)
 {
     Cards cards;
-    bool elements = false;
-    for (std::string_view rest = kept.cards; !rest.empty();) {
-        const std::size_t end = std::min(rest.find('\n'), rest.size() - 1) + 1;
-        const std::string_view line = rest.substr(0, end);
-        const bool keyword = line.starts_with('*') && !line.starts_with("**");
-        if (keyword) {
-            const std::string_view name = trimmed(line.substr(1, line.find(',') - 1));
-            elements = same_word(name, "ELEMENT");
-        }
-        (elements ? cards.elements : cards.others) += line;
-        rest.remove_prefix(end);
-    }
+    for (const AbaqusCard& card : abaqus_cards(kept.cards))
+        (card.keyword.name == "ELEMENT" ? cards.elements : cards.others) += card.text;
     if (!kept.instance.empty()) cards.others = without_instance(cards.others, kept.instance);
     return cards;
 }

@@ -48,14 +48,6 @@ std::size_t block_of(std::vector<DeckBlock>& blocks, DeckShape shape, std::strin
     return blocks.size() - 1;
 }
 
-void copy_element(const DeckBlock& from, std::size_t e, DeckBlock& to)
-{
-    const std::span<const Index> nodes = from.element(e);
-    to.nodes.insert(to.nodes.end(), nodes.begin(), nodes.end());
-    to.tags.push_back(from.tags[e]);
-    to.regions.push_back(from.regions[e]);
-}
-
 void append_block(const DeckBlock& from, Index first_point, Index first_region, DeckTag raise, DeckBlock& to)
 {
     for (const Index node : from.nodes) to.nodes.push_back(node < 0 ? -1 : first_point + node);

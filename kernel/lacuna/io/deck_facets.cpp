@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// facets_of(): sides of solids are matched in groups by their lowest node, together with the shells.
+// facets_of(): sides of solids are matched with each other and with the shells.
 #include <lacuna/io/detail/deck_facets.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/default_labels.h>
 #include <lacuna/core/shared/large_pages.h>
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/healing/shared/weld.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_view.h>
@@ -162,22 +163,13 @@ private:
         return list;
     }
 
-    /// A side or a shell in a group with the same lowest node.
-    struct Candidate {
-        std::array<Index, 3> others; ///< the other corners, rising; -1 first in triangles
-        std::uint64_t who;           ///< solid · 8 + face; shells follow the solids
-    };
-
     void match_sides()
     {
         const std::vector<Index> joined = weld();
-        const auto corners_of = [&](std::span<const Index> nodes, const Quad& corner) {
-            Quad found{-1, -1, -1, -1};
-            for (std::size_t k = 0; k < 4; ++k)
-                if (corner[k] >= 0) found[k] = joined[index(nodes[index(corner[k])])];
-            std::sort(found.begin(), found.end());
-            if (found[0] >= 0) return found;
-            return Quad{found[1], -1, found[2], found[3]}; // the lowest first, then -1 for the missing corner
+        const auto corners_of = [&](std::span<const Index> nodes, Quad corner) {
+            for (Index& k : corner)
+                if (k >= 0) k = joined[index(nodes[index(k)])];
+            return corner;
         };
         const auto each = [&](const auto& visit) {
             solids_.each([&](std::size_t e, const Elements::Element& element) {
@@ -187,31 +179,12 @@ private:
                     visit(corners_of(nodes, faces[f]), std::uint64_t(e) * 8 + f);
             });
             shells_.each([&](std::size_t e, const Elements::Element& element) {
-                const bool quad = shape_info(element.block->shape).corners == 4;
-                visit(corners_of(element.nodes(), Quad{0, 1, 2, quad ? 3 : -1}),
+                visit(corners_of(element.nodes(), shell_corners(element.block->shape)),
                       (solids_.count() + std::uint64_t(e)) * 8);
             });
         };
-        std::vector<std::uint64_t> start(deck_.points.size() + 1, 0);
-        each([&](const Quad& corner, std::uint64_t) { ++start[index(corner[0]) + 1]; });
-        std::partial_sum(start.begin(), start.end(), start.begin());
-        std::vector<Candidate> all(start.back());
-        std::vector<std::uint64_t> fill(start.begin(), start.end() - 1);
-        each([&](const Quad& corner, std::uint64_t who) {
-            all[fill[index(corner[0])]++] = {{corner[1], corner[2], corner[3]}, who};
-        });
-        for (std::size_t p = 0; p + 1 < start.size(); ++p) {
-            const auto heap = std::span(all).subspan(start[p], start[p + 1] - start[p]);
-            std::sort(heap.begin(), heap.end(), [](const Candidate& a, const Candidate& b) {
-                return std::pair(a.others, a.who) < std::pair(b.others, b.who);
-            });
-            for (std::size_t i = 0; i < heap.size();) {
-                std::size_t end = i + 1;
-                while (end < heap.size() && heap[end].others == heap[i].others) ++end;
-                take_group(heap.subspan(i, end - i));
-                i = end;
-            }
-        }
+        each_with_same_corners(deck_.points.size(), each,
+                               [&](std::span<const NumberedCell> group) { take_group(group); });
         std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
             return std::pair(a.solid, a.face) < std::pair(b.solid, b.face);
         });
@@ -226,29 +199,29 @@ private:
     }
 
     /// Process the sides and shells with the same corners, solids first.
-    void take_group(std::span<const Candidate> group)
+    void take_group(std::span<const NumberedCell> group)
     {
         std::size_t solids = 0;
-        while (solids < group.size() && group[solids].who / 8 < solids_.count()) ++solids;
+        while (solids < group.size() && group[solids].number / 8 < solids_.count()) ++solids;
         if (solids == 0) return;
-        const auto region = [&](std::size_t i) { return solids_[group[i].who / 8].region(); };
+        const auto region = [&](std::size_t i) { return solids_[group[i].number / 8].region(); };
         std::size_t other = 1;
         while (other < solids && region(other) == region(0)) ++other;
         Label label{.a = region(0), .b = other < solids ? region(other) : -1};
         if (label.b >= 0 && label.b < label.a) std::swap(label.a, label.b);
         if (solids > 2) ++shared_by_many_;
         for (std::size_t i = solids; i < group.size(); ++i)
-            beside_[group[i].who / 8 - solids_.count()] = {label.a, label.b};
+            beside_[group[i].number / 8 - solids_.count()] = {label.a, label.b};
         const bool inside = solids == 2 && label.b < 0;
         if (inside || group.size() > solids) return;
         // Between two regions, the side of the first one is used; the face points out of it.
         const std::size_t shown = region(0) == label.a ? 0 : other;
-        const std::size_t solid = group[shown].who / 8;
-        const auto face = static_cast<int>(group[shown].who % 8);
+        const std::size_t solid = group[shown].number / 8;
+        const auto face = static_cast<int>(group[shown].number % 8);
         label.sets = surfaces_of(solid, face);
         if (label.sets == 0 && other < solids)
-            label.sets = surfaces_of(group[shown == 0 ? other : 0].who / 8,
-                                     static_cast<int>(group[shown == 0 ? other : 0].who % 8));
+            label.sets = surfaces_of(group[shown == 0 ? other : 0].number / 8,
+                                     static_cast<int>(group[shown == 0 ? other : 0].number % 8));
         sides_.push_back({solid, face, label});
     }
 

@@ -45,11 +45,6 @@ std::size_t with_point(char* text, std::size_t length, std::size_t width, char e
     return length + tail;
 }
 
-bool is_number_start(std::string_view text)
-{
-    return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) != 0;
-}
-
 /// Field 2 of a Nastran line.
 std::string_view second_field(std::string_view line)
 {
@@ -75,23 +70,6 @@ void nastran_numbers(std::string_view line, TextNumbers& numbers)
         numbers.cells.insert(*tag);
     else if (starts("P"))
         numbers.property = std::max(numbers.property, *tag);
-}
-
-/// Call `take(keyword, start of its line)` for every keyword of an Abaqus text until it returns false.
-template <class Take>
-void each_keyword(std::string_view text, const Take& take)
-{
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t begin = at;
-        std::string words;
-        do {
-            const std::size_t end = std::min(text.find('\n', at), text.size());
-            words += trimmed(text.substr(at, end - at));
-            at = end + 1;
-        } while (words.starts_with('*') && !words.starts_with("**") && words.ends_with(',') &&
-                 at < text.size());
-        if (words.starts_with('*') && !words.starts_with("**") && !take(parse_keyword(words), begin)) return;
-    }
 }
 
 /// Words of a line as numbers; 0 for other words.
@@ -215,26 +193,23 @@ bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b)
 TextNumbers numbers_in_text(const Deck& deck)
 {
     TextNumbers numbers;
-    bool elements = false; // whether element lines of an Abaqus deck are being read
     for (const DeckText& text : deck.texts) {
         if (text.place == DeckText::Place::head) continue;
         if (deck.format == DeckFormat::unv) {
             if (text.place == DeckText::Place::tail) unv_numbers(text.text, numbers);
             continue;
         }
-        each_line(text.text, [&](std::string_view whole) {
-            const std::string_view line = trimmed(whole);
-            if (deck.format == DeckFormat::nastran) {
-                nastran_numbers(whole, numbers);
-            } else if (deck.format == DeckFormat::abaqus && line.starts_with('*')) {
-                if (!line.starts_with("**")) elements = same_word(line.substr(0, 8), "*ELEMENT");
-                if (const Keyword keyword = parse_keyword(line); keyword.name == "SURFACE")
-                    numbers.surfaces.push_back(keyword.value("NAME"));
-            } else if (elements && is_number_start(line)) {
-                const auto tag = parse_integer<DeckTag>(trimmed(line.substr(0, line.find(','))));
-                if (tag) numbers.cells.insert(*tag);
-            }
-        });
+        if (deck.format == DeckFormat::nastran)
+            each_line(text.text, [&](std::string_view line) { nastran_numbers(line, numbers); });
+        if (deck.format != DeckFormat::abaqus) continue;
+        for (const AbaqusCard& card : abaqus_cards(text.text)) {
+            if (card.keyword.name == "SURFACE") numbers.surfaces.push_back(card.keyword.value("NAME"));
+            if (!card.keyword.name.starts_with("ELEMENT")) continue;
+            each_data_line(card, [&](std::string_view line) {
+                if (const auto tag = parse_integer<DeckTag>(next_field(line)); tag && *tag >= 0)
+                    numbers.cells.insert(*tag);
+            });
+        }
     }
     return numbers;
 }
@@ -244,10 +219,8 @@ std::vector<std::string> materials_in_text(const Deck& deck)
     std::vector<std::string> found;
     for (const DeckText& text : deck.texts) {
         if (deck.format == DeckFormat::abaqus)
-            each_keyword(text.text, [&](const Keyword& keyword, std::size_t) {
+            for (const auto& [keyword, lines, data] : abaqus_cards(text.text))
                 if (keyword.name == "MATERIAL") add_once(found, keyword.value("NAME"));
-                return true;
-            });
         if (deck.format != DeckFormat::nastran || text.place != DeckText::Place::cards) continue;
         each_line(text.text, [&](std::string_view line) {
             // MAT1 to MAT11 and MATHP; MATS1, MATT1 and the like extend a material of the same number.
@@ -263,25 +236,20 @@ std::vector<std::string> materials_in_text(const Deck& deck)
 
 std::optional<std::string> section_material(const Deck& deck, std::string_view set)
 {
-    std::optional<std::string> found;
     for (const DeckText& text : deck.texts)
-        each_keyword(text.text, [&](const Keyword& keyword, std::size_t) {
+        for (const auto& [keyword, lines, data] : abaqus_cards(text.text))
             if (is_section(keyword) && same_word(keyword.value("ELSET"), set))
-                found = keyword.value("MATERIAL");
-            return !found;
-        });
-    return found;
+                return keyword.value("MATERIAL");
+    return {};
 }
 
 std::pair<std::string, std::string> model_and_steps(const std::string& cards)
 {
-    std::size_t step = cards.size();
-    each_keyword(cards, [&](const Keyword& keyword, std::size_t begin) {
-        if (keyword.name != "STEP") return true;
-        step = begin;
-        return false;
-    });
-    return {cards.substr(0, step), cards.substr(step)};
+    for (const AbaqusCard& card : abaqus_cards(cards))
+        if (const auto step = static_cast<std::size_t>(card.text.data() - cards.data());
+            card.keyword.name == "STEP")
+            return {cards.substr(0, step), cards.substr(step)};
+    return {cards, {}};
 }
 
 void add_model_cards(Deck& deck, const std::string& cards)

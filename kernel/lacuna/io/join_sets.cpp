@@ -62,27 +62,31 @@ public:
     Replacer(const Deck& gone, const NewCells& added, bool named) : gone_(gone), added_(added)
     {
         cells_ = named ? solids_called(gone, added.volume) : solids_of(gone);
-        std::map<Quad, std::vector<Face>> faces;
-        std::map<Quad, DeckTag> shells;
+        std::vector<std::pair<const DeckBlock*, std::size_t>> elements;
         each_element(gone, [&](const DeckBlock& block, std::size_t e, std::size_t) {
-            const std::span<const Index> nodes = block.element(e);
-            if (shape_info(block.shape).dimension == 2) shells[shell_key(block, e)] = block.tags[e];
-            int side = 0;
-            for (const Quad& face : face_corners(block.shape)) {
-                Quad corners = face; // a triangle repeats its last corner
-                for (Index& k : corners) k = nodes[index(k < 0 ? face[2] : k)];
-                faces[face_key(block, e, face)].push_back({corners, {block.tags[e], ++side}});
-            }
-            for (const Index node : nodes)
+            elements.emplace_back(&block, e);
+            for (const Index node : block.element(e))
                 if (node >= 0 && std::ranges::binary_search(cells_, block.tags[e]))
                     nodes_.push_back(gone.point_tags[index(node)]);
         });
         add(nodes_, {});
-        for (auto& [key, of] : faces) {
-            if (of.size() > 1) continue;
-            if (const auto shell = shells.find(key); shell != shells.end()) of.front().shell = shell->second;
-            skin_.push_back(of.front());
-        }
+        each_with_same_nodes(gone, [&](std::span<const NumberedCell> alike) {
+            Face found;
+            for (const auto& [others, number] : alike) {
+                const auto& [block, e] = elements[number / 8];
+                const auto side = static_cast<int>(number % 8);
+                if (side == 0) {
+                    found.shell = block->tags[e];
+                    continue;
+                }
+                if (found.side.side > 0) return; // between two solids
+                found.side = {block->tags[e], side};
+                const Quad& face = face_corners(block->shape)[index(side - 1)];
+                for (std::size_t k = 0; k < 4; ++k) // a triangle repeats its last corner
+                    found.corners[k] = block->element(e)[index(face[k] < 0 ? face[2] : face[k])];
+            }
+            if (found.side.side > 0) skin_.push_back(found);
+        });
         find_places();
     }
 
@@ -123,8 +127,8 @@ public:
 
 private:
     struct Face {
-        Quad corners;
-        DeckSide side;
+        Quad corners{};
+        DeckSide side{};
         DeckTag shell = -1; ///< element on the face; -1: none
         Vec3 area = Vec3::Zero();
     };
@@ -200,8 +204,7 @@ void join_sets(Deck& deck, const NewCells& added, const std::vector<std::size_t>
     for (const std::size_t s : of_all)
         if (DeckSet& set = deck.sets[s]; set.kind == DeckSet::Kind::nodes || fits(set))
             add(set.members, set.kind == DeckSet::Kind::nodes ? added.nodes : added.cells);
-    const auto is_volume = [&](const std::string& name) { return same_word(name, added.volume); };
-    const bool named = std::ranges::any_of(deck.gap.names, is_volume) &&
+    const bool named = find_word(deck.gap.names, added.volume) != deck.gap.names.end() &&
                        std::ranges::any_of(deck.gap.gone, [&](const auto& gone) {
                            return !solids_called(*gone, added.volume).empty();
                        });

@@ -110,25 +110,21 @@ private:
 
     void read_abaqus(std::string_view text) const
     {
-        std::string word;
-        each_line(text, [&](std::string_view line) {
-            line = trimmed(line);
-            if (line.starts_with("**")) return;
-            if (line.starts_with('*')) {
-                word = parse_keyword(line).name;
-                return;
-            }
-            const std::size_t comma = std::min(line.find(','), line.size());
-            const auto first = parse_integer<DeckTag>(trimmed(line.substr(0, comma)));
-            if (word == "ELEMENT")
-                use_all(line.substr(comma));
-            else if (word == "MPC" || word == "EQUATION" || word == "KINEMATICCOUPLING")
-                use_all(line);
-            else if (first && (word == "BOUNDARY" || word == "CLOAD" || word == "TEMPERATURE"))
-                name("*" + word, *first, 0);
-            else if (first && (word == "DLOAD" || word == "FILM" || word == "DFLUX"))
-                name("*" + word, 0, *first);
-        });
+        for (const AbaqusCard& card : abaqus_cards(text)) {
+            const std::string& word = card.keyword.name;
+            each_data_line(card, [&](std::string_view line) {
+                std::string_view others = line;
+                const auto first = parse_integer<DeckTag>(next_field(others));
+                if (word == "ELEMENT")
+                    use_all(others);
+                else if (word == "MPC" || word == "EQUATION" || word == "KINEMATICCOUPLING")
+                    use_all(line);
+                else if (first && (word == "BOUNDARY" || word == "CLOAD" || word == "TEMPERATURE"))
+                    name("*" + word, *first, 0);
+                else if (first && (word == "DLOAD" || word == "FILM" || word == "DFLUX"))
+                    name("*" + word, 0, *first);
+            });
+        }
     }
 };
 
@@ -172,19 +168,12 @@ private:
     /// face also belongs to a remaining solid.
     void mark_skin()
     {
-        std::map<Quad, bool> stays; // by the face of a removed solid, whether it remains
-        for (const bool out : {true, false})
-            each_element(deck_, [&](const DeckBlock& block, std::size_t e, std::size_t at) {
-                for (const Quad& face : face_corners(block.shape)) {
-                    const Quad key = face_key(block, e, face);
-                    if (out && is_out_[at] != 0) stays.emplace(key, false);
-                    if (!out && is_out_[at] == 0 && stays.contains(key)) stays[key] = true;
-                }
-            });
-        each_element(deck_, [&](const DeckBlock& block, std::size_t e, std::size_t at) {
-            if (shape_info(block.shape).dimension != 2) return;
-            if (const auto face = stays.find(shell_key(block, e)); face != stays.end())
-                is_out_[at] = std::exchange(face->second, false) ? is_out_[at] : 1;
+        each_with_same_nodes(deck_, [&](std::span<const NumberedCell> alike) {
+            bool out = false, stays = false;
+            for (const auto& [others, number] : alike)
+                if (number % 8 > 0) (is_out_[number / 8] != 0 ? out : stays) = true;
+            for (const auto& [others, number] : alike)
+                if (out && number % 8 == 0 && !std::exchange(stays, false)) is_out_[number / 8] = 1;
         });
     }
 
@@ -207,34 +196,23 @@ private:
 
     void split_blocks()
     {
-        std::size_t at = 0;
-        std::vector<std::size_t> left(deck_.regions.size(), 0), gone = left;
+        std::size_t first = 0; // elements before the block
         for (const DeckBlock& block : deck_.blocks) {
-            DeckBlock kept{.shape = block.shape, .type = block.type}, out = kept;
-            auto more = block.more.begin();
-            for (std::size_t e = 0; e < block.count(); ++e, ++at) {
-                const bool is_out = is_out_[at] != 0;
-                DeckBlock& to = is_out ? out : kept;
-                if (more != block.more.end() && more->first == e) {
-                    if (!is_out) kept.more.emplace_back(kept.count(), more->second);
-                    ++more;
-                }
-                copy_element(block, e, to);
-                if (block.regions[e] >= 0) ++(is_out ? gone : left)[index(block.regions[e])];
-                if (is_out) found_.kept.gap.cell = std::max(found_.kept.gap.cell, block.tags[e]);
-            }
-            if (kept.count() > 0) found_.kept.blocks.push_back(std::move(kept));
-            if (out.count() > 0) gone_.blocks.push_back(std::move(out));
+            const auto is_out = [&](std::size_t e) { return is_out_[first + e] != 0; };
+            found_.kept.blocks.push_back(without_elements(block, is_out));
+            gone_.blocks.push_back(without_elements(block, std::not_fn(is_out)));
+            for (const DeckTag tag : gone_.blocks.back().tags)
+                found_.kept.gap.cell = std::max(found_.kept.gap.cell, tag);
+            first += block.count();
         }
-        for (std::size_t r = 0; r < left.size(); ++r)
-            if (gone[r] > 0 && left[r] == 0) add_emptied(deck_.regions[r].name);
+        for (Deck* deck : {&found_.kept, &gone_})
+            std::erase_if(deck->blocks, [](const DeckBlock& block) { return block.count() == 0; });
     }
 
     void add_emptied(const std::string& name)
     {
         std::vector<std::string>& names = found_.kept.gap.names;
-        const auto same = [&](const std::string& other) { return same_word(other, name); };
-        if (!name.empty() && std::ranges::none_of(names, same)) names.push_back(name);
+        if (!name.empty() && find_word(names, name) == names.end()) names.push_back(name);
     }
 
     void split_points()
@@ -278,6 +256,9 @@ private:
         kept.gap.node = std::max(kept.gap.node, deck_.gap.node);
         kept.gap.cell = std::max(kept.gap.cell, deck_.gap.cell);
         kept.gap.gone = deck_.gap.gone;
+        const std::vector<char> left = used_regions(kept), lost = used_regions(gone);
+        for (std::size_t r = 0; r < left.size(); ++r)
+            if (lost[r] != 0 && left[r] == 0) add_emptied(deck_.regions[r].name);
         for (const std::string& name : deck_.gap.names) add_emptied(name);
         gone.points = deck_.points;
         gone.point_tags = deck_.point_tags;
@@ -349,17 +330,9 @@ private:
 std::string without_sections(std::string_view text, const std::vector<std::string>& sets)
 {
     std::string kept;
-    bool drops = false;
-    each_line(text, [&](std::string_view line) {
-        if (line.starts_with('*') && !line.starts_with("**")) {
-            const Keyword keyword = parse_keyword(line);
-            drops = is_section(keyword) && std::ranges::any_of(sets, [&](const std::string& set) {
-                        return same_word(set, keyword.value("ELSET"));
-                    });
-        }
-        if (!drops) kept.append(line).append("\n");
-    });
-    if (!text.ends_with('\n') && !kept.empty()) kept.pop_back();
+    for (const AbaqusCard& card : abaqus_cards(text))
+        if (!is_section(card.keyword) || find_word(sets, card.keyword.value("ELSET")) == sets.end())
+            kept += card.text;
     return kept;
 }
 
@@ -432,8 +405,7 @@ Deck close_gap(Deck deck, const RunContext& context)
     }
     std::erase_if(deck.sets, [&](const DeckSet& set) {
         return set.members.empty() && set.sides.empty() &&
-               std::ranges::any_of(deck.gap.names,
-                                   [&](const std::string& of) { return same_word(of, set.name); });
+               find_word(deck.gap.names, set.name) != deck.gap.names.end();
     });
     if (deck.format == DeckFormat::abaqus)
         for (DeckText& text : deck.texts) text.text = without_sections(text.text, empty);

@@ -113,8 +113,7 @@ private:
             if (has_set(all_, set, set.name)) both.push_back("the set " + set.name);
         const std::vector<std::string> known = materials_in_text(all_);
         for (const std::string& name : materials_in_text(more_))
-            if (std::ranges::any_of(known, [&](const std::string& of) { return same_word(of, name); }))
-                both.push_back("material " + name);
+            if (find_word(known, name) != known.end()) both.push_back("material " + name);
         if (both.empty()) return;
         clashes_ = true;
         if (!options_.renumber) refuse(both.front(), both.size());

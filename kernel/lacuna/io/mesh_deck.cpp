@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <sstream>
 
 namespace lacuna::io {
 namespace {
@@ -193,8 +192,7 @@ private:
 
     [[nodiscard]] bool is_emptied(const std::string& name) const
     {
-        return std::ranges::any_of(deck_.gap.names,
-                                   [&](const std::string& of) { return same_word(of, name); });
+        return find_word(deck_.gap.names, name) != deck_.gap.names.end();
     }
 
     /// Whether the volume has the name of a region that lost its elements: the mesh then replaces that
@@ -312,10 +310,10 @@ private:
 
     [[nodiscard]] bool is_taken(DeckSet::Kind kind, const std::string& name) const
     {
-        const auto same = [&](const std::string& other) { return same_word(other, name); };
-        if (kind != DeckSet::Kind::nodes && std::ranges::any_of(texts_.surfaces, same)) return true;
+        if (kind != DeckSet::Kind::nodes && find_word(texts_.surfaces, name) != texts_.surfaces.end())
+            return true;
         return std::ranges::any_of(deck_.sets, [&](const DeckSet& set) {
-            return share_names(options_.format, kind, set.kind) && same(set.name);
+            return share_names(options_.format, kind, set.kind) && same_word(set.name, name);
         });
     }
 
@@ -325,15 +323,12 @@ private:
         if (!joins() || deck_.format != DeckFormat::nastran) return;
         std::vector<std::string> cards;
         for (const DeckText& text : deck_.texts) {
-            std::istringstream lines(text.text);
-            for (std::string line; std::getline(lines, line);) {
-                std::string word, number;
-                std::ranges::replace_if(
-                    line, [](char c) { return c == ',' || c == '=' || c == '*'; }, ' ');
-                std::istringstream(line) >> word >> number;
-                if (!same_word(word, "SET") && !same_word(word, "SET1") && !same_word(word, "SET3")) continue;
-                cards.push_back(word + " " + number);
-            }
+            each_line(text.text, [&](std::string_view line) {
+                constexpr std::string_view kBetween = ",=* \t\r\v\f";
+                const std::string word(next_word(line, kBetween)), number(next_word(line, kBetween));
+                if (same_word(word, "SET") || same_word(word, "SET1") || same_word(word, "SET3"))
+                    cards.push_back(word + " " + number);
+            });
         }
         if (!cards.empty())
             log_line(
@@ -469,9 +464,6 @@ private:
         material_ = options_.material;
         if (!joins()) return;
         const std::vector<std::string> known = materials_in_text(deck_);
-        const auto find = [&](const std::string& name) {
-            return std::ranges::find_if(known, [&](const std::string& of) { return same_word(of, name); });
-        };
         if (takes_place() && options_.format == deck_.format) {
             material_ = deck_.regions[index(place_)].material;
             if (added_.region >= 0) return; // another piece of a mesh added before
@@ -481,7 +473,7 @@ private:
             return;
         }
         if (material_.empty()) {
-            if (find(added_.neighbour_material) == known.end()) return;
+            if (find_word(known, added_.neighbour_material) == known.end()) return;
             material_ = added_.neighbour_material;
             log_line(
                 context_,
@@ -489,7 +481,7 @@ private:
                           volume(), material_, added_.neighbour));
             return;
         }
-        if (const auto found = find(material_); found != known.end()) {
+        if (const auto found = find_word(known, material_); found != known.end()) {
             material_ = *found;
             return;
         }

@@ -620,10 +620,7 @@ private:
         }
         into_.pass_over("cells that stand once more for a further group",
                         static_cast<std::size_t>(std::ranges::count(copy, true)));
-        DeckBlock kept{.shape = block.shape, .type = block.type};
-        for (std::size_t e = 0; e < copy.size(); ++e)
-            if (!copy[e]) copy_element(block, e, kept);
-        block = std::move(kept);
+        block = without_elements(block, [&](std::size_t e) { return copy[e]; });
     }
 
     Cursor& cursor_;

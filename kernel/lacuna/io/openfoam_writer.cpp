@@ -3,8 +3,8 @@
 // OpenFOAM's polyMesh: a folder of files with the points, the faces, the owner and neighbour cell of each
 // face, and the patches of boundary faces. https://doc.openfoam.com/2306/fundamentals/mesh
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/io/detail/format_table.h>
-#include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/sections.h>
 #include <lacuna/io/detail/texts.h>
 #include <lacuna/io/detail/whole_folder.h>
@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace lacuna::io {
@@ -145,46 +143,29 @@ private:
         owners.push_back(face.cell);
     }
 
-    /// Sort faces by their lowest corner, which brings faces with the same corners close together.
+    /// Two faces with the same corners are one face between two cells.
     void find_faces()
     {
-        std::vector<std::size_t> begin(view_.points + 1, 0);
-        const auto lowest = [](const CellFace& face) {
-            return index(std::ranges::min(
-                face.corners, {}, [](Index c) { return c < 0 ? std::numeric_limits<Index>::max() : c; }));
-        };
-        for (const CellFace& face : found_) ++begin[lowest(face) + 1];
-        std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        std::vector<Index> order(found_.size());
-        {
-            std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-            for (std::size_t f = 0; f < found_.size(); ++f)
-                order[next[lowest(found_[f])]++] = static_cast<Index>(f);
-        }
         struct Inner {
             Index owner, neighbour, face;
         };
         std::vector<Inner> inner;
-        for (std::size_t p = 0; p + 1 < begin.size(); ++p) {
-            const auto row = std::span(order).subspan(begin[p], begin[p + 1] - begin[p]);
-            std::ranges::stable_sort(row, {}, [&](Index f) { return rising(found_[index(f)].corners); });
-            for (std::size_t k = 0; k < row.size();) {
-                const CellFace& face = found_[index(row[k])];
-                std::size_t end = k + 1;
-                while (end < row.size() && rising(found_[index(row[end])].corners) == rising(face.corners))
-                    ++end;
-                if (end - k > 2)
-                    throw InvalidInput("io.not_conformal",
-                                       "a face of {} belongs to {} cells, but at most {} can share a face",
-                                       numbered("cell", face.cell + 1), found(end - k), needed("two"));
-                // Faces were collected cell by cell and the sort kept that order: the owner comes first.
-                if (end - k == 2)
-                    inner.push_back({face.cell, found_[index(row[k + 1])].cell, row[k]});
-                else
-                    outer_.push_back(row[k]);
-                k = end;
-            }
-        }
+        const auto each = [&](const auto& visit) {
+            for (std::size_t f = 0; f < found_.size(); ++f) visit(found_[f].corners, f);
+        };
+        each_with_same_corners(view_.points, each, [&](std::span<const NumberedCell> alike) {
+            const Index cell = found_[alike[0].number].cell;
+            const auto face = static_cast<Index>(alike[0].number);
+            if (alike.size() > 2)
+                throw InvalidInput("io.not_conformal",
+                                   "a face of {} belongs to {} cells, but at most {} can share a face",
+                                   numbered("cell", cell + 1), found(alike.size()), needed("two"));
+            // Faces were collected cell by cell: the owner comes first.
+            if (alike.size() == 2)
+                inner.push_back({cell, found_[alike[1].number].cell, face});
+            else
+                outer_.push_back(face);
+        });
         std::ranges::sort(inner, {}, [](const Inner& of) { return std::pair(of.owner, of.neighbour); });
         for (const Inner& of : inner) {
             put(found_[index(of.face)]);

@@ -11,33 +11,16 @@
 namespace lacuna::io {
 namespace {
 
-template <class Visit>
-void each_element(const Deck& deck, int dimension, const Visit& visit)
+/// For each element, the side of a solid on which it lies if it is two-dimensional; side 0: none.
+std::vector<DeckSide> sides_below(const Deck& deck)
 {
-    for (const DeckBlock& block : deck.blocks)
-        if (shape_info(block.shape).dimension == dimension)
-            for (std::size_t e = 0; e < block.count(); ++e) visit(block, e);
-}
-
-/// For each two-dimensional element, by its corners, the side of a solid that it lies on; side 0: none.
-std::map<Quad, DeckSide> sides_below(const Deck& deck)
-{
-    std::map<Quad, DeckSide> below;
-    std::vector<char> on(deck.points.size(), 0);
-    each_element(deck, 2, [&](const DeckBlock& block, std::size_t e) {
-        below.try_emplace(shell_key(block, e));
-        for (const Index point : block.element(e)) on[index(point)] = 1;
-    });
-    each_element(deck, 3, [&](const DeckBlock& block, std::size_t e) {
-        const std::span<const Quad> faces = face_corners(block.shape);
-        for (std::size_t f = 0; f < faces.size(); ++f) {
-            const Quad key = face_key(block, e, faces[f]);
-            if (!std::ranges::all_of(key, [&](Index point) { return point < 0 || on[index(point)] != 0; }))
-                continue;
-            const auto found = below.find(key);
-            if (found != below.end() && found->second.side == 0)
-                found->second = {block.tags[e], static_cast<int>(f) + 1};
-        }
+    const std::vector<DeckTag> tags = element_tags(deck);
+    std::vector<DeckSide> below(tags.size());
+    each_with_same_nodes(deck, [&](std::span<const NumberedCell> alike) {
+        const auto solid = std::ranges::find_if(alike, [](const auto& of) { return of.number % 8 > 0; });
+        for (const auto& [others, number] : alike)
+            if (solid != alike.end() && number % 8 == 0)
+                below[number / 8] = {tags[solid->number / 8], static_cast<int>(solid->number % 8)};
     });
     return below;
 }
@@ -49,10 +32,10 @@ Deck skin_as_sets(Deck deck, DeckFormat format)
     const Format& from = format_of(deck.format);
     const bool has_faces = from.is_mesh && from.skin == Format::Skin::quads && deck.format != DeckFormat::unv;
     if (!has_faces || format_of(format).skin == Format::Skin::quads) return deck;
-    const std::map<Quad, DeckSide> below = sides_below(deck);
+    const std::vector<DeckSide> below = sides_below(deck);
     std::unordered_map<DeckTag, std::vector<std::string>> names; // for the elements that become sets
-    each_element(deck, 2, [&](const DeckBlock& block, std::size_t e) {
-        if (below.at(shell_key(block, e)).side > 0) names[block.tags[e]];
+    each_element(deck, [&](const DeckBlock& block, std::size_t e, std::size_t i) {
+        if (below[i].side > 0) names[block.tags[e]];
     });
     for (DeckSet& set : deck.sets)
         if (set.kind == DeckSet::Kind::elements)
@@ -65,27 +48,26 @@ Deck skin_as_sets(Deck deck, DeckFormat format)
         return set.kind == DeckSet::Kind::elements && set.members.empty();
     });
     std::map<std::string, std::pair<std::set<DeckTag>, std::set<DeckSide>>> sets; // nodes and sides
+    std::size_t first = 0;                                                        // elements before the block
     for (DeckBlock& block : deck.blocks) {
-        if (shape_info(block.shape).dimension != 2) continue;
-        DeckBlock kept{.shape = block.shape, .type = block.type};
-        for (std::size_t e = 0; e < block.count(); ++e) {
-            const std::span<const Index> nodes = block.element(e);
-            const auto found = names.find(block.tags[e]);
-            if (found == names.end()) {
-                copy_element(block, e, kept);
-                continue;
-            }
-            if (const Index r = block.regions[e]; found->second.empty() && r >= 0) {
+        const std::size_t count = block.count();
+        const auto become_sets = [&](std::size_t e) {
+            const DeckSide& side = below[first + e];
+            if (side.side == 0) return false;
+            std::vector<std::string>& own = names.at(block.tags[e]);
+            if (const Index r = block.regions[e]; own.empty() && r >= 0) {
                 const DeckRegion& region = deck.regions[index(r)];
-                found->second.push_back(region.name.empty() ? "surface:" + std::to_string(region.tag)
-                                                            : region.name);
+                own.push_back(region.name.empty() ? "surface:" + std::to_string(region.tag) : region.name);
             }
-            for (const std::string& name : found->second) {
-                for (const Index node : nodes) sets[name].first.insert(deck.point_tags[index(node)]);
-                sets[name].second.insert(below.at(shell_key(block, e)));
+            for (const std::string& name : own) {
+                for (const Index node : block.element(e))
+                    sets[name].first.insert(deck.point_tags[index(node)]);
+                sets[name].second.insert(side);
             }
-        }
-        block = std::move(kept);
+            return true;
+        };
+        if (shape_info(block.shape).dimension == 2) block = without_elements(block, become_sets);
+        first += count;
     }
     std::erase_if(deck.blocks, [](const DeckBlock& block) { return block.count() == 0; });
     for (const auto& [name, of] : sets) {

@@ -130,8 +130,7 @@ DeckFile unv_file(const View& view, const MeshFileOptions& /*options*/, const me
         const std::size_t count = set.count + (two ? sets[s + 1].count : 0);
         head += columns({set.tag > 0 ? set.tag : ++number, 0, 0, 0, 0, 0, 0, static_cast<long long>(count)});
         const std::string name = free_name(set.name, DeckFormat::unv, [&](const std::string& other) {
-            return !view->kept &&
-                   std::ranges::any_of(names, [&](const auto& of) { return same_word(of, other); });
+            return !view->kept && find_word(names, other) != names.end();
         });
         if (name != set.name) file.notes.push_back(formatted("the set {} is called {}", set.name, name));
         names.push_back(name);

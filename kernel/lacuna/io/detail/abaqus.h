@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/io/detail/cursor.h>
+
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +22,22 @@ struct Keyword {
 
 /// @param words  from the star on, with continuation lines joined. @pre not empty
 Keyword parse_keyword(std::string_view words);
+
+/// A keyword of a text with its lines.
+struct AbaqusCard {
+    Keyword keyword{};       ///< without a name: of the lines before the first one
+    std::string_view text{}; ///< with the comments below it
+    std::string_view data{}; ///< from the first data line to the last
+};
+std::vector<AbaqusCard> abaqus_cards(std::string_view text);
+/// Call `take(line)` for the data lines of a card.
+template <class Take>
+void each_data_line(const AbaqusCard& card, const Take& take)
+{
+    each_line(card.data, [&](std::string_view line) {
+        if (!trimmed(line).starts_with("**")) take(line);
+    });
+}
 
 /// Whether it assigns a section to a set of elements.
 bool is_section(const Keyword& keyword);

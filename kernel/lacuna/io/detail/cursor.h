@@ -5,10 +5,12 @@
 #include <lacuna/core/types.h>
 #include <lacuna/io/detail/texts.h>
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -54,6 +56,13 @@ inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 std::string_view trimmed(std::string_view text);
 /// Whether two words are equal, ignoring case.
 bool same_word(std::string_view a, std::string_view b);
+/// The entry of a list with this word, or with it as the member `of`, ignoring case; its end: none.
+template <class Entries, class Of = std::identity>
+auto find_word(Entries& entries, std::string_view word, Of of = {})
+{
+    return std::ranges::find_if(
+        entries, [&](std::string_view own) { return same_word(own, word); }, of);
+}
 /// The text in capitals.
 std::string upper(std::string_view text);
 /// Take the next word off a text; empty at its end.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/io/deck.h>
 #include <lacuna/io/detail/cursor.h>
 
@@ -61,14 +62,49 @@ void each_element(const Deck& deck, const Visit& visit)
     for (const DeckBlock& block : deck.blocks)
         for (std::size_t e = 0; e < block.count(); ++e) visit(block, e, i++);
 }
+/// The corners of a shell as those of a face; -1 for the fourth of a triangle.
+inline Quad shell_corners(DeckShape shape) { return {0, 1, 2, shape_info(shape).corners == 4 ? 3 : -1}; }
+/// Group the faces of solids and the shells of a deck by their corners: call `take(faces)`, where the number
+/// of a face is 8 × that of its element, counted as by each_element(), + its side from 1, for a shell + 0.
+template <class Take>
+void each_with_same_nodes(const Deck& deck, const Take& take)
+{
+    const auto each = [&](const auto& visit) {
+        each_element(deck, [&](const DeckBlock& block, std::size_t e, std::size_t i) {
+            const auto visit_side = [&](Quad corners, std::uint64_t side) {
+                for (Index& k : corners) k = k < 0 ? -1 : block.element(e)[index(k)];
+                visit(corners, 8 * std::uint64_t(i) + side);
+            };
+            if (shape_info(block.shape).dimension == 2) visit_side(shell_corners(block.shape), 0);
+            std::uint64_t side = 0;
+            for (const Quad& face : face_corners(block.shape)) visit_side(face, ++side);
+        });
+    };
+    each_with_same_corners(deck.points.size(), each, take);
+}
 /// Whether each region has elements.
 std::vector<char> used_regions(const Deck& deck);
 /// The tags of all elements, block after block.
 std::vector<DeckTag> element_tags(const Deck& deck);
 /// The block of a shape and type word, created on first use.
 std::size_t block_of(std::vector<DeckBlock>& blocks, DeckShape shape, std::string_view type);
-/// Append an element of another block; without the card fields after its nodes.
-void copy_element(const DeckBlock& from, std::size_t e, DeckBlock& to);
+/// The block without the elements for which `gone(e)` holds.
+template <class Gone>
+DeckBlock without_elements(const DeckBlock& block, const Gone& gone)
+{
+    DeckBlock kept{.shape = block.shape, .type = block.type};
+    auto more = block.more.begin();
+    for (std::size_t e = 0; e < block.count(); ++e) {
+        const bool has_more = more != block.more.end() && more->first == e;
+        const auto card = has_more ? more++ : more;
+        if (gone(e)) continue;
+        if (has_more) kept.more.emplace_back(kept.count(), card->second);
+        kept.nodes.insert(kept.nodes.end(), block.element(e).begin(), block.element(e).end());
+        kept.tags.push_back(block.tags[e]);
+        kept.regions.push_back(block.regions[e]);
+    }
+    return kept;
+}
 /// Append the elements of a block to another, likewise without these fields.
 /// @param first_point   added to their point indices; `first_region` to their region indices.
 /// @param raise  added to their tags.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/io/deck.h>
 #include <lacuna/mesh/hex_mesh.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -25,13 +25,6 @@ struct NewCells {
     std::vector<DeckTag> skin{};   ///< element for each quad of the skin; empty: none
 };
 
-/// Nodes in increasing order, as a key for sides and faces.
-template <std::size_t N>
-std::array<Index, N> rising(std::array<Index, N> nodes)
-{
-    std::ranges::sort(nodes);
-    return nodes;
-}
 template <std::size_t N>
 struct CornerHash {
     std::size_t operator()(const std::array<Index, N>& nodes) const
@@ -43,17 +36,6 @@ struct CornerHash {
         return static_cast<std::size_t>(all ^ (all >> 32));
     }
 };
-
-/// Nodes of a face of a solid, given as in `face_corners()`, or of a shell: increasing.
-inline Quad face_key(const DeckBlock& block, std::size_t e, Quad face)
-{
-    for (Index& k : face) k = k < 0 ? -1 : block.element(e)[index(k)];
-    return rising(face);
-}
-inline Quad shell_key(const DeckBlock& block, std::size_t e)
-{
-    return face_key(block, e, {0, 1, 2, shape_info(block.shape).corners == 4 ? 3 : -1});
-}
 
 /// Indices of the sets that hold all nodes or all solids of a deck, limited to sets named "all" or "eall" and
 /// to those that duplicate regions. Sets for which this was true before decks were merged are included.
