@@ -4,7 +4,9 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/healing/shared/add_facet.h>
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -24,12 +26,6 @@ struct Cell {
     [[nodiscard]] std::size_t count() const { return corners[3] < 0 ? 3 : 4; }
 };
 
-std::array<Index, 3> rising(Triangle t)
-{
-    std::sort(t.begin(), t.end());
-    return t;
-}
-
 /// Add the face's quads, and its triangles that are not halves of these. `cell_of` maps triangles to cells.
 void add_cells(const topology::Face& face, Index number, std::vector<Cell>& cells,
                std::vector<Index>& cell_of)
@@ -37,7 +33,7 @@ void add_cells(const topology::Face& face, Index number, std::vector<Cell>& cell
     std::map<std::array<Index, 3>, Index> halves;
     for (const Quad& quad : face.given_quads) {
         for (std::size_t k = 0; k < 4; ++k)
-            halves.emplace(rising({quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]}),
+            halves.emplace(rising(Triangle{quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4]}),
                            static_cast<Index>(cells.size()));
         cells.push_back({quad, number});
     }
@@ -146,14 +142,7 @@ FacetSoup soup_of(const topology::Model& model, const std::vector<Cell>& cells,
     const auto grown_label = static_cast<int>(model.faces.size());
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const int label = grown[c] ? grown_label : cells[c].face;
-        const Quad& q = cells[c].corners;
-        if (q[3] < 0) {
-            soup.triangles.push_back({q[0], q[1], q[2]});
-            soup.triangle_label.push_back(label);
-        } else {
-            soup.quads.push_back(q);
-            soup.quad_label.push_back(label);
-        }
+        add_facet(soup, std::span(cells[c].corners).first(cells[c].count()), label);
     }
     for (int label = 0; label <= grown_label; ++label) soup.label_name.push_back(std::to_string(label));
     soup.label_keeps_nodes.assign(model.faces.size() + 1, 0);

@@ -2,6 +2,7 @@
 #include <lacuna/healing/detail/loose_model.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/split_edge.h>
 
@@ -20,11 +21,7 @@ namespace {
 bool drop_folds(topology::Face& face)
 {
     std::map<Triangle, std::vector<std::size_t>> alike;
-    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-        Triangle key = face.triangles[t];
-        std::sort(key.begin(), key.end());
-        alike[key].push_back(t);
-    }
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) alike[rising(face.triangles[t])].push_back(t);
     std::vector<bool> gone(face.triangles.size(), false);
     const auto runs_up = [&](std::size_t t) {
         Triangle f = face.triangles[t];
@@ -167,22 +164,11 @@ void LooseModel::cut(const topology::SidePoints& sides, const std::vector<EdgeId
 
 void LooseModel::divide(EdgeId e, const std::vector<std::pair<std::size_t, VertexId>>& at)
 {
-    const topology::Edge whole = model_[e];
-    std::size_t begin = 0;
-    VertexId from = whole.from;
-    for (std::size_t k = 0; k <= at.size(); ++k) {
-        const std::size_t end = k < at.size() ? at[k].first : whole.points.size() - 1;
-        topology::Edge part = part_of(whole, begin, end);
-        part.from = from;
-        part.to = k < at.size() ? at[k].second : whole.to;
-        begin = end;
-        from = part.to;
-        if (k == 0) {
-            model_[e] = std::move(part);
-            continue;
-        }
-        part.tag = next_edge_tag_++;
-        model_.edges.push_back(std::move(part));
+    std::vector<topology::Edge> parts = topology::divided(model_[e], at);
+    model_[e] = std::move(parts.front());
+    for (std::size_t k = 1; k < parts.size(); ++k) {
+        parts[k].tag = next_edge_tag_++;
+        model_.edges.push_back(std::move(parts[k]));
         edge_gone_.push_back(false);
         users_.push_back(std::vector<FaceId>(users_[e.index()]));
     }

@@ -7,6 +7,7 @@
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/healing/detail/t_junctions.h>
+#include <lacuna/healing/shared/add_facet.h>
 #include <lacuna/healing/shared/weld.h>
 #include <lacuna/topology/shared/side_points.h>
 
@@ -308,6 +309,15 @@ Facets welded(const FacetSoup& soup, double tolerance, const RunContext& context
 }
 
 } // namespace
+
+void add_facet(FacetSoup& soup, std::span<const Index> corners, int label)
+{
+    (corners.size() == 3 ? soup.triangle_label : soup.quad_label).push_back(label);
+    if (corners.size() == 3)
+        soup.triangles.push_back({corners[0], corners[1], corners[2]});
+    else
+        soup.quads.push_back({corners[0], corners[1], corners[2], corners[3]});
+}
 
 Vec3 area_vector(const std::vector<Vec3>& points, const Triangle& t)
 {

@@ -363,9 +363,7 @@ private:
 
     [[nodiscard]] std::size_t largest(const std::vector<std::size_t>& all) const
     {
-        return *std::max_element(all.begin(), all.end(), [&](std::size_t a, std::size_t b) {
-            return map_.patches[a].area < map_.patches[b].area;
-        });
+        return *std::ranges::max_element(all, {}, [&](std::size_t p) { return map_.patches[p].area; });
     }
 
     void index_patch(std::size_t p)

@@ -70,24 +70,7 @@ std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
 /// the space between them.
 double capped_volume(const Model& model, const std::vector<FaceId>& faces)
 {
-    Vec3 middle = Vec3::Zero(), area = Vec3::Zero();
-    double whole = 0;
-    for (const FaceId face : faces) {
-        const double own = face_area(model, face);
-        middle += own * face_centroid(model, face);
-        area += face_area_vector(model, face);
-        whole += own;
-    }
-    if (whole > 0) middle /= whole;
-    return volume_integral(model, faces) - middle.dot(area) / 3;
-}
-
-std::set<EdgeId> edges_of(const std::vector<Rim>& rims)
-{
-    std::set<EdgeId> edges;
-    for (const Rim& rim : rims)
-        for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
-    return edges;
+    return volume_integral(model, faces) - centroid_of(model, faces).dot(area_vector_of(model, faces)) / 3;
 }
 
 /// Extent of faces along a direction.
@@ -95,8 +78,7 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
 {
     double most = -kInfinity;
     for (const FaceId face : faces)
-        for (const Triangle& t : model[face].triangles)
-            for (const Index p : t) most = std::max(most, way.dot(model.at(p)));
+        for (const Index p : corners_of(model[face])) most = std::max(most, way.dot(model.at(p)));
     return most;
 }
 
@@ -107,8 +89,7 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
     std::vector<FaceId> rest, result;
     std::ranges::copy_if(all_faces(model), std::back_inserter(rest),
                          [&](FaceId face) { return std::ranges::find(cavity, face) == cavity.end(); });
-    const std::vector<Rim> mouths = rims(model, cavity);
-    const std::set<EdgeId> brims = edges_of(mouths);
+    const std::set<EdgeId> brims = rim_edges(model, cavity);
     std::vector<std::vector<FaceId>> parts;
     for (std::vector<FaceId>& part : connected_parts(model, rest)) {
         const std::vector<Rim> own = rims(model, part);
@@ -121,9 +102,9 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
         for (const FaceId face : part) area += face_area(model, face);
         return area;
     });
-    const std::set<EdgeId> of_outside = edges_of(rims(model, *outside));
+    const std::set<EdgeId> of_outside = rim_edges(model, *outside);
     parts.erase(outside);
-    for (const Rim& rim : mouths) {
+    for (const Rim& rim : rims(model, cavity)) {
         if (!of_outside.contains(rim.uses.front().edge)) continue;
         const std::vector<Vec3> mouth = loop_places(model, rim.uses);
         const Vec3 out = geometry::newell_vector(mouth).stableNormalized();
@@ -178,7 +159,9 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
     geometry::UnionFind hang(hollows.size());
     for (std::size_t h = 0; h < hollows.size(); ++h) {
         for (const Rim& rim : rims(model, hollows[h].faces)) {
-            const auto [known, fresh] = first.emplace(edges_of({rim}), h);
+            std::set<EdgeId> edges;
+            for (const EdgeUse& use : rim.uses) edges.insert(use.edge);
+            const auto [known, fresh] = first.emplace(std::move(edges), h);
             if (!fresh) hang.unite_least(known->second, h);
         }
     }
@@ -215,18 +198,14 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
 {
     constexpr double kInside = 0.6; // above the winding number on the skin itself, 0.5
     std::set<int> own;
-    std::vector<Triangle> facets;
-    for (const Face& face : volume.faces) {
-        own.insert(face.tag);
-        facets.insert(facets.end(), face.triangles.begin(), face.triangles.end());
-    }
+    for (const Face& face : volume.faces) own.insert(face.tag);
     std::optional<geometry::FacetTree> tree; // built for the first other shell only: most models have none
     std::vector<FaceId> found;
     for (const std::vector<FaceId>& shell : closed_shells(model)) {
         check_cancelled(context);
         const auto is_own = [&](FaceId face) { return own.contains(model[face].tag); };
         if (std::ranges::any_of(shell, is_own) || is_between_regions(model, shell)) continue;
-        if (!tree) tree.emplace(volume.points, facets, context);
+        if (!tree) tree.emplace(volume.points, facets_of(volume, all_faces(volume)), context);
         const auto inside = std::ranges::find_if(shell, [&](FaceId face) {
             const Triangle& t = model[face].triangles.front();
             const Vec3 p = (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;

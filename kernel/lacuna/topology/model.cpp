@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/open_volume.h>
@@ -230,20 +231,16 @@ bool has_quads_all_over(const Face& face)
 
 std::vector<Triangle> loose_triangles(const Face& face)
 {
-    const auto key = [](Index a, Index b, Index c) {
-        Triangle sorted{a, b, c};
-        std::sort(sorted.begin(), sorted.end());
-        return sorted;
-    };
     std::vector<Triangle> halves;
     halves.reserve(4 * face.given_quads.size());
     for (const Quad& q : face.given_quads) {
-        for (std::size_t k = 0; k < 4; ++k) halves.push_back(key(q[k], q[(k + 1) % 4], q[(k + 2) % 4]));
+        for (std::size_t k = 0; k < 4; ++k)
+            halves.push_back(rising(Triangle{q[k], q[(k + 1) % 4], q[(k + 2) % 4]}));
     }
     std::sort(halves.begin(), halves.end());
     std::vector<Triangle> loose;
     for (const Triangle& t : face.triangles) {
-        if (!std::binary_search(halves.begin(), halves.end(), key(t[0], t[1], t[2]))) loose.push_back(t);
+        if (!std::binary_search(halves.begin(), halves.end(), rising(t))) loose.push_back(t);
     }
     return loose;
 }

@@ -161,12 +161,7 @@ private:
 
     [[nodiscard]] Vec2 flat(const SectionPlace& place) const
     {
-        const Vec2 a = geometry::to_plane(plane_, model_.at(place.a));
-        if (place.b < 0) return a;
-        const double ha = geometry::height(plane_, model_.at(place.a)),
-                     hb = geometry::height(plane_, model_.at(place.b));
-        const double f = ha / (ha - hb);
-        return (1 - f) * a + f * geometry::to_plane(plane_, model_.at(place.b));
+        return geometry::to_plane(plane_, place_at(model_, place, plane_));
     }
 
     SectionWalk walk(std::size_t start)
@@ -392,24 +387,17 @@ private:
                                 next_tag(model_.edges, Origin::made_void)};
         const std::size_t before = model_.edges.size();
         for (std::size_t e = 0; e < before; ++e) {
-            const Edge whole = model_.edges[e];
-            std::size_t from = 0;
-            VertexId vertex = whole.from;
-            for (std::size_t i = 1; i < whole.points.size(); ++i) {
-                const bool last = i + 1 == whole.points.size();
-                if (!last && !vertex_points_.contains(whole.points[i])) continue;
-                if (last && from == 0) break; // not split
-                Edge part = part_of(whole, from, i);
-                part.from = vertex;
-                part.to = vertex = last ? whole.to : vertex_at_.at(whole.points[i]);
-                if (from == 0) {
-                    model_.edges[e] = std::move(part);
-                } else {
-                    part.tag = next[whole.origin == Origin::given ? 0 : 1]++;
-                    model_.edges.push_back(std::move(part));
-                }
-                from = i;
+            const Edge& whole = model_.edges[e];
+            std::vector<std::pair<std::size_t, VertexId>> cuts;
+            for (std::size_t i = 1; i + 1 < whole.points.size(); ++i)
+                if (vertex_points_.contains(whole.points[i]))
+                    cuts.emplace_back(i, vertex_at_.at(whole.points[i]));
+            std::vector<Edge> parts = divided(whole, cuts);
+            for (std::size_t k = 1; k < parts.size(); ++k) {
+                parts[k].tag = next[parts[k].origin == Origin::given ? 0 : 1]++;
+                model_.edges.push_back(std::move(parts[k]));
             }
+            model_.edges[e] = std::move(parts.front());
         }
     }
 

@@ -24,16 +24,6 @@ std::vector<FaceId> users_of(const Model& model, EdgeId edge)
     return users;
 }
 
-/// The inner point of a chain closest to a running length.
-std::size_t nearest_inner(const std::vector<double>& arc, double at)
-{
-    std::size_t best = 1;
-    for (std::size_t i = 2; i + 1 < arc.size(); ++i) {
-        if (std::abs(arc[i] - at) < std::abs(arc[best] - at)) best = i;
-    }
-    return best;
-}
-
 /// Where an edge is split: at its point `at`, or at a new point after that one.
 struct SplitPlace {
     std::size_t at = 0;
@@ -61,12 +51,10 @@ void insert_point(ModelBuilder& model, EdgeId id, const std::vector<FaceId>& use
 EdgeSplit divide(ModelBuilder& model, EdgeId id, const std::vector<FaceId>& users, std::size_t at)
 {
     const EdgeSplit made{model.add_void_vertex(model[id].points[at]), EdgeId(model.edges.size())};
-    Edge behind = part_of(model[id], at, model[id].points.size() - 1);
-    behind.tag = next_tag(model.edges, behind.origin);
-    behind.from = made.vertex;
-    model[id] = part_of(model[id], 0, at);
-    model[id].to = made.vertex;
-    model.edges.push_back(std::move(behind));
+    std::vector<Edge> parts = divided(model[id], {{at, made.vertex}});
+    parts[1].tag = next_tag(model.edges, parts[1].origin);
+    model[id] = std::move(parts[0]);
+    model.edges.push_back(std::move(parts[1]));
 
     for (const FaceId f : users) {
         for (Loop& loop : model[f].loops) {
@@ -103,7 +91,12 @@ SplitPlace place_of_split(const Model& model, EdgeId id, const std::vector<FaceI
                                    entity_of(model, id), entity_of(model, *with_mesh))
                                .remedy("load with keep_mesh = false, or pair the edge's own vertices"));
     }
-    const std::size_t nearest = has_inner ? nearest_inner(arc, wanted) : 0;
+    std::size_t nearest = 0; // the inner point closest to the place
+    if (has_inner)
+        nearest = static_cast<std::size_t>(
+            std::ranges::min_element(arc.begin() + 1, arc.end() - 1, {},
+                                     [&](double at) { return std::abs(at - wanted); }) -
+            arc.begin());
     if (has_inner && (with_mesh != users.end() || std::abs(arc[nearest] - wanted) <= model.tolerance))
         return {.at = nearest};
     if (std::min(wanted, arc.back() - wanted) <= model.tolerance) {
@@ -124,16 +117,21 @@ SplitPlace place_of_split(const Model& model, EdgeId id, const std::vector<FaceI
 
 } // namespace
 
-Edge part_of(const Edge& whole, std::size_t first, std::size_t last)
+std::vector<Edge> divided(const Edge& whole, const std::vector<std::pair<std::size_t, VertexId>>& at)
 {
-    Edge part = whole;
-    const auto cut = [&](auto& list) {
-        const auto begin = list.begin();
-        list = {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last) + 1};
-    };
-    cut(part.points);
-    if (!part.params.empty()) cut(part.params);
-    return part;
+    std::vector<Edge> parts(at.size() + 1, whole);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const std::size_t first = k == 0 ? 0 : at[k - 1].first;
+        const std::size_t last = k < at.size() ? at[k].first : whole.points.size() - 1;
+        if (k > 0) parts[k].from = at[k - 1].second;
+        if (k < at.size()) parts[k].to = at[k].second;
+        const auto cut = [&](auto& list, const auto& all) {
+            list = {all.begin() + std::ptrdiff_t(first), all.begin() + std::ptrdiff_t(last) + 1};
+        };
+        cut(parts[k].points, whole.points);
+        if (!whole.params.empty()) cut(parts[k].params, whole.params);
+    }
+    return parts;
 }
 
 EdgeSplit split_edge(Model& model, EdgeId id, double fraction)

@@ -4,6 +4,7 @@
 #include <lacuna/topology/model.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace lacuna::topology {
@@ -18,8 +19,8 @@ int next_tag(const std::vector<Entity>& all, Origin origin)
     return tag;
 }
 
-/// The edge from its point `first` to its point `last`; its vertices are set by the caller.
-Edge part_of(const Edge& whole, std::size_t first, std::size_t last);
+/// The parts of an edge that is split at inner points, rising, which become vertices. All have its tag.
+std::vector<Edge> divided(const Edge& whole, const std::vector<std::pair<std::size_t, VertexId>>& at);
 
 /// Result of `split_edge()`.
 struct EdgeSplit {
