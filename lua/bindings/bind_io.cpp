@@ -32,9 +32,8 @@ struct WriteArguments {
     std::vector<Box<ModelState>> with; ///< the first is the volume's; empty: the mesh alone
     std::vector<std::string> without;  ///< parts of these that the mesh stands for
     bool renumber = false, renumber_given = false;
-    bool gmsh_options = false; ///< a file beside a .msh that says how Gmsh shows it
-    bool groups_given = false; ///< of a .msh
-    io::PartitionOptions partition;
+    bool gmsh_options = false;                         ///< a file beside a .msh that says how Gmsh shows it
+    bool groups_given = false;                         ///< of a .msh
     bool partitions_given = false, by_process = false; ///< a part for each process
 };
 
@@ -151,7 +150,7 @@ void read_partitions(lua_State* L, int index, const Where& where, WriteArguments
     arguments.partitions_given = true;
     arguments.by_process = lua_type(L, index) == LUA_TSTRING;
     if (!arguments.by_process) {
-        arguments.partition.parts = static_cast<int>(read_whole(L, index, where, 1));
+        arguments.msh.partition.parts = static_cast<int>(read_whole(L, index, where, 1));
         return;
     }
     const char* const words[] = {"processes"};
@@ -160,7 +159,7 @@ void read_partitions(lua_State* L, int index, const Where& where, WriteArguments
 
 void read_ghosts(lua_State* L, int index, const Where& where, WriteArguments& arguments)
 {
-    arguments.partition.ghosts = static_cast<int>(read_whole(L, index, where, 0));
+    arguments.msh.partition.ghosts = static_cast<int>(read_whole(L, index, where, 0));
 }
 
 const Word<bool> kIoGroups[] = {{"one", false}, {"all", true}};
@@ -181,8 +180,7 @@ bool is_pieces(const io::Format& format)
 void count_parts(WriteArguments& arguments, const io::OutputPath& path, const Crew* crew)
 {
     const bool open = !arguments.partitions_given && is_pieces(io::needed_mesh_format("write", path.text()));
-    if (arguments.by_process || open) arguments.partition.parts = crew != nullptr ? crew->size : 1;
-    arguments.msh.partition = arguments.partition;
+    if (arguments.by_process || open) arguments.msh.partition.parts = crew != nullptr ? crew->size : 1;
 }
 
 const Option<WriteArguments> kIoWriteOptions[] = {
@@ -281,7 +279,7 @@ const char* idle_option(const io::Format& format, const WriteArguments& argument
     const bool joins = !arguments.with.empty(), numbered = format.is_numbered || joins;
     const std::pair<bool, const char*> of_meshes[] = {{arguments.quality_given, "quality"},
                                                       {arguments.partitions_given, "partitions"},
-                                                      {arguments.partition.ghosts > 0, "ghosts"}};
+                                                      {arguments.msh.partition.ghosts > 0, "ghosts"}};
     const std::pair<bool, const char*> of_decks[] = {{arguments.renumber_given, "renumber"},
                                                      {!arguments.without.empty(), "without"},
                                                      {arguments.deck.first_node != 0, "first_node"},
@@ -301,7 +299,7 @@ const char* idle_option(const io::Format& format, const WriteArguments& argument
     }
     // Parts of an .msh are asked for; pieces are parts by themselves.
     const bool parted = arguments.partitions_given || is_pieces(format);
-    return arguments.partition.ghosts > 0 && !parted ? "ghosts" : nullptr;
+    return arguments.msh.partition.ghosts > 0 && !parted ? "ghosts" : nullptr;
 }
 
 const io::Format& format_of(const std::string& path, const WriteArguments& arguments)
@@ -604,7 +602,7 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
     }
     team::write_layered({mesh, *swept.layers}, *swept.plan, path,
                         {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), material,
-                         arguments.partition, arguments.msh.all_groups},
+                         arguments.msh.partition, arguments.msh.all_groups},
                         crew, context);
 }
 

@@ -8,6 +8,7 @@
 #include <lacuna/core/shared/default_labels.h>
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/core/shared/same_corners.h>
+#include <lacuna/healing/shared/add_facet.h>
 #include <lacuna/healing/shared/weld.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_view.h>
@@ -264,18 +265,6 @@ private:
         for (std::size_t n = 0; n < labels_.size(); ++n) numbers_[labels_[n]] = static_cast<int>(n);
     }
 
-    void add(std::span<const Index> corners, int label)
-    {
-        healing::FacetSoup& soup = file_.soup;
-        if (corners.size() == 3) {
-            soup.triangles.push_back({corners[0], corners[1], corners[2]});
-            soup.triangle_label.push_back(label);
-        } else {
-            soup.quads.push_back({corners[0], corners[1], corners[2], corners[3]});
-            soup.quad_label.push_back(label);
-        }
-    }
-
     /// Emit the facets label by label; points are numbered in order of first use.
     void emit()
     {
@@ -292,7 +281,7 @@ private:
                 }
                 const Elements::Element shell = shells_[who];
                 const auto corners = static_cast<std::size_t>(shape_info(shell.block->shape).corners);
-                add(shell.nodes().first(corners), static_cast<int>(label));
+                healing::add_facet(file_.soup, shell.nodes().first(corners), static_cast<int>(label));
             }
             of_label[label] = {};
         }
@@ -318,7 +307,7 @@ private:
                                      : (q - p).cross(deck_.points[index(at[3])] - deck_.points[index(at[1])]);
         if (area.dot(p + q - 2 * middle) < 0)
             std::reverse(at.begin() + 1, at.begin() + std::ptrdiff_t(count));
-        add({at.data(), count}, label);
+        healing::add_facet(file_.soup, {at.data(), count}, label);
     }
 
     void number_points()

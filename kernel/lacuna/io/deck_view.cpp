@@ -372,14 +372,9 @@ std::shared_ptr<const MeshView> view_of(const Deck& deck, const Format& format,
     view->boxes = [&deck, bulk, count = view->entities.size()] {
         Eigen::AlignedBox3d box;
         for (const Vec3& point : deck.points) box.extend(point);
-        for (const BulkPart& part : bulk->parts) {
-            if (part.nodes->are_stored())
-                part.nodes->each(0, part.nodes->count(),
-                                 [&](std::size_t, const Vec3& point) { box.extend(point); });
-            else
-                for (std::size_t i = 0; i < part.mesh.skin_count(); ++i)
-                    for (const Index node : skin_nodes(part.mesh, i)) box.extend(part.nodes->on_skin(node));
-        }
+        for (const BulkPart& part : bulk->parts)
+            for (std::size_t i = 0; i < part.mesh.skin_count(); ++i)
+                for (const Index node : skin_nodes(part.mesh, i)) box.extend(part.nodes->on_skin(node));
         return std::vector<Eigen::AlignedBox3d>(count, box);
     };
     return view;

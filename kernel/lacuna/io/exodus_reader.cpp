@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/shared/large_pages.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/exodus.h>
 #include <lacuna/io/detail/vtk_cells.h>
@@ -322,14 +323,14 @@ private:
         }
         const std::size_t block = into_.block_of(*shape, connect->element_type);
         const DeckBuilder::Room room = into_.add_elements(block, count, into_.add_region(id, name));
-        const auto places = exodus_places(*shape);
+        const auto places = node_places(NodeOrder::exodus, *shape);
         const auto last = static_cast<std::int64_t>(into_.points().size());
         const auto kept = static_cast<std::size_t>(shape_info(*shape).nodes);
         for (std::size_t e = 0; e < count; ++e) {
             room.tags[e] = numbers_[first + e];
             shapes_[first + e] = shape;
             for (std::size_t k = 0; k < kept; ++k) {
-                const std::int64_t node = all[e * nodes + (places.empty() ? k : places[k])];
+                const std::int64_t node = all[e * nodes + places[k]];
                 if (node < 1 || node > last)
                     cursor_.fail("{} names {} of {}", array, numbered("node", node), last);
                 room.nodes[e * kept + k] = static_cast<Index>(node - 1);
@@ -419,23 +420,6 @@ private:
 };
 
 } // namespace
-
-std::span<const std::uint8_t> exodus_places(DeckShape shape)
-{
-    static constexpr std::uint8_t kWedge15[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11};
-    static constexpr std::uint8_t kHex27[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 16, 17,
-                                              18, 19, 12, 13, 14, 15, 23, 24, 25, 26, 21, 22, 20};
-    switch (shape) {
-    case DeckShape::wedge15:
-        return kWedge15;
-    case DeckShape::hex20:
-        return std::span(kHex27).first(20);
-    case DeckShape::hex27:
-        return kHex27;
-    default:
-        return {};
-    }
-}
 
 int exodus_side(DeckShape shape, int side)
 {

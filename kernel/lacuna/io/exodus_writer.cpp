@@ -194,8 +194,8 @@ private:
 char* put_nodes(DeckShape shape, std::span<const Index> nodes, char* out)
 {
     std::array<Index, 27> ordered{};
-    const auto places = exodus_places(shape);
-    for (std::size_t k = 0; k < nodes.size(); ++k) ordered[places.empty() ? k : places[k]] = nodes[k];
+    const auto places = node_places(NodeOrder::exodus, shape);
+    for (std::size_t k = 0; k < nodes.size(); ++k) ordered[places[k]] = nodes[k];
     for (std::size_t k = 0; k < nodes.size(); ++k)
         out = io::put_big(out, static_cast<std::int32_t>(ordered[k]) + 1);
     return out;

@@ -2,7 +2,7 @@
 #include <lacuna/io/facets.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/io/detail/sections.h>
+#include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/mesh_file.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/skin_groups.h>
@@ -90,7 +90,7 @@ Skin skin_of(const OpenVolume& volume)
 
 Vec3 normal_of(const Skin& skin, const Triangle& t)
 {
-    const auto at = [&](std::size_t i) -> const Vec3& { return skin.points[static_cast<std::size_t>(t[i])]; };
+    const auto at = [&](std::size_t i) -> const Vec3& { return skin.points[index(t[i])]; };
     const Vec3 area = (at(1) - at(0)).cross(at(2) - at(0));
     const double norm = area.norm();
     return norm > 0 ? Vec3(area / norm) : Vec3::Zero();
@@ -105,19 +105,12 @@ std::vector<Section> stl_bytes(const Skin& skin)
         for (const double value : p) out = put(out, static_cast<float>(value));
         return out;
     };
-    return {
-        {head, skin.triangles.size(), 50, [&skin, put_floats](std::size_t begin, std::size_t end, char* out) {
-             for (std::size_t i = begin; i < end; ++i) {
+    return {{head, skin.triangles.size(), 50, each([&skin, put_floats](std::size_t i, char* out) {
                  out = put_floats(out, normal_of(skin, skin.triangles[i]));
-                 for (const Index p : skin.triangles[i])
-                     out = put_floats(out, skin.points[static_cast<std::size_t>(p)]);
-                 out = put(out, std::uint16_t{0});
-             }
-             return out;
-         }}};
+                 for (const Index p : skin.triangles[i]) out = put_floats(out, skin.points[index(p)]);
+                 return put(out, std::uint16_t{0});
+             })}};
 }
-
-char* put_words(char* out, std::string_view words) { return std::copy(words.begin(), words.end(), out); }
 
 /// Numbers, each after a blank.
 char* put_point(char* out, const Vec3& point)
@@ -133,20 +126,17 @@ std::vector<Section> stl_text(const Skin& skin)
 {
     constexpr std::size_t kWords = 100; // bytes of the words around a facet's numbers
     return {{"solid volume\n", skin.triangles.size(), kWords + 12 * kNumberBytes,
-             [&skin](std::size_t begin, std::size_t end, char* out) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                     out = put_words(out, "facet normal");
-                     out = put_point(out, normal_of(skin, skin.triangles[i]));
-                     out = put_words(out, "\nouter loop\n");
-                     for (const Index p : skin.triangles[i]) {
-                         out = put_words(out, "vertex");
-                         out = put_point(out, skin.points[static_cast<std::size_t>(p)]);
-                         *out++ = '\n';
-                     }
-                     out = put_words(out, "endloop\nendfacet\n");
+             each([&skin](std::size_t i, char* out) {
+                 out = put_words(out, "facet normal");
+                 out = put_point(out, normal_of(skin, skin.triangles[i]));
+                 out = put_words(out, "\nouter loop\n");
+                 for (const Index p : skin.triangles[i]) {
+                     out = put_words(out, "vertex");
+                     out = put_point(out, skin.points[index(p)]);
+                     *out++ = '\n';
                  }
-                 return out;
-             }},
+                 return put_words(out, "endloop\nendfacet\n");
+             })},
             {"endsolid volume\n", 0, 0, {}}};
 }
 
@@ -173,32 +163,25 @@ std::string obj_groups(const OpenVolume& volume, std::vector<std::string> groups
 std::vector<Section> obj_text(const OpenVolume& volume, const Skin& skin)
 {
     const std::vector<std::vector<std::string>> groups = skin_groups(volume);
-    std::vector<Section> sections{{{},
-                                   skin.points.size(),
-                                   3 * kNumberBytes + 2,
-                                   [&skin](std::size_t begin, std::size_t end, char* out) {
-                                       for (std::size_t i = begin; i < end; ++i) {
-                                           *out++ = 'v';
-                                           out = put_point(out, skin.points[i]);
-                                           *out++ = '\n';
-                                       }
-                                       return out;
-                                   }}};
+    std::vector<Section> sections{
+        {{}, skin.points.size(), 3 * kNumberBytes + 2, each([&skin](std::size_t i, char* out) {
+             *out++ = 'v';
+             out = put_point(out, skin.points[i]);
+             *out++ = '\n';
+             return out;
+         })}};
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
         const std::size_t first = skin.start[f];
         sections.push_back({"g" + obj_groups(volume, groups[f], f) + "\n", skin.start[f + 1] - first,
-                            3 * kNumberBytes + 2,
-                            [&skin, first](std::size_t begin, std::size_t end, char* out) {
-                                for (std::size_t i = first + begin; i < first + end; ++i) {
-                                    *out++ = 'f';
-                                    for (const Index p : skin.triangles[i]) {
-                                        *out++ = ' ';
-                                        out = put_text(out, static_cast<long long>(p) + 1);
-                                    }
-                                    *out++ = '\n';
+                            3 * kNumberBytes + 2, each([&skin, first](std::size_t i, char* out) {
+                                *out++ = 'f';
+                                for (const Index p : skin.triangles[first + i]) {
+                                    *out++ = ' ';
+                                    out = put_text(out, static_cast<long long>(p) + 1);
                                 }
+                                *out++ = '\n';
                                 return out;
-                            }});
+                            })});
     }
     return sections;
 }

@@ -254,15 +254,9 @@ Deck join_deck(const Deck& deck, const topology::Model& model, double scale, con
         added.neighbour_material = neighbour->material;
         added.neighbour = neighbour->name;
     }
-    const std::string region = mesh.volume_groups.empty() ? "" : mesh.volume_groups.front();
-    if (before != nullptr) {
-        added.groups = &before->sets;
-        if (const auto known = before->regions.find(region); known != before->regions.end())
-            added.region = known->second;
-    }
+    added.before = before;
     Deck joined = deck;
-    const Index place = add_mesh(joined, mesh, added, options, context);
-    if (before != nullptr) before->regions.try_emplace(region, place);
+    add_mesh(joined, mesh, added, options, context);
     return joined;
 }
 

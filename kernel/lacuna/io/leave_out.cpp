@@ -31,6 +31,19 @@ bool is_part(const DeckSet& set, std::string_view name)
     return set.kind == DeckSet::Kind::elements && same_word(set.name, name);
 }
 
+/// A card of Nastran that names nodes or elements by number; `fields` are numbered as in the manuals, and 0
+/// stands for those of continuation lines.
+struct NamingCard {
+    std::string_view name, fields;
+    bool nodes, elements;
+};
+constexpr NamingCard kNamingCards[] = {
+    {"FORCE", "3", true, false},      {"MOMENT", "3", true, false},     {"SPC", "36", true, false},
+    {"SPCD", "36", true, false},      {"SPC1", "0456789", true, false}, {"TEMP", "357", true, false},
+    {"PLOAD4", "3", false, true},     {"PLOAD1", "3", false, true},     {"PLOAD2", "0456789", false, true},
+    {"SET1", "03456789", true, true}, {"SET3", "03456789", true, true}, {"PLOAD", "456789", true, false},
+    {"BSURFS", "06789", false, true}};
+
 /// Reads the cards that name nodes and elements by number.
 ///
 /// `use(node)` is called for nodes of elements, constraints and frames kept as text; `name(card, node,
@@ -77,35 +90,16 @@ private:
     /// @param field  numbered as in the manuals, from 2; 0: of a continuation line.
     void take_nastran(const std::string& card, std::size_t field, DeckTag tag) const
     {
-        const auto is = [&](std::initializer_list<std::string_view> names) {
-            return std::ranges::find(names, card) != names.end();
-        };
         const auto starts = [&](std::string_view word) { return card.starts_with(word); };
         const bool frame = starts("CORD1");
         const bool stands = frame || (starts("C") && !starts("CORD")) || starts("RB") || starts("RR") ||
                             starts("RS") || starts("RT") || starts("MPC") || starts("PLOTEL") ||
                             starts("GENEL");
-        if (stands) {
-            if (field == 0 || field > 2) use(tag);
-        } else if (is({"FORCE", "MOMENT"})) {
-            if (field == 3) name(card, tag, 0);
-        } else if (is({"SPC", "SPCD"})) {
-            if (field == 3 || field == 6) name(card, tag, 0);
-        } else if (card == "SPC1") {
-            if (field == 0 || field > 3) name(card, tag, 0);
-        } else if (card == "TEMP") {
-            if (field == 3 || field == 5 || field == 7) name(card, tag, 0);
-        } else if (is({"PLOAD4", "PLOAD1"})) {
-            if (field == 3) name(card, 0, tag);
-        } else if (card == "PLOAD2") {
-            if (field == 0 || field > 3) name(card, 0, tag);
-        } else if (is({"SET1", "SET3"})) {
-            if (field == 0 || field > 2) name(card, tag, tag);
-        } else if (card == "PLOAD") {
-            if (field > 3) name(card, tag, 0);
-        } else if (card == "BSURFS") {
-            if (field == 0 || field > 5) name(card, 0, tag);
-        }
+        if (stands && (field == 0 || field > 2)) use(tag);
+        const auto naming = std::ranges::find(kNamingCards, card, &NamingCard::name);
+        if (naming != std::end(kNamingCards) &&
+            naming->fields.find(static_cast<char>('0' + field)) != std::string_view::npos)
+            name(card, naming->nodes ? tag : 0, naming->elements ? tag : 0);
     }
 
     void read_abaqus(std::string_view text) const

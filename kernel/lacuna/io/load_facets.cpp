@@ -156,46 +156,6 @@ void name_faces(topology::ModelBuilder& model, const std::vector<std::string>& n
     }
 }
 
-bool holds_elements(const Deck& deck)
-{
-    return deck.format != DeckFormat::stl && deck.format != DeckFormat::obj;
-}
-
-/// Removes parts from decks.
-class PartsLeaver {
-public:
-    explicit PartsLeaver(const std::vector<std::string>& parts) : parts_(parts), found_(parts.size(), false)
-    {
-    }
-
-    void leave_out(Deck& deck)
-    {
-        std::vector<std::string> of_deck;
-        for (std::size_t p = 0; p < parts_.size(); ++p) {
-            if (!has_part(deck, parts_[p])) continue;
-            found_[p] = true;
-            of_deck.push_back(parts_[p]);
-        }
-        Deck& names = names_.emplace_back();
-        names.path = deck.path;
-        names.regions = deck.regions;
-        for (const DeckSet& set : deck.sets) names.sets.push_back({set.kind, set.tag, set.name});
-        if (!of_deck.empty()) deck = io::leave_out(deck, of_deck).kept;
-    }
-
-    /// @throw InvalidInput  a part that no deck had.
-    void finish() const
-    {
-        for (std::size_t p = 0; p < parts_.size(); ++p)
-            if (!found_[p]) refuse_part(names_, parts_[p]);
-    }
-
-private:
-    const std::vector<std::string>& parts_;
-    std::vector<bool> found_;
-    std::vector<Deck> names_; ///< all part names of the decks, for the message
-};
-
 /// The facets of files as faces, before stitching.
 LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptions& options,
                           const RunContext& context)
@@ -203,22 +163,28 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     FacetFile all;
     LoadedFiles loaded{.scale = options.scale};
     std::string source;
-    PartsLeaver leaver(options.without);
+    std::vector<Deck> decks;
     for (const std::string& path : paths) {
         check_cancelled(context);
         source += (source.empty() ? "" : ", ") + path;
-        auto deck = std::make_shared<Deck>(read_deck(path));
-        for (const std::string& warning : deck->warnings)
+        for (const std::string& warning : decks.emplace_back(read_deck(path)).warnings)
             loaded.warnings.push_back({"io.read_differently", "{}", warning});
-        if (!options.without.empty()) leaver.leave_out(*deck);
+    }
+    for (const std::string& part : options.without)
+        if (std::ranges::none_of(decks, [&](const Deck& deck) { return has_part(deck, part); }))
+            refuse_part(decks, part);
+    for (Deck& read : decks) {
+        auto deck = std::make_shared<Deck>(std::move(read));
+        std::vector<std::string> parts = options.without;
+        std::erase_if(parts, [&](const std::string& part) { return !has_part(*deck, part); });
+        if (!parts.empty()) *deck = leave_out(*deck, parts).kept;
         check_cancelled(context);
         FacetFile file = facets_of(*deck, options.tolerance / options.scale);
-        const bool is_mesh = !is_among(".stl .obj", ending_of(path));
+        const bool is_mesh = deck->format != DeckFormat::stl && deck->format != DeckFormat::obj;
         file.soup.label_keeps_nodes.assign(file.label_tag.size(), options.keep_mesh && is_mesh ? 1 : 0);
         append(all, std::move(file));
-        if (holds_elements(*deck)) loaded.decks.push_back(std::move(deck));
+        if (is_mesh) loaded.decks.push_back(std::move(deck));
     }
-    leaver.finish();
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
     if (!options.keep_mesh) split_quads(all.soup);

@@ -66,7 +66,7 @@ public:
     {
     }
 
-    Index add()
+    void add()
     {
         check_skin(mesh_);
         const bool abaqus = options_.format == DeckFormat::abaqus;
@@ -91,7 +91,8 @@ public:
         add_region_card();
         tell_names();
         tell_kept_sets();
-        return region_;
+        if (added_.before != nullptr && (joins() || !name().empty()))
+            added_.before->regions.try_emplace(name(), region_);
     }
 
 private:
@@ -201,7 +202,9 @@ private:
 
     void find_place()
     {
-        place_ = added_.region;
+        if (added_.before != nullptr)
+            if (const auto known = added_.before->regions.find(name()); known != added_.before->regions.end())
+                place_ = extended_ = known->second;
         if (deck_.gap.names.empty()) return;
         const std::vector<char> used = used_regions(deck_);
         for (std::size_t r = 0; r < used.size(); ++r)
@@ -227,7 +230,7 @@ private:
         std::string& region = deck_.regions[index(region_)].name;
         const bool own = group == volume_;
         DeckSet cells;
-        cells.listed = added_.region >= 0; // so that several pieces can extend it
+        cells.listed = extended_ >= 0; // so that several pieces can extend it
         for (std::size_t c = 0; c < mesh_.cell_count() && joins(); ++c)
             cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
         const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
@@ -282,7 +285,7 @@ private:
         };
         GroupSets own;
         const auto [known, fresh] =
-            (added_.groups ? *added_.groups : own).try_emplace({set.kind, group}, deck_.sets.size());
+            (added_.before ? added_.before->sets : own).try_emplace({set.kind, group}, deck_.sets.size());
         if (!fresh) return put(deck_.sets[known->second]);
         const auto find = [&](const std::string& name) {
             return std::ranges::find_if(deck_.sets, [&](const DeckSet& other) {
@@ -395,7 +398,7 @@ private:
     /// written.
     [[nodiscard]] bool is_inner(std::size_t i) const
     {
-        const bool several = added_.groups != nullptr;
+        const bool several = added_.before != nullptr;
         if (several && mesh_.patches[index(skin_quad(mesh_, i).patch)].groups.empty()) return true;
         return !added_.inner.empty() && added_.inner[i] != 0;
     }
@@ -466,7 +469,7 @@ private:
         const std::vector<std::string> known = materials_in_text(deck_);
         if (takes_place() && options_.format == deck_.format) {
             material_ = deck_.regions[index(place_)].material;
-            if (added_.region >= 0) return; // another piece of a mesh added before
+            if (extended_ >= 0) return; // another piece of a mesh added before
             log_line(context_,
                      formatted("{} takes the place of the region of that name, whose cards stay{}", volume(),
                                options_.material.empty() ? "" : "; material is not looked at"));
@@ -492,10 +495,11 @@ private:
     // Separates keys of skin groups from those of cell groups; occurs in no name.
     static constexpr const char* kSkin = "\n";
 
-    [[nodiscard]] std::string volume() const
+    [[nodiscard]] std::string name() const
     {
-        return mesh_.volume_groups.empty() ? "volume" : mesh_.volume_groups.front();
+        return mesh_.volume_groups.empty() ? "" : mesh_.volume_groups.front();
     }
+    [[nodiscard]] std::string volume() const { return name().empty() ? "volume" : name(); }
 
     void add_region_card()
     {
@@ -528,6 +532,7 @@ private:
     std::string section_set_;                    ///< set of the deck whose section the cells have
     std::map<std::string, std::string> renamed_; ///< groups whose names were in use
     Index place_ = -1, region_ = -1;             ///< region that the volume replaces, and region of the cells
+    Index extended_ = -1;                        ///< region of meshes added before that the cells extend
     DeckTag first_cell_ = 1;
     std::size_t first_set_ = 0;              ///< number of sets before
     std::vector<std::uint32_t> cells_;       ///< cell of each quad of the skin
@@ -537,10 +542,10 @@ private:
 
 } // namespace
 
-Index add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
-               const RunContext& context)
+void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+              const RunContext& context)
 {
-    return MeshAdder(deck, mesh, added, options, context).add();
+    MeshAdder(deck, mesh, added, options, context).add();
 }
 
 namespace {
@@ -581,16 +586,15 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
         deck.texts = {{DeckText::Place::head, "", "BEGIN BULK\n"}, {DeckText::Place::tail, "", "ENDDATA\n"}};
     const bool cells = format_of(options.format).skin == Format::Skin::quads;
     const bool several = parts.front().numbers != nullptr;
-    GroupSets groups;
+    JoinedBefore before; // parts of one name form one region
     std::vector<std::vector<char>> inner(parts.size());
     if (cells && several && !interfaces) inner = inner_quads(parts);
     std::map<Quad, DeckTag> skin_tags;
-    std::map<std::string, Index> regions; // parts of one name form one region
     for (std::size_t p = 0; p < parts.size(); ++p) {
         const mesh::HexMesh& mesh = parts[p].mesh;
         BulkPlace& place = parts[p].place;
         AddedMesh added{.points = {}, .skin_cells = cells, .bulk = &place, .numbers = parts[p].numbers};
-        if (several) added.groups = &groups;
+        if (several) added.before = &before;
         if (interfaces) added.skin_tags = &skin_tags;
         added.inner = std::move(inner[p]);
         if (p > 0) {
@@ -598,11 +602,8 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
             place.first_node = last.place.first_node;
             place.highest = last.place.first_cell + static_cast<DeckTag>(last.mesh.cell_count()) - 1;
         }
-        const std::string region = mesh.volume_groups.empty() ? "" : mesh.volume_groups.front();
-        if (const auto known = regions.find(region); known != regions.end()) added.region = known->second;
         add_mesh(deck, mesh, added, options, context);
         tidy(place.sets);
-        if (!region.empty()) regions.try_emplace(region, place.region);
         options.first_node = options.first_cell = 0;
     }
     return deck;

@@ -33,35 +33,27 @@ void check_version(const Format& format, const MeshFileOptions& options)
 }
 
 /// Write a view.
-/// @param parts  of a partition; null: the mesh is not divided
-/// @param notes  to be logged after those of the writer
-void write_view(const FormatRow& format, const View& view, const mesh::ViewParts* parts,
+/// @param divide  makes the parts of a view of swept meshes, if parts are requested or if the format consists
+///                of pieces; empty: the view is not divided
+/// @param notes   to be logged after those of the writer
+void write_view(const FormatRow& format, const View& view, const std::function<mesh::ViewParts()>& divide,
                 const std::vector<std::string>& notes, const MeshFileOptions& options, const OutputPath& path,
                 const RunContext& context, const Team* team)
 {
+    const bool pieces = format.write == nullptr && !format.is_folder;
+    const bool divided = divide &&
+                         (pieces || (options.partition.parts > 0 && format.has_option("partitions")));
+    const mesh::ViewParts parts = divided ? divide() : mesh::ViewParts();
     if (format.write == nullptr) {
         tell(notes, path, context, team);
         if (format.is_folder) return format.write_folder(*view, path, context);
-        return write_pieces(view, *parts, options.partition.ghosts, path, context, team);
+        return write_pieces(view, parts, options.partition.ghosts, path, context, team);
     }
-    const DeckFile file = format.write(view, options, parts);
+    const DeckFile file = format.write(view, options, divided ? &parts : nullptr);
     tell(file.notes, path, context, team);
     tell(notes, path, context, team);
     if (!file.changed.empty()) tell({file.changed}, path, context, team);
     write_file(path, file.sections, file.sizes, context, team);
-}
-
-/// Write the view of swept meshes; in parts if that is requested or if the format consists of pieces.
-template <class PartsOf>
-void write_divided(const FormatRow& format, const View& view, const PartsOf& parts_of_view,
-                   const MeshFileOptions& options, const OutputPath& path, const RunContext& context,
-                   const Team* team)
-{
-    mesh::ViewParts parts;
-    const bool pieces = format.write == nullptr && !format.is_folder;
-    const bool divided = pieces || (options.partition.parts > 0 && format.has_option("partitions"));
-    if (divided) parts = parts_of_view();
-    write_view(format, view, divided ? &parts : nullptr, {}, options, path, context, team);
 }
 
 /// Write swept meshes with the regions and sets of a deck.
@@ -72,8 +64,8 @@ void write_as_deck(const Format& format, std::span<BulkPart> parts, const Output
     deck_options.format = format.deck;
     const Deck deck = deck_without_bulk(parts, deck_options, options.interfaces, context);
     const View view = view_of(deck, format, parts);
-    write_divided(
-        row_of(format), view, [&] { return parts_of(*view, parts, options.partition); }, options, path,
+    write_view(
+        row_of(format), view, [&] { return parts_of(*view, parts, options.partition); }, {}, options, path,
         context, team);
 }
 
@@ -88,8 +80,8 @@ void write_swept(const Format& format, const mesh::HexMesh& mesh, std::unique_pt
         return write_as_deck(format, {&part, 1}, path, options, deck, context, team);
     }
     const std::vector<FieldReader> fields = readers();
-    write_divided(
-        row_of(format), view_of(mesh, *nodes, fields), [&] { return parts_of(mesh, options.partition); },
+    write_view(
+        row_of(format), view_of(mesh, *nodes, fields), [&] { return parts_of(mesh, options.partition); }, {},
         options, path, context, team);
 }
 
@@ -184,7 +176,7 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
     if (format.deck != deck.format && texts)
         notes.push_back(formatted(
             "materials, loads and other cards of {} are of another format and not carried over", deck.path));
-    write_view(row, view, nullptr, notes, options, path, context, nullptr);
+    write_view(row, view, {}, notes, options, path, context, nullptr);
 }
 
 void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context,

@@ -2,7 +2,7 @@
 #include <lacuna/io/shared/mesh_skin.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/healing/split_facets.h>
+#include <lacuna/healing/shared/add_facet.h>
 #include <lacuna/io/detail/texts.h>
 
 #include <string>
@@ -26,13 +26,7 @@ MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context)
             }
             n = own;
         }
-        if (mesh::is_triangle(quad)) {
-            soup.triangles.push_back({quad[0], quad[1], quad[2]});
-            soup.triangle_label.push_back(skin.patch);
-        } else {
-            soup.quads.push_back(quad);
-            soup.quad_label.push_back(skin.patch);
-        }
+        healing::add_facet(soup, std::span(quad).first(mesh::corner_count(quad)), skin.patch);
     }
     healing::SplitOptions options;
     options.whole_labels = true;

@@ -9,7 +9,6 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/io/detail/cell_shapes.h>
-#include <lacuna/io/detail/msh_shapes.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
@@ -550,12 +549,11 @@ private:
         const bool counted = !view.point_tags.given();
         if (to.binary && counted && middle.empty() && block.shape == DeckShape::hex8)
             return put_hexes(block, tags, begin, end, out);
-        const std::span<const std::uint8_t> places = gmsh_places(block.shape);
+        const std::span<const std::uint8_t> places = node_places(NodeOrder::gmsh, block.shape);
         block.each_cell(begin, end, [&](std::size_t i, std::span<const Index> nodes) {
             std::array<Tag, 27> own;
             for (std::size_t k = 0; k < nodes.size(); ++k)
-                own[places.empty() ? k : places[k]] = static_cast<Tag>(
-                    counted ? nodes[k] + 1 : view.point_tags[index(nodes[k])]);
+                own[places[k]] = static_cast<Tag>(counted ? nodes[k] + 1 : view.point_tags[index(nodes[k])]);
             out = to.add(out, tags[i - begin]);
             for (const int number : middle) out = to.add(out, number);
             for (std::size_t k = 0; k < nodes.size(); ++k) out = to.add(out, own[k]);

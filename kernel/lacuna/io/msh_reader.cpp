@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/detail/msh_shapes.h>
-
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
@@ -354,8 +352,8 @@ private:
         const auto kept = static_cast<std::size_t>(shape_info(type.shape).nodes);
         const DeckBuilder::Room room = into_.add_elements(block_, count, region_);
         std::array<std::size_t, 27> from{};
-        const auto places = gmsh_places(type.shape);
-        for (std::size_t k = 0; k < kept; ++k) from[k] = 1 + skipped + (places.empty() ? k : places[k]);
+        const auto places = node_places(NodeOrder::gmsh, type.shape);
+        for (std::size_t k = 0; k < kept; ++k) from[k] = 1 + skipped + (places[k]);
         const char* at = bytes.data();
         Index* node = room.nodes;
         for (std::size_t i = 0; i < count; ++i, at += numbers * sizeof(Tag)) {
@@ -388,8 +386,8 @@ private:
             const std::uint64_t node = next_tag();
             if (i < kept) read[i] = position(static_cast<DeckTag>(node));
         }
-        const auto places = gmsh_places(type.shape);
-        for (std::size_t i = 0; i < kept; ++i) nodes[i] = read[places.empty() ? i : places[i]];
+        const auto places = node_places(NodeOrder::gmsh, type.shape);
+        for (std::size_t i = 0; i < kept; ++i) nodes[i] = read[places[i]];
         if (static_cast<DeckTag>(tag) < 0) cursor_.fail("an element's tag is too large");
         ++cells_;
         into_.add_element(block_, static_cast<DeckTag>(tag), region_, {nodes.data(), kept});
@@ -650,28 +648,6 @@ private:
 } // namespace
 
 std::string unnamed_group(int tag) { return "physical_" + std::to_string(tag); }
-
-std::span<const std::uint8_t> gmsh_places(DeckShape shape)
-{
-    static constexpr std::uint8_t kTet10[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
-    static constexpr std::uint8_t kPyramid14[] = {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12, 13};
-    static constexpr std::uint8_t kWedge18[] = {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16};
-    static constexpr std::uint8_t kHex27[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
-                                              19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
-    const DeckShapeInfo& info = shape_info(shape);
-    if (info.dimension < 3 || info.nodes == info.corners) return {};
-    const auto count = static_cast<std::size_t>(info.nodes);
-    switch (info.corners) {
-    case 4:
-        return kTet10;
-    case 5:
-        return std::span(kPyramid14).first(count);
-    case 6:
-        return std::span(kWedge18).first(count);
-    default:
-        return std::span(kHex27).first(count);
-    }
-}
 
 void read_msh(Cursor& cursor, DeckBuilder& into) { Reader(cursor, into).read(); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/exodus.h>
 #include <lacuna/io/detail/nastran.h>
 
 #include <algorithm>
@@ -130,8 +130,8 @@ private:
         const DeckShape shape = middles ? kind.all : kind.corners;
         const auto count = static_cast<std::size_t>(shape_info(shape).nodes);
         std::array<Index, 20> nodes{};
-        const auto places = exodus_places(shape); // Nastran has the same node order
-        for (std::size_t k = 0; k < count; ++k) nodes[places.empty() ? k : places[k]] = found[k];
+        const auto places = node_places(NodeOrder::exodus, shape);
+        for (std::size_t k = 0; k < count; ++k) nodes[places[k]] = found[k];
         const Index tag = card.needed(2);
         const std::size_t block = into_.block_of(shape, card.name);
         const DeckBlock& of = into_.deck().blocks[block];

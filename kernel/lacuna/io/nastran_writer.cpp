@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/detail/cell_shapes.h>
-#include <lacuna/io/detail/exodus.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/nastran.h>
 
@@ -138,7 +137,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
                                                                     : words_of(block.shape).nastran;
     if (name.empty()) refuse_element(block, "Nastran", "there is no such card");
     const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
-    const auto places = exodus_places(block.shape); // Nastran has the same node order
+    const auto places = node_places(NodeOrder::exodus, block.shape);
     const MeshView::TextByIndex more = view->kept ? view->kept->cells[b] : MeshView::TextByIndex();
     const auto put = [=, card = CardWriter()](std::size_t e, DeckTag tag, Index region,
                                               std::span<const Index> element, char* out) mutable {
@@ -150,7 +149,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
         else
             card.add({});
         for (std::size_t k = 0; k < nodes; ++k) {
-            const Index node = element[places.empty() ? k : places[k]];
+            const Index node = element[places[k]];
             if (node < 0)
                 card.add({});
             else

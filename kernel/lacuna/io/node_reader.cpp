@@ -37,26 +37,42 @@ NodeReader::NodeReader(const mesh::LayeredMesh& layered, const RunContext& conte
     });
 }
 
+FieldReader::FieldReader(const CellField& field) : name_(field.name), make_(field.make)
+{
+    if (!make_)
+        make_ = [values = &field.values](std::span<const std::uint32_t> cells, double* out) {
+            for (const std::uint32_t cell : cells) *out++ = (*values)[cell];
+        };
+}
+
 FieldReader::FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context,
                          const Team* team)
     : name_(field.name)
 {
     const int layers = mesh::layers_at_once(mesh);
     const std::size_t columns = mesh.quads.size(), rim = mesh.rim.size();
-    step_ = static_cast<std::size_t>(layers) * columns;
+    const std::size_t step = static_cast<std::size_t>(layers) * columns; // cells in a part
     const auto values_of = [values = field.values, layers, most = mesh.layers](std::size_t part) {
         const int first = static_cast<int>(part) * layers;
         return values(first, std::min(first + layers, most));
     };
-    cache_ = std::make_shared<LayerCache<double>>(values_of);
+    const auto cache = std::make_shared<LayerCache<double>>(values_of);
+    make_ = [cache, step](std::span<const std::uint32_t> of, double* out) {
+        LayerCache<double>::Values part; // nearby cells reuse the last part
+        std::size_t number = 0;
+        for (const std::uint32_t cell : of) {
+            if (!part || cell / step != number) part = cache->part(number = cell / step);
+            *out++ = (*part)[cell - number * step];
+        }
+    };
 
     // Each part of the cells has the values of the quads before them; a team shares the parts.
     const std::vector<std::uint32_t> cells = cells_of_skin(mesh);
     skin_.resize(cells.size());
     const std::size_t all = columns * static_cast<std::size_t>(mesh.layers);
-    const std::size_t parts = (all + step_ - 1) / step_;
+    const std::size_t parts = (all + step - 1) / step;
     const auto each_quad = [&](std::size_t part, const auto& visit) {
-        const std::size_t begin = part * step_, end = std::min(begin + step_, all);
+        const std::size_t begin = part * step, end = std::min(begin + step, all);
         const auto some = [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
                 if (cells[i] >= begin && cells[i] < end) visit(i, cells[i] - begin);
@@ -69,7 +85,7 @@ FieldReader::FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, c
     Writer own;
     for (std::size_t part = own_begin; part < own_end; ++part) {
         check_cancelled(context);
-        const auto values = cache_->part(part);
+        const auto values = cache->part(part);
         each_quad(part, [&](std::size_t i, std::size_t cell) { skin_[i] = (*values)[cell]; });
         if (team != nullptr) each_quad(part, [&](std::size_t i, std::size_t) { own(skin_[i]); });
     }

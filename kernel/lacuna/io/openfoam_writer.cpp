@@ -143,67 +143,64 @@ private:
         owners.push_back(face.cell);
     }
 
-    /// Two faces with the same corners are one face between two cells.
+    /// Two faces with the same corners are one face between two cells. A quad or triangle with the corners of
+    /// a face of one cell gives it its entity.
     void find_faces()
     {
-        struct Inner {
-            Index owner, neighbour, face;
-        };
-        std::vector<Inner> inner;
-        const auto each = [&](const auto& visit) {
-            for (std::size_t f = 0; f < found_.size(); ++f) visit(found_[f].corners, f);
-        };
-        each_with_same_corners(view_.points, each, [&](std::span<const NumberedCell> alike) {
-            const Index cell = found_[alike[0].number].cell;
-            const auto face = static_cast<Index>(alike[0].number);
-            if (alike.size() > 2)
-                throw InvalidInput("io.not_conformal",
-                                   "a face of {} belongs to {} cells, but at most {} can share a face",
-                                   numbered("cell", cell + 1), found(alike.size()), needed("two"));
-            // Faces were collected cell by cell: the owner comes first.
-            if (alike.size() == 2)
-                inner.push_back({cell, found_[alike[1].number].cell, face});
-            else
-                outer_.push_back(face);
-        });
-        std::ranges::sort(inner, {}, [](const Inner& of) { return std::pair(of.owner, of.neighbour); });
-        for (const Inner& of : inner) {
-            put(found_[index(of.face)]);
-            neighbours.push_back(of.neighbour);
-        }
-        std::ranges::sort(outer_); // by cell
-    }
-
-    /// Assign each boundary face to the group of the quad or triangle that coincides with it.
-    void find_patches()
-    {
-        std::vector<std::pair<Quad, Index>> skin;
+        std::vector<std::pair<Quad, Index>> skin; // corners and entity
         for (const MeshView::Block& block : view_.blocks) {
             const mesh::CellShapeInfo& info = mesh::shape_info(block.shape);
             if (info.dimension != 2) continue;
             mesh::each_run(block.entities, 0, block.count,
                            [&](std::size_t first, std::size_t last, Index entity) {
                                block.each_cell(first, last, [&](std::size_t, std::span<const Index> nodes) {
-                                   Quad corners{-1, -1, -1, -1};
+                                   Quad& corners = skin.emplace_back(Quad{-1, -1, -1, -1}, entity).first;
                                    std::copy_n(nodes.begin(), info.corners, corners.begin());
-                                   skin.emplace_back(rising(corners), entity);
                                });
                            });
         }
-        std::ranges::sort(skin);
-        std::map<Index, std::vector<Index>> of_entity; // -1: boundary faces without entity
-        std::size_t outside = 0;
-        for (const Index f : outer_) {
-            const auto at = std::ranges::lower_bound(skin, rising(found_[index(f)].corners), {},
-                                                     &std::pair<Quad, Index>::first);
-            const bool known = at != skin.end() && at->first == rising(found_[index(f)].corners);
-            of_entity[known ? at->second : -1].push_back(f);
-            outside += known ? 1 : 0;
+        struct Inner {
+            Index owner, neighbour, face;
+        };
+        std::vector<Inner> inner;
+        std::size_t inside = skin.size();
+        const auto each = [&](const auto& visit) {
+            for (std::size_t f = 0; f < found_.size(); ++f) visit(found_[f].corners, f);
+            for (std::size_t q = 0; q < skin.size(); ++q) visit(skin[q].first, found_.size() + q);
+        };
+        each_with_same_corners(view_.points, each, [&](std::span<const NumberedCell> alike) {
+            const auto is_cell = [&](const NumberedCell& of) { return of.number < found_.size(); };
+            const auto cells = static_cast<std::size_t>(std::ranges::count_if(alike, is_cell));
+            if (cells == 0) return;
+            const auto face = static_cast<Index>(alike[0].number);
+            const Index owner = found_[index(face)].cell; // faces were collected cell by cell
+            if (cells > 2)
+                throw InvalidInput("io.not_conformal",
+                                   "a face of {} belongs to {} cells, but at most {} can share a face",
+                                   numbered("cell", owner + 1), found(cells), needed("two"));
+            if (cells == 2) return inner.push_back({owner, found_[alike[1].number].cell, face});
+            Index entity = -1;
+            for (const NumberedCell& of : alike.subspan(1)) {
+                const Index own = skin[of.number - found_.size()].second;
+                entity = entity < 0 ? own : std::min(entity, own);
+            }
+            inside -= alike.size() > 1 ? 1 : 0;
+            of_entity_[entity].push_back(face);
+        });
+        std::ranges::sort(inner, {}, [](const Inner& of) { return std::pair(of.owner, of.neighbour); });
+        for (const Inner& of : inner) {
+            put(found_[index(of.face)]);
+            neighbours.push_back(of.neighbour);
         }
-        if (const std::size_t inside = skin.size() - outside; inside > 0)
+        if (inside > 0)
             notes.push_back(formatted("{} quads and triangles that are no faces outside are not written: a "
                                       "polyMesh has patches there alone",
                                       inside));
+    }
+
+    /// Make a patch of the faces of each group.
+    void find_patches()
+    {
         // Entities of one group form one patch; faces without a group come last.
         std::vector<std::pair<std::string, std::vector<Index>>> groups;
         const auto add = [&](const std::string& name, const std::vector<Index>& own) {
@@ -211,9 +208,9 @@ private:
             if (group == groups.end()) group = groups.insert(group, {name, {}});
             group->second.insert(group->second.end(), own.begin(), own.end());
         };
-        for (const auto& [entity, own] : of_entity)
+        for (const auto& [entity, own] : of_entity_)
             if (entity >= 0) add(group_of(view_.entities[index(entity)], kNoGroup), own);
-        if (of_entity.contains(-1)) add(kNoGroup, of_entity[-1]);
+        if (of_entity_.contains(-1)) add(kNoGroup, of_entity_[-1]);
         Words words;
         for (auto& [name, own] : groups) {
             std::ranges::sort(own);
@@ -227,9 +224,9 @@ private:
 
     const MeshView& view_;
     const RunContext& context_;
-    std::vector<CellFace> found_; ///< by cell
-    std::vector<Index> outer_;    ///< faces with only one cell
-    std::vector<Index> place_;    ///< for each view point: index among the points used; -1: unused
+    std::vector<CellFace> found_;                   ///< by cell
+    std::map<Index, std::vector<Index>> of_entity_; ///< faces with only one cell; -1: those without entity
+    std::vector<Index> place_; ///< for each view point: index among the points used; -1: unused
 };
 
 std::string head_of(const char* kind, const char* object, const std::string& note = {})

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -137,6 +138,20 @@ private:
     std::thread::id thread_ = std::this_thread::get_id();
 };
 
+/// A value of each process of a team.
+template <class Value>
+std::vector<Value> gather_values(const Team* team, Value own)
+{
+    Writer writer;
+    writer(own);
+    std::vector<Value> all;
+    for (const std::string& said : gather(team, std::move(writer).take())) {
+        Reader reader(said);
+        reader(all.emplace_back());
+    }
+    return all;
+}
+
 using WriteAt = std::function<void(std::uint64_t offset, std::string_view bytes)>;
 
 /// The offset of every chunk is known: while one thread fills, another writes.
@@ -179,17 +194,10 @@ void write_varying(const std::vector<Chunk>& chunks, const WriteAt& write, Share
         check_cancelled(context);
         std::uint64_t own = 0;
         for (std::size_t i = 0; i < count; ++i) own += filled[i].size();
-        Writer writer;
-        writer(own);
-        const std::vector<std::string> said = gather(team, std::move(writer).take());
-        std::uint64_t at = offset;
-        for (std::size_t rank = 0; rank < said.size(); ++rank) {
-            std::uint64_t length = 0;
-            Reader reader(said[rank]);
-            reader(length);
-            if (team != nullptr && rank < static_cast<std::size_t>(team->rank)) at += length;
-            offset += length;
-        }
+        const std::vector<std::uint64_t> lengths = gather_values(team, own);
+        const std::ptrdiff_t before = team != nullptr ? team->rank : 0; // processes that write before it
+        std::uint64_t at = std::accumulate(lengths.begin(), lengths.begin() + before, offset);
+        offset = std::accumulate(lengths.begin(), lengths.end(), offset);
         for (std::size_t i = 0; i < count; at += filled[i++].size()) write(at, filled[i]);
         share.add(std::min(round, chunks.size() - first));
     }
@@ -230,20 +238,16 @@ public:
     void write(std::size_t f, const std::vector<Section>& sections, Sizes sizes, const std::string& stage,
                const RunContext& context, const Team* sharing)
     {
-        if (team_ == nullptr) {
-            WholeFile& file = *files[f];
-            if (sizes == Sizes::exact) reserve(file, size_of(sections), context);
-            return write_sections(
-                sections, sizes,
-                [&](std::uint64_t offset, std::string_view bytes) { file.write_at(offset, bytes); }, stage,
-                context, nullptr);
-        }
-        const std::unique_ptr<SharedFile> shared = team_->open(names_[f], shown_[f]);
-        write_sections(
-            sections, sizes,
-            [&](std::uint64_t offset, std::string_view bytes) { shared->write_at(offset, bytes); }, stage,
-            context, sharing);
-        shared->close();
+        std::unique_ptr<SharedFile> shared;
+        if (team_ != nullptr)
+            shared = team_->open(names_[f], shown_[f]);
+        else if (sizes == Sizes::exact)
+            reserve(*files[f], size_of(sections), context);
+        const auto write_at = [&](std::uint64_t offset, std::string_view bytes) {
+            shared ? shared->write_at(offset, bytes) : files[f]->write_at(offset, bytes);
+        };
+        write_sections(sections, sizes, write_at, stage, context, sharing);
+        if (shared) shared->close();
     }
 
     std::vector<std::unique_ptr<WholeFile>> files; ///< of rank 0; empty in other processes
@@ -270,16 +274,8 @@ private:
     /// Whether all processes can open the files of rank 0, which the system may forbid.
     [[nodiscard]] bool all_can_open() const
     {
-        Writer writer;
-        writer(static_cast<std::int8_t>(::access(names_.front().c_str(), W_OK) == 0));
-        bool all = true;
-        for (const std::string& said : gather(team_, std::move(writer).take())) {
-            std::int8_t can = 0;
-            Reader reader(said);
-            reader(can);
-            all = all && can != 0;
-        }
-        return all;
+        const std::int8_t can = ::access(names_.front().c_str(), W_OK) == 0 ? 1 : 0;
+        return std::ranges::count(gather_values(team_, can), 0) == 0;
     }
 
     const Team* team_;

@@ -219,7 +219,7 @@ private:
             cursor_.fail("expected {} nodes of an element {}, found {}", needed(wanted), descriptor,
                          found(nodes));
         std::array<Index, 20> at{};
-        const auto places = kind.shape ? unv_places(*kind.shape) : std::span<const std::uint8_t>();
+        const auto places = node_places(NodeOrder::unv, kind.shape.value_or(DeckShape::hex20));
         for (Index read = 0; read < nodes;) {
             expect_line("the nodes of an element");
             if (numbers_.size() > index(nodes - read))
@@ -229,8 +229,7 @@ private:
                 if (index(read) < wanted && node < 0)
                     cursor_.fail("expected the tag of a node, found {}", found(node));
                 if (index(read) >= wanted || index(read) % kind.step != 0) continue;
-                const std::size_t place = index(read) / kind.step;
-                at[places.empty() ? place : places[place]] = node;
+                at[places[index(read) / kind.step]] = node;
             }
         }
         if (wanted == 0) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 /// Shapes of cells in the formats, and of swept meshes. Internal to this folder.
 namespace lacuna::io {
@@ -46,6 +47,16 @@ inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int
         if (number > 0 && kShapeWords[s].*format == number) return static_cast<DeckShape>(s);
     return {};
 }
+
+/// Orders of a cell's nodes other than that of DeckShape.
+enum class NodeOrder { exodus, gmsh, unv };
+/// Positions of a shape's nodes in the order of DeckShape. In Exodus, and in Nastran, middles of upright
+/// sides precede those above, and the centre of a hexahedron those of its faces. In UNV corners and middles
+/// alternate around the cell in each layer, with the middles of upright sides between the layers.
+std::span<const std::uint8_t> node_places(NodeOrder order, DeckShape shape);
+
+/// The name given to a physical group of Gmsh without one.
+std::string unnamed_group(int tag);
 
 /// Shape of the hexahedra of a swept mesh, by its order and nodes.
 inline DeckShape cell_shape(const mesh::HexMesh& mesh)

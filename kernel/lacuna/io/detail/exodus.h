@@ -3,8 +3,6 @@
 
 #include <lacuna/io/deck.h>
 
-#include <span>
-
 /// Elements of Exodus and their sides. Internal to this folder.
 ///
 /// Exodus II: dimensions and arrays with agreed names in a netCDF file of the classic format
@@ -12,11 +10,6 @@
 /// own: the library of Debian 12 (exodusii 6.02) depends on fifty others, including HDF5 and curl, and
 /// accepts only paths.
 namespace lacuna::io {
-
-/// Positions of a shape's nodes in Exodus, in the order of DeckShape; empty: the same positions. Middles of
-/// upright sides precede those above; the centre of a hexahedron precedes those of its faces. Nastran uses
-/// the same order.
-std::span<const std::uint8_t> exodus_places(DeckShape shape);
 
 /// Number of a side in Exodus, from that in Abaqus, which has the bottom and top faces first; Exodus has them
 /// last. Tetrahedra and pyramids have only a bottom face.

@@ -31,9 +31,8 @@ struct AddedMesh {
     /// Quads of the skin that the deck already has as elements, by their sorted nodes; new ones are added.
     /// Null: quads are not shared.
     std::map<Quad, DeckTag>* skin_tags = nullptr;
-    /// Sets of the meshes added before, by kind and group, which this one's extend; null: there are none.
-    GroupSets* groups = nullptr;
-    Index region = -1; ///< region of the deck to which the cells are added; -1: a new one
+    /// Sets and regions of the meshes added before, which this one's extend; updated. Null: there are none.
+    JoinedBefore* before = nullptr;
     /// Null: the deck was read from a file, and its sets are extended.
     /// If not null, nodes and cells are not stored in the deck, only regions, sets and empty blocks of the
     /// cells' shapes; this gets their position.
@@ -47,9 +46,8 @@ struct AddedMesh {
     std::string neighbour_material{}, neighbour{};
 };
 /// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw  as `join_deck()`.
-/// @return  index of the region in the deck.
-Index add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
-               const RunContext& context = {});
+void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+              const RunContext& context = {});
 
 /// The face of a patch of the skin, for messages.
 NamedEntity entity_of(const mesh::SkinPatch& patch);

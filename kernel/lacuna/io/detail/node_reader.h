@@ -57,7 +57,6 @@ public:
     NodeReader& operator=(const NodeReader&) = delete;
 
     [[nodiscard]] std::size_t count() const { return mesh::corner_count(mesh_) + mesh::middle_count(mesh_); }
-    [[nodiscard]] bool are_stored() const { return layers_ == nullptr; }
     /// A node of the skin.
     [[nodiscard]] Vec3 on_skin(Index node) const
     {
@@ -84,14 +83,6 @@ public:
             begin = last;
         }
     }
-    /// Call `visit(n, node)` for each node.
-    template <class Visit>
-    void each(std::size_t begin, std::size_t end, const Visit& visit) const
-    {
-        each_span(begin, end, [&](std::span<const Vec3> nodes) {
-            for (const Vec3& node : nodes) visit(begin++, node);
-        });
-    }
 
 private:
     /// Consecutive nodes that are generated in parts of equal size, except for the last.
@@ -109,10 +100,7 @@ private:
 /// A value for every cell, stored or generated, and for the cells behind the skin.
 class FieldReader {
 public:
-    explicit FieldReader(const CellField& field)
-        : name_(field.name), values_(&field.values), make_(field.make)
-    {
-    }
+    explicit FieldReader(const CellField& field);
     /// @param team  shares the computation of values for the skin
     FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, const RunContext& context,
                 const Team* team);
@@ -122,39 +110,6 @@ public:
     /// Call `visit(i, value)` for each i in [begin, end), with the value of cell `cell_of(i)`. Thread-safe.
     template <class CellOf, class Visit>
     void each_cell(std::size_t begin, std::size_t end, const CellOf& cell_of, const Visit& visit) const
-    {
-        if (make_) return each_made(begin, end, cell_of, visit);
-        LayerCache<double>::Values part; // nearby cells reuse the last part
-        std::size_t number = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t c = cell_of(i);
-            if (!cache_) {
-                visit(i, (*values_)[c]);
-                continue;
-            }
-            if (!part || c / step_ != number) {
-                number = c / step_;
-                part = cache_->part(number);
-            }
-            visit(i, (*part)[c - number * step_]);
-        }
-    }
-
-    /// The same for the cells behind quads `quad_of(i)` of the skin.
-    /// @param cells  result of `cells_of_skin()`
-    template <class QuadOf, class Visit>
-    void each_behind_skin(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& cells,
-                          const QuadOf& quad_of, const Visit& visit) const
-    {
-        if (!cache_)
-            return each_cell(
-                begin, end, [&](std::size_t i) { return std::size_t(cells[quad_of(i)]); }, visit);
-        for (std::size_t i = begin; i < end; ++i) visit(i, skin_[quad_of(i)]);
-    }
-
-private:
-    template <class CellOf, class Visit>
-    void each_made(std::size_t begin, std::size_t end, const CellOf& cell_of, const Visit& visit) const
     {
         constexpr std::size_t kBlock = 1024; // fits into the first-level cache; not measured
         std::array<std::uint32_t, kBlock> cells;
@@ -168,12 +123,22 @@ private:
         }
     }
 
+    /// The same for the cells behind quads `quad_of(i)` of the skin.
+    /// @param cells  result of `cells_of_skin()`
+    template <class QuadOf, class Visit>
+    void each_behind_skin(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& cells,
+                          const QuadOf& quad_of, const Visit& visit) const
+    {
+        if (skin_.empty())
+            return each_cell(
+                begin, end, [&](std::size_t i) { return std::size_t(cells[quad_of(i)]); }, visit);
+        for (std::size_t i = begin; i < end; ++i) visit(i, skin_[quad_of(i)]);
+    }
+
+private:
     std::string name_;
-    const std::vector<double>* values_ = nullptr;
-    std::function<void(std::span<const std::uint32_t>, double*)> make_;
-    std::shared_ptr<LayerCache<double>> cache_;
-    std::size_t step_ = 0;     ///< cells in a part
-    std::vector<double> skin_; ///< for each quad of the skin
+    std::function<void(std::span<const std::uint32_t> cells, double* out)> make_; ///< as `CellField::make`
+    std::vector<double> skin_; ///< for each quad of the skin, if the values are generated
 };
 
 /// @throw InvalidInput  the name cannot be written or is in use; `names` holds the earlier ones.
