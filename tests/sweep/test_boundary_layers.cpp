@@ -186,7 +186,7 @@ TEST_CASE("rows have their thickness along any walls of straight prisms, tapered
     }
 }
 
-TEST_CASE("rows run round holes, with_rows corners and round")
+TEST_CASE("rows run round holes, with corners and round")
 {
     for (const int hole_sides : {0, 3, 4, 6}) {
         for (const int holes : {1, 3}) {
@@ -352,7 +352,7 @@ TEST_CASE("layers along ends have their heights, whatever columns do between")
     }
 }
 
-TEST_CASE("rows without room are refused by wall and edge, with_rows the room there is")
+TEST_CASE("rows without room are refused by wall and edge, with the room there is")
 {
     PrismOptions how;
     how.sides = 4;

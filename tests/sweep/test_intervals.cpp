@@ -189,7 +189,7 @@ TEST_CASE("a wall has as many columns as it is asked for, over all of its edges"
     }
 }
 
-TEST_CASE("intervals that contradict each other are refused, both named with_intervals their counts")
+TEST_CASE("intervals that contradict each other are refused, both named with their counts")
 {
     PrismOptions how;
     how.sides = 4;
@@ -254,8 +254,7 @@ TEST_CASE("sides asked for and rows that end on an edge add up, or are refused")
     }
     SweepOptions few = with_intervals({on_edge(volume.model[beside].tag, 3)});
     few.boundary_layers = {layer};
-    CHECK(test::refusal([&] { sweep::sweep(volume, few); }, {"end with_intervals 3 sides"}) ==
-          "surface.sides_asked");
+    CHECK(test::refusal([&] { sweep::sweep(volume, few); }, {"end with 3 sides"}) == "surface.sides_asked");
 }
 
 TEST_CASE("layers follow a size that changes along the sweep, and are even where it does not")

@@ -648,7 +648,7 @@ TEST_CASE("the quality a sweep tells is that of its cells, however they were pla
 }
 
 TEST_CASE(
-    "where a rim and an edge of the walls lie in one line, the refusal_of names the vertex and both edges")
+    "where a rim and an edge of the walls lie in one line, the refusal names the vertex and both edges")
 {
     for (const double height : {0.3, 0.5, 0.8}) {
         for (const double size : {0.5, 0.2}) {

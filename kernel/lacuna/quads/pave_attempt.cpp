@@ -3,8 +3,10 @@
 
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quads/detail/clean_quads.h>
+#include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_core.h>
 #include <lacuna/quads/detail/pave_rows.h>
+#include <lacuna/quads/detail/raise_flat_quads.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/detail/triangle_quads.h>
@@ -27,6 +29,32 @@ bool is_conforming(const PlanarQuads& mesh)
 {
     const auto opposite = mesh::opposite_sides(mesh.quads, static_cast<Index>(mesh.points.size()));
     return std::ranges::find(opposite, mesh::kBadSide) == opposite.end();
+}
+
+/// Open folded quads by moving nodes, then by adding nodes (pillows).
+void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
+{
+    const std::size_t fixed = setting.region.points.size();
+    for (int round = 0; round < 2; ++round) {
+        Attempt tried = attempt;
+        if (round > 0) pillow_folds(tried.mesh, setting.flat);
+        raise_flat_quads(tried.mesh, fixed);
+        judge(tried);
+        if (tried.worst <= setting.flat && round == 0) {
+            clean_quads(tried.mesh, fixed, {.size = setting.size}, context);
+            raise_flat_quads(tried.mesh, fixed);
+            judge(tried);
+        }
+        if (tried.worst <= setting.flat) {
+            // Only untangle here; the opened quads are smoothed with the rest later.
+            smooth_plane(tried.mesh.points, tried.mesh.quads, fixed,
+                         {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
+            judge(tried);
+        }
+        const bool better = round == 0 || tried.worst > attempt.worst;
+        if (better) attempt = std::move(tried);
+        if (!better || attempt.worst > setting.flat) break;
+    }
 }
 
 void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thorough,
@@ -94,6 +122,7 @@ Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWe
         pave_and_fill(attempt, partial, region, style, context);
     }
     if (!is_conforming(attempt.mesh)) return attempt;
+    if (style != RowStyle::triangles) open_corners(attempt.mesh, region);
     judge(attempt);
     return attempt;
 }
@@ -101,10 +130,8 @@ Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWe
 void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough, const RunContext& context)
 {
     if (attempt.worst < -1) return; // there are no quads, or they do not conform
-    const bool folds = attempt.worst <= setting.flat;
-    clean_and_smooth(attempt, setting, thorough, context);
-    // Cleaning keeps irregular nodes beside folds; smoothing has opened the folds.
-    if (folds && attempt.worst > 0) clean_and_smooth(attempt, setting, thorough, context);
+    open_folds(attempt, setting, context);
+    if (attempt.worst > 0) clean_and_smooth(attempt, setting, thorough, context);
 }
 
 } // namespace lacuna::quads::paving

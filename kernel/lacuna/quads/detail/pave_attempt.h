@@ -37,7 +37,7 @@ struct AttemptSetting {
 Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWeights& weights,
                       const RunContext& context);
 
-/// Clean and smooth; twice if quads fold at first.
+/// Open folds, clean and smooth.
 /// @param thorough  for the cleaning, see `CleanOptions`
 void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough,
                     const RunContext& context);

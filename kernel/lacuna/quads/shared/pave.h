@@ -37,8 +37,8 @@ struct Paved {
 /// 3. Cuts are straight. A cut meets the outline at right angles if possible, its nodes are spaced as the
 ///    size asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of
 ///    3 to 5 sides is filled with grids that meet in one or two irregular nodes.
-/// 4. Irregular nodes are paired and removed, nodes are smoothed, which opens folded quads, and row heights
-///    are corrected.
+/// 4. Boundary corners that lack a quad get one. Folded quads are opened. Irregular nodes are paired and
+///    removed, nodes are smoothed, row heights are corrected.
 ///
 /// A symmetric region whose boundary nodes allow it is cut along two perpendicular mirror axes, or along all
 /// of them if its centre is in a hole. One part is filled and its images are joined, unless the result is
