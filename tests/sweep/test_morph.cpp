@@ -179,8 +179,10 @@ TEST_CASE("smoothing never makes the worst quad worse, and mends one that was pu
             const double before = worst_quad(family.mesh.quads, nodes);
             const double model = worst_quad(family.mesh.quads, family.mesh.nodes);
             const auto relaxed = smoother.relax(nodes, model - 0.01, {});
+            const auto polished = smoother.polish(nodes, model - 0.01, {});
             CHECK(worst_quad(family.mesh.quads, relaxed) >= before);
             CHECK(worst_quad(family.mesh.quads, relaxed) > model - 0.1);
+            CHECK(worst_quad(family.mesh.quads, polished) >= before);
         }
     }
 }

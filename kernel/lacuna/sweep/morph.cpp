@@ -134,6 +134,7 @@ Candidate smoothed(const mesh::QuadMesh& source, const AskSpreader& spreader,
     const SurfaceSmoother smoother(source, spreader().graph, spreader().weights, spreader().spread,
                                    free_nodes, project);
     found.nodes = smoother.relax(std::move(found.nodes), good_enough, context);
+    found.nodes = smoother.polish(std::move(found.nodes), good_enough, context);
     found.worst = worst_quad(source.quads, found.nodes, context);
     return found;
 }

@@ -17,6 +17,11 @@ namespace {
 
 /// Enough preconditioned steps for the relaxation to converge; the best intermediate mesh is kept.
 constexpr int kRelaxations = 20;
+/// Bound on the rounds of trials; the last round is the first one without gain.
+constexpr int kPolishes = 20;
+/// Number of directions tried around a node for each step length. Not measured.
+constexpr int kDirections = 8;
+constexpr int kLengths = 3;
 
 const Vec3& at(std::span<const Vec3> points, Index i) { return points[index(i)]; }
 
@@ -129,6 +134,7 @@ SurfaceSmoother::SurfaceSmoother(const mesh::QuadMesh& model, const NodeGraph& g
     const std::vector<Vec3> normals = node_normals(model.quads, model.nodes);
     for (const Index node : free_nodes) {
         const std::size_t i = index(node);
+        is_free_[i] = 1;
         const std::span<const Index> neighbours = graph.of(i);
         hold_in_place(model.nodes, neighbours, model.nodes[i], normals[i],
                       std::span(weights_).subspan(index(graph.begin[i]), neighbours.size()));
@@ -164,6 +170,94 @@ std::vector<Vec3> SurfaceSmoother::relax(std::vector<Vec3> nodes, double good_en
             best_worst = worst;
             best = nodes;
         }
+    }
+    return best;
+}
+
+double SurfaceSmoother::worst_around(std::size_t node, std::span<const Vec3> nodes,
+                                     std::span<const Vec3> normals) const
+{
+    double worst = 1;
+    for (const Index q : quads_at_.of(node))
+        worst = std::min(worst, quad_quality(model_.quads[index(q)], nodes, normals));
+    return worst;
+}
+
+/// Free nodes of poor quads, increasing.
+std::vector<std::size_t> SurfaceSmoother::poor_nodes(std::span<const Vec3> nodes,
+                                                     std::span<const Vec3> normals, double good_enough) const
+{
+    std::vector<std::size_t> poor;
+    for (const Quad& quad : model_.quads) {
+        if (quad_quality(quad, nodes, normals) >= good_enough) continue;
+        for (const Index node : quad) {
+            if (is_free_[index(node)] != 0) poor.push_back(index(node));
+        }
+    }
+    std::ranges::sort(poor);
+    poor.erase(std::unique(poor.begin(), poor.end()), poor.end());
+    return poor;
+}
+
+/// Trial position of a node: first the mean of its neighbours, then steps along the surface.
+Vec3 SurfaceSmoother::trial_place(std::size_t node, int trial, std::span<const Vec3> nodes,
+                                  const Vec3& normal) const
+{
+    const std::span<const Index> neighbours = graph_.of(node);
+    Vec3 mean = Vec3::Zero();
+    double side = 0;
+    for (const Index n : neighbours) {
+        mean += at(nodes, n) / static_cast<double>(neighbours.size());
+        side += (at(nodes, n) - nodes[node]).norm() / static_cast<double>(neighbours.size());
+    }
+    if (trial == 0 || !(normal.norm() > 0)) return mean;
+    // Steps of 1/4, 1/16 and 1/64 of the mean side, in eight directions.
+    const double length = side * std::pow(0.25, 1 + (trial - 1) / kDirections);
+    const double angle = (trial - 1) % kDirections * std::atan(1.0);
+    const Vec3 u = normal.unitOrthogonal();
+    const Vec3 v = normal.normalized().cross(u);
+    return nodes[node] + length * (std::cos(angle) * u + std::sin(angle) * v);
+}
+
+/// One round of trials for the nodes of poor quads. @return  whether any node moved.
+bool SurfaceSmoother::polish_once(std::vector<Vec3>& nodes, double good_enough) const
+{
+    const std::vector<Vec3> normals = node_normals(model_.quads, nodes);
+    const std::vector<std::size_t> poor = poor_nodes(nodes, normals, good_enough);
+    if (poor.empty()) return false;
+
+    bool moved = false;
+    std::vector<Vec3> places(poor.size());
+    for (int trial = 0; trial <= kDirections * kLengths; ++trial) {
+        for (std::size_t k = 0; k < poor.size(); ++k) {
+            places[k] = trial_place(poor[k], trial, nodes, normals[poor[k]]);
+        }
+        project_(places);
+        for (std::size_t k = 0; k < poor.size(); ++k) {
+            Vec3& node = nodes[poor[k]];
+            const double before = worst_around(poor[k], nodes, normals);
+            std::swap(node, places[k]);
+            if (worst_around(poor[k], nodes, normals) > before)
+                moved = true;
+            else
+                std::swap(node, places[k]);
+        }
+    }
+    return moved;
+}
+
+std::vector<Vec3> SurfaceSmoother::polish(std::vector<Vec3> nodes, double good_enough,
+                                          const RunContext& context) const
+{
+    std::vector<Vec3> best = nodes;
+    double best_worst = worst_quad(model_.quads, nodes, context);
+    for (int round = 0; round < kPolishes && best_worst < good_enough; ++round) {
+        check_cancelled(context);
+        if (!polish_once(nodes, good_enough)) break;
+        const double worst = worst_quad(model_.quads, nodes, context);
+        if (!(worst > best_worst)) break;
+        best_worst = worst;
+        best = nodes;
     }
     return best;
 }

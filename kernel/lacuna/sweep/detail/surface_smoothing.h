@@ -27,9 +27,11 @@ void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const
 /// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a reference
 /// mesh.
 ///
-/// Every node moves to the weighted mean of its neighbours, with the weights that reproduce the reference
-/// mesh, so its grading is kept; solved for all nodes at once with the graph Laplacian as preconditioner. The
-/// mesh is kept only as far as its worst quad improves.
+/// Two methods, each kept only as far as it improves the worst quad. Relaxation: every node moves to the
+/// weighted mean of its neighbours, with the weights that reproduce the reference mesh, so its grading is
+/// kept; solved for all nodes at once with the graph Laplacian as preconditioner. Then the nodes of quads
+/// that are still poor try the neighbours' mean and steps along the surface, and keep moves that improve the
+/// worst of their own quads.
 class SurfaceSmoother {
 public:
     /// All arguments must outlive the smoother. @param spread  with the fixed nodes of the smoothing.
@@ -41,8 +43,18 @@ public:
     void project(std::vector<Vec3>& nodes) const { project_nodes(nodes, free_nodes_, project_); }
     /// @return  the nodes with an improved worst quad, or the input.
     std::vector<Vec3> relax(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
+    std::vector<Vec3> polish(std::vector<Vec3> nodes, double good_enough, const RunContext& context) const;
 
 private:
+    [[nodiscard]] double worst_around(std::size_t node, std::span<const Vec3> nodes,
+                                      std::span<const Vec3> normals) const;
+    [[nodiscard]] std::vector<std::size_t> poor_nodes(std::span<const Vec3> nodes,
+                                                      std::span<const Vec3> normals,
+                                                      double good_enough) const;
+    [[nodiscard]] Vec3 trial_place(std::size_t node, int trial, std::span<const Vec3> nodes,
+                                   const Vec3& normal) const;
+    bool polish_once(std::vector<Vec3>& nodes, double good_enough) const;
+
     const mesh::QuadMesh& model_;
     const NodeGraph& graph_;
     const HarmonicSpread& spread_;
@@ -50,6 +62,8 @@ private:
     const SurfaceProjector& project_;
     /// Of the neighbours, in the graph's order; normalised like the sides' own weights.
     std::vector<double> weights_;
+    mesh::Incidence quads_at_ = mesh::quads_at_nodes(model_.quads, model_.nodes.size());
+    std::vector<char> is_free_ = std::vector<char>(model_.nodes.size(), 0);
 };
 
 } // namespace lacuna::sweep
