@@ -23,8 +23,10 @@ constexpr std::size_t kByTwos = 64;
 /// Additional cost of sides whose length is outside the accepted range, for each wanted side and by the
 /// relative excess. Heuristic.
 constexpr double kOutOfSize = 2;
-/// Larger coefficients do not occur in interval assignment; the bound keeps products within range.
+/// Larger coefficients do not occur in interval assignment: an equation that gets one is left out. The bound
+/// keeps products within range.
 constexpr std::int64_t kMostCoefficient = 1 << 20;
+
 double wish_cost(double n, double wanted, double weight)
 {
     n = std::max(n, 0.5);
@@ -63,10 +65,10 @@ public:
         // A pivot of one keeps the other coefficients integral; take the first of them.
         const auto pivot = std::ranges::min_element(row.of, {},
                                                     [](const auto& part) { return std::abs(part.second); });
-        if (std::abs(pivot->second) >= kMostCoefficient) return;
         row.pivot = pivot->first;
         scale(row, pivot->second < 0 ? -common_factor(row) : common_factor(row));
         for (Row& other : rows_) eliminate(other, row);
+        std::erase_if(rows_, [](const Row& other) { return other.of.empty(); });
         rows_.push_back(std::move(row));
     }
 
@@ -138,7 +140,7 @@ private:
         row.right /= by;
     }
 
-    /// Remove the pivot of one row from another.
+    /// Remove the pivot of one row from another, which is emptied if its coefficients leave the range.
     static void eliminate(Row& row, const Row& by)
     {
         const auto found = row.of.find(by.pivot);
@@ -150,6 +152,11 @@ private:
         std::erase_if(row.of, [](const auto& part) { return part.second == 0; });
         const std::int64_t common = std::gcd(common_factor(row), row.right);
         if (common > 1) scale(row, common);
+        const bool in_range = std::abs(row.right) < kMostCoefficient * kMostCoefficient &&
+                              std::ranges::all_of(row.of, [](const auto& part) {
+                                  return std::abs(part.second) < kMostCoefficient;
+                              });
+        if (!in_range) row = {};
     }
 
     [[nodiscard]] bool is_pivot(std::size_t v) const
