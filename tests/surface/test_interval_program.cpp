@@ -135,3 +135,18 @@ TEST_CASE("given numbers that contradict each other leave only their own edges w
     CHECK(counts[3] == 0);
     CHECK(counts[4] == 5);
 }
+
+TEST_CASE("a chain of doublings longer than integers hold leaves edges without a solution")
+{
+    constexpr std::size_t kLinks = 70;
+    IntervalProgram program;
+    for (std::size_t v = 0; v <= kLinks; ++v) {
+        program.variables.push_back({});
+        program.wishes.push_back({{v}, 2, 1});
+        if (v > 0) program.equations.push_back({{v}, {v - 1, v - 1}});
+    }
+    for (const int count : solve_intervals(program)) {
+        CHECK(count >= 0);
+        CHECK(count < 1 << 21);
+    }
+}
