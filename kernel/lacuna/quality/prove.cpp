@@ -7,7 +7,6 @@
 #include <lacuna/quality/shared/layered.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/background.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>
@@ -278,32 +277,15 @@ Found check_arrays(const mesh::HexMesh& mesh, std::size_t nodes)
 
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian, const RunContext& context)
 {
-    return prove(mesh, std::nullopt, min_scaled_jacobian, context);
-}
-
-Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double min_scaled_jacobian,
-            const RunContext& context)
-{
     Proof proof;
     const std::size_t levels = static_cast<std::size_t>(std::max(mesh.layers, 0)) + 1;
     const std::size_t nodes = levels * index(std::max<Index>(mesh.nodes_per_layer, 0));
-    // Arrays of a measured mesh have valid sizes. Check them nevertheless, in
-    // parallel with the check of the nodes.
-    const bool beside = measured && nodes > 0 && mesh.nodes.size() == nodes &&
-                        !check_quality(*measured, min_scaled_jacobian, mesh.layers);
-    std::optional<Background<Found>> arrays;
-    Found misplaced;
-    if (beside) {
-        arrays.emplace(context, [&](const RunContext&) { return check_arrays(mesh, nodes); });
-        misplaced = check_nodes(mesh.nodes, mesh.nodes_per_layer, context);
-    }
-    proof.finding = arrays ? arrays->take() : check_arrays(mesh, nodes);
+    proof.finding = check_arrays(mesh, nodes);
     if (proof.finding) return proof;
     check_cancelled(context);
-    proof.quality = measured ? std::move(*measured) : measure(mesh, context, Keep::of_cells);
-    proof.finding = beside ? std::move(misplaced)
-                           : check_quality(proof.quality, min_scaled_jacobian, mesh.layers);
-    if (!beside && !proof.finding) proof.finding = check_nodes(mesh.nodes, mesh.nodes_per_layer, context);
+    proof.quality = measure(mesh, context, Keep::of_cells);
+    proof.finding = check_quality(proof.quality, min_scaled_jacobian, mesh.layers);
+    if (!proof.finding) proof.finding = check_nodes(mesh.nodes, mesh.nodes_per_layer, context);
     return proof;
 }
 

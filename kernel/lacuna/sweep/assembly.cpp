@@ -68,6 +68,9 @@ struct MemberFailed : NotSweepable {
     std::size_t member;
 };
 
+/// The neighbours that a part was made with, and how often each had been made.
+using Inputs = std::vector<std::pair<std::size_t, int>>;
+
 class Assembler {
 public:
     Assembler(std::span<const AssemblyMember> members, const RunContext& context)
@@ -210,6 +213,7 @@ private:
         SweptAssembly again;
         again.near_misses = std::move(result_.near_misses);
         result_ = std::move(again);
+        made_beside_.clear();
         result_.shared = faces_in_common(members_, context_).whole;
         plan_ = plan_assembly(members_, result_.shared, context_);
         sweep_all();
@@ -248,6 +252,8 @@ private:
     std::optional<MemberFailed> sweep_in_order()
     {
         result_.parts.resize(members_.size());
+        made_beside_.resize(members_.size());
+        times_made_.resize(members_.size());
         result_.report = notes_;
         middles_ = {};
         std::vector<char> done(members_.size(), 0);
@@ -255,8 +261,18 @@ private:
             check_cancelled(context_);
             const std::vector<Neighbour> neighbours = shared_with(m, done);
             done[m] = 1;
+            Inputs inputs;
+            for (const Neighbour& n : neighbours) inputs.emplace_back(n.other, times_made_[n.other]);
             try {
-                sweep_one(m, neighbours);
+                // At order 2 a part also depends on those that it touches along an edge.
+                if (members_[m].options.order > 1 || made_beside_[m] != inputs) {
+                    made_beside_[m].reset();
+                    ++times_made_[m];
+                    make(m, neighbours);
+                    made_beside_[m] = std::move(inputs);
+                }
+                check_kept(m, neighbours);
+                if (members_[m].options.order > 1) keep_middles(m);
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
@@ -295,20 +311,13 @@ private:
     /// Copy the neighbours' meshes on shared faces to the member, then sweep it. A face whose mesh follows
     /// from its rim alone is left to the member, and the result is compared with the neighbour's; if they
     /// differ, all meshes are copied.
-    void sweep_one(std::size_t m, const std::vector<Neighbour>& neighbours)
+    void make(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
         const AssemblyMember& member = members_[m];
-        if (member.fixed != nullptr)
+        if (member.fixed != nullptr) {
             result_.parts[m] = *member.fixed;
-        else
-            sweep_beside(m, neighbours);
-        check_kept(m, neighbours);
-        if (member.options.order > 1) keep_middles(m);
-    }
-
-    void sweep_beside(std::size_t m, const std::vector<Neighbour>& neighbours)
-    {
-        const AssemblyMember& member = members_[m];
+            return;
+        }
         SweepOptions options = member.options;
         options.fallback = Fallback::none; // the whole assembly is computed again
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
@@ -375,7 +384,7 @@ private:
         const std::set<FaceId> shared = shared_faces_of(m);
         if (!middles_.add(part.mesh, [&](Index patch) { return shared.contains(part.faces[index(patch)]); }))
             throw NotSweepable("assembly.not_shared",
-                               "{} has middle nodes at other positions than its neighbours on common faces",
+                               "{}: middle nodes on common faces are not where its neighbours have theirs",
                                members_[m].region);
     }
 
@@ -516,7 +525,9 @@ private:
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
-    SharedMiddles middles_; ///< of the parts so far, at order 2
+    std::vector<std::optional<Inputs>> made_beside_; ///< of each part that exists
+    std::vector<int> times_made_;                    ///< for each part, including failed attempts
+    SharedMiddles middles_;                          ///< of the parts so far, at order 2
     SweptAssembly result_;
 };
 

@@ -569,41 +569,37 @@ Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std
     // Centres that are not nodes follow.
     const std::size_t centres = curved && !mesh.middles.full ? mesh.skin_count() : 0;
     skin.points.resize(known.size() + centres);
-    parallel_for(context, known.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) skin.points[i] = nodes[known[i]];
-    });
+    parallel_each(context, known.size(), kBlock, [&](std::size_t i) { skin.points[i] = nodes[known[i]]; });
     struct Numbered {
         Quad nodes{};
         double side = 0; ///< the longest
     };
     const std::size_t parts = curved ? 4 : 1;
     std::vector<Numbered> quads(parts * mesh.skin_count());
-    parallel_for(context, mesh.skin_count(), kBlock, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
-            std::array<Index, 9> at{};
-            for (std::size_t k = 0; k < std::max<std::size_t>(quad.count, 4);
-                 ++k) // a triangle repeats a corner
-                at[k] = static_cast<Index>(std::ranges::lower_bound(known, quad.node[k]) - known.begin());
-            if (centres > 0) {
-                std::array<Vec3, 4> sides, corner;
-                for (std::size_t k = 0; k < 4; ++k) {
-                    corner[k] = skin.points[index(at[k])];
-                    sides[k] = skin.points[index(at[4 + k])];
-                }
-                at[8] = static_cast<Index>(known.size() + i);
-                skin.points[index(at[8])] = middle_of_quad(sides, corner);
+    parallel_each(context, mesh.skin_count(), kBlock, [&](std::size_t i) {
+        const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
+        std::array<Index, 9> at{};
+        // A triangle repeats a corner.
+        for (std::size_t k = 0; k < std::max<std::size_t>(quad.count, 4); ++k)
+            at[k] = static_cast<Index>(std::ranges::lower_bound(known, quad.node[k]) - known.begin());
+        if (centres > 0) {
+            std::array<Vec3, 4> sides, corner;
+            for (std::size_t k = 0; k < 4; ++k) {
+                corner[k] = skin.points[index(at[k])];
+                sides[k] = skin.points[index(at[4 + k])];
             }
-            for (std::size_t j = 0; j < parts; ++j) {
-                auto& [part, longest] = quads[parts * i + j];
-                part = curved ? Quad{at[j], at[4 + j], at[8], at[4 + (j + 3) % 4]}
-                              : Quad{at[0], at[1], at[2], at[3]};
-                for (std::size_t k = 0; k < 4; ++k)
-                    longest = std::max(
-                        longest,
-                        (skin.points[index(part[(k + 1) % 4])] - skin.points[index(part[k])]).squaredNorm());
-                longest = std::sqrt(longest);
-            }
+            at[8] = static_cast<Index>(known.size() + i);
+            skin.points[index(at[8])] = middle_of_quad(sides, corner);
+        }
+        for (std::size_t j = 0; j < parts; ++j) {
+            auto& [part, longest] = quads[parts * i + j];
+            part = curved ? Quad{at[j], at[4 + j], at[8], at[4 + (j + 3) % 4]}
+                          : Quad{at[0], at[1], at[2], at[3]};
+            for (std::size_t k = 0; k < 4; ++k)
+                longest = std::max(
+                    longest,
+                    (skin.points[index(part[(k + 1) % 4])] - skin.points[index(part[k])]).squaredNorm());
+            longest = std::sqrt(longest);
         }
     });
     for (std::size_t i = 0; i < quads.size(); ++i) {

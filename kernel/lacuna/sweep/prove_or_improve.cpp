@@ -94,13 +94,11 @@ std::string in_words(const Improved& improved)
 
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::set<FaceId>& kept, std::vector<char> held,
-                                std::optional<quality::Quality> measured, const SweepOptions& options,
-                                const RunContext& context)
+                                const SweepOptions& options, const RunContext& context)
 {
     ImproveOptions improving = options.improving;
     improving.good_enough = std::max(improving.good_enough, options.min_scaled_jacobian);
-    quality::Proof proof = quality::prove(swept.mesh, std::move(measured), options.min_scaled_jacobian,
-                                          context);
+    quality::Proof proof = quality::prove(swept.mesh, options.min_scaled_jacobian, context);
     const bool poor = proof.finding ? quality::can_be_improved(proof.finding->fault)
                                     : proof.quality.min_scaled_jacobian < improving.good_enough;
     if (!options.improve || !poor) return proof;

@@ -369,7 +369,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                                                 std::move(good->found.quality),
                                                 std::move(good->found.misplaced), options.min_scaled_jacobian)
                                : prove_or_improve(result, volume.model, faces, still, std::move(kept.held),
-                                                  {}, options, context);
+                                                  options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     const std::string wedges = quality.wedges > 0 ? formatted(" hexahedra and {} wedges", quality.wedges)

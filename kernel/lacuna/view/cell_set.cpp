@@ -58,17 +58,14 @@ std::vector<double> quality_of(const ListedCells& region, const RunContext& cont
                                                         quality::Metric::scaled_jacobian, context);
     for (std::size_t c = 0; c < values.size(); ++c)
         if (region.cells[c][4] == region.cells[c][5]) values[c] = std::numeric_limits<double>::quiet_NaN();
-    parallel_for(context, region.curved.size(), quality::kCurvedGrain,
-                 [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t c = begin; c < end; ++c) {
-                         const std::span<const Index> own = region.curved[c].all();
-                         if (own.empty()) continue;
-                         std::array<Vec3, 27> places;
-                         for (std::size_t k = 0; k < own.size(); ++k) places[k] = region.nodes[index(own[k])];
-                         const std::array<Vec3, 27> all = mesh::as_hex27(std::span(places).first(own.size()));
-                         if (!quality::is_straight(all)) values[c] = quality::judge(all, 0).scaled_jacobian;
-                     }
-                 });
+    parallel_each(context, region.curved.size(), quality::kCurvedGrain, [&](std::size_t c) {
+        const std::span<const Index> own = region.curved[c].all();
+        if (own.empty()) return;
+        std::array<Vec3, 27> places;
+        for (std::size_t k = 0; k < own.size(); ++k) places[k] = region.nodes[index(own[k])];
+        const std::array<Vec3, 27> all = mesh::as_hex27(std::span(places).first(own.size()));
+        if (!quality::is_straight(all)) values[c] = quality::judge(all, 0).scaled_jacobian;
+    });
     return values;
 }
 

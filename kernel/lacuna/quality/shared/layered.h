@@ -60,9 +60,4 @@ std::optional<Finding> find_misplaced(const mesh::LayeredMesh& layered, std::spa
 Proof prove(const mesh::LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,
             double min_scaled_jacobian = 0);
 
-/// As `prove()`, for a mesh whose cells were measured after its nodes last moved.
-/// @param measured  the result of `measure()`; if empty, the cells are measured.
-Proof prove(const mesh::HexMesh& mesh, std::optional<Quality> measured, double min_scaled_jacobian,
-            const RunContext& context = {});
-
 } // namespace lacuna::quality

@@ -4,7 +4,6 @@
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/sweep.h>
 
-#include <optional>
 #include <set>
 #include <vector>
 
@@ -16,10 +15,8 @@ namespace lacuna::sweep {
 /// @param faces  of each patch of the skin.
 /// @param kept   faces that keep their own quads: their nodes are fixed.
 /// @param held   of each node, whether it is fixed; empty: none is.
-/// @param measured  the quality of the cells before; empty: unknown.
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::set<FaceId>& kept, std::vector<char> held,
-                                std::optional<quality::Quality> measured, const SweepOptions& options,
-                                const RunContext& context);
+                                const SweepOptions& options, const RunContext& context);
 
 } // namespace lacuna::sweep
