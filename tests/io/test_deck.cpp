@@ -3,6 +3,7 @@
 #include "support/refusal.h"
 
 #include <lacuna/io/deck.h>
+#include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/load_facets.h>
 
 #include <doctest/doctest.h>
@@ -621,4 +622,14 @@ TEST_CASE("named continuations of Nastran are found wherever they lie, and kept 
     CHECK(has(deck_failure("a.bdf", astray),
               "line 4: CTRIA3: its continuation '+W' is not there, and '+X,1,2'"));
     CHECK(io::read_deck("a.bdf", flat + "CTRIA3,7,1,1,2,3,,,,+Y\nCTRIA3,8,1,1,2,3\n").element_count() == 2);
+}
+
+TEST_CASE("a keyword that continues on the next line of an Abaqus text ends there")
+{
+    const std::string text = "** before\n*SOLID SECTION, ELSET=A,\n MATERIAL=STEEL\n1., 2.,\n*STEP\n1, 2\n";
+    const std::vector<io::AbaqusCard> cards = io::abaqus_cards(text);
+    REQUIRE(cards.size() == 3);
+    CHECK(cards[1].keyword.value("MATERIAL") == "STEEL");
+    CHECK(cards[1].data == "1., 2.,\n");
+    CHECK(cards[2].keyword.name == "STEP");
 }

@@ -17,9 +17,11 @@ constexpr std::size_t kAtOnce = 20'000;
 /// process, with the models it holds, need not be killed.
 constexpr double kGrace = 0.3;
 
-/// Replace points, and their parameters on a surface, by those of the process that holds a face or curve.
-/// @param kind, doing  as in Task
-/// @param make  makes the request for some of the points, from the handle of the model.
+/// Ask the process that holds a face or curve for points, `kAtOnce` at a time. Overwrites the points, and on a
+/// surface their parameters.
+/// @param kind   of the entity, for messages
+/// @param doing  as in Task
+/// @param make   `make(handle, from, count)` makes the request for some of the points.
 template <class Reply, class Make>
 void ask_points(const CadEntity& entity, const char* kind, const char* doing, Opcode opcode, const Make& make,
                 std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context)

@@ -93,8 +93,11 @@ void check(const RecombineReply& m)
 
 void check(const BeginSolidReply& m)
 {
-    for (const auto& source : m.sources)
+    for (const auto& source : m.sources) {
         require(source.curves.size() == source.curve_points.size(), "curves have no points");
+        for (const auto& points : source.curve_points)
+            require_finite(points, "a point of a curve is not finite");
+    }
 }
 
 void check(const MakeSolidRequest& m)

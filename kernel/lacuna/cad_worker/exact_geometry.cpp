@@ -236,7 +236,8 @@ std::vector<Vec3> plain_form(int tag, double first, double last)
     const std::vector<Vec3> along = curve_tangents(tag, {0.0, kRightAngle});
     geometry::PlainCurve plain{{start, along[0]}};
     if (!line) {
-        const Vec3 out = std::cos(kRightAngle) * along[0] - along[1]; // the computed cosine is 6e-17, not 0
+        // The tangent at kRightAngle as computed: its cosine is 6e-17, not 0.
+        const Vec3 out = std::cos(kRightAngle) * along[0] - along[1];
         plain.form = {start - out, out, along[0]};
     }
     std::vector<double> params;

@@ -68,7 +68,8 @@ void Session::save(const std::string& option, const std::optional<Value>& next)
 
 Session::Session(std::string subject) : subject_(std::move(subject))
 {
-    // Of the options of meshing, recombine() sets those that it needs, and nothing else reads any.
+    run([&] { gmsh::logger::getLastError(last_error_); });
+    // A script may set these. Its Mesh options need no restoring: only recombine() meshes, and it sets its own.
     for (const char* option : {"General.Terminal", "General.Verbosity", "General.AbortOnError",
                                "General.NumThreads", "Geometry.Tolerance", "Geometry.AutoCoherence"})
         run([&] { save<double>(option, std::nullopt); });
@@ -88,7 +89,10 @@ void Session::set(const std::string& option, const std::string& value) { save<st
 void Session::fail(const std::string& message) const
 {
     std::string words = message;
-    if (words.empty()) gmsh::logger::getLastError(words);
+    if (words.empty()) {
+        gmsh::logger::getLastError(words);
+        if (words == last_error_) words.clear(); // of an earlier file
+    }
     if (words.empty()) words = "it gave no reason";
     if (words.starts_with("Out of memory")) throw std::bad_alloc(); // Gmsh's allocator reports this as text
     refuse(Message("cad.gmsh", "Gmsh failed: {}", words));

@@ -23,7 +23,8 @@ public:
     [[nodiscard]] static std::string version();
 };
 
-/// A scope for calls of Gmsh: at its end, options that it set, or that a script may have set, are restored.
+/// A scope for calls of Gmsh: at its end, the options that it set are restored, and the options of a script
+/// that later calls depend on.
 /// @pre  a `Gmsh` object exists.
 class Session {
 public:
@@ -70,6 +71,7 @@ private:
     void save(const std::string& option, const std::optional<Value>& next);
 
     std::string subject_;
+    std::string last_error_;                      ///< of Gmsh before the session
     std::vector<std::function<void()>> restores_; ///< of changed options
 };
 

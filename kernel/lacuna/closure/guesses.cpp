@@ -94,8 +94,6 @@ double off_one_plane(std::vector<Vec3> places)
     return furthest;
 }
 
-bool has_many_corners(const Model& model, const Loop& loop) { return sharp_corners(model, loop).size() > 4; }
-
 /// The angles between consecutive segments of a chain, largest first [radians].
 std::vector<double> turns_of(const std::vector<Vec3>& chain)
 {
@@ -143,7 +141,7 @@ bool is_rim_far_off_plane(const Model& model, double enclosed, FaceId face, cons
 bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
 {
     for (const Loop& loop : model[face].loops)
-        if (has_many_corners(model, loop) && is_straight_sided(model, loop) &&
+        if (sharp_corners(model, loop).size() > 4 && is_straight_sided(model, loop) &&
             is_rim_far_off_plane(model, enclosed, face, loop))
             return true;
     return beside_thin_plate(model, face).all >= kBendDoubt * enclosed;

@@ -7,7 +7,6 @@
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
-#include <lacuna/core/error.h>
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>

@@ -116,14 +116,14 @@ private:
         }
     }
 
-    /// The largest number of partitions that are passed on the way forward from a part.
+    /// Number of pieces in front of a part, along the longest way.
     [[nodiscard]] int steps_below(const Part& part) const
     {
         int steps = 0;
-        for (const FaceId face : part.behind)
-            for (const Part& other : parts_)
-                if (&other != &part && std::ranges::find(other.partitions, face) != other.partitions.end())
-                    steps = std::max(steps, 1 + steps_below(other));
+        for (const Part& other : parts_)
+            if (&other != &part &&
+                std::ranges::find_first_of(part.behind, other.partitions) != part.behind.end())
+                steps = std::max(steps, 1 + steps_below(other));
         return steps;
     }
 

@@ -480,10 +480,10 @@ std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<
     for (const Steps& own : steps) {
         for (const Hanging& hanging : own.closed) faces.push_back(own.parts[hanging.part].front());
     }
-    const auto pieces = unless_refused([&] { return cut_by_planes(volume, faces, context); });
+    auto pieces = unless_refused([&] { return cut_by_planes(volume, faces, context); });
     const auto stepped = [&](const StepPiece& piece) { return is_stepped(piece.volume, context); };
     if (!pieces || std::ranges::any_of(*pieces, stepped)) return {};
-    return *pieces;
+    return std::move(*pieces);
 }
 
 } // namespace

@@ -51,9 +51,10 @@ bool faces_outward(const Model& model, const std::vector<FaceId>& faces)
     return sum >= 0;
 }
 
-/// Whether the ends in a part face the opposite ends in other parts, or else those in the same part
-/// (positive), or face away from them (negative): the area of the ends times the cosine of the angle between
-/// their normals and the direction to the opposite ends' centre [model length²].
+/// Positive if the ends in a part face the opposite ends, negative if they face away. Opposite ends in other
+/// parts count; those of the same part only if there are no others.
+/// @return  sum over both ends: area times the cosine between the normal and the direction to the centre of
+///          the opposite ends [model length²].
 double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part)
 {
     double before = 0;

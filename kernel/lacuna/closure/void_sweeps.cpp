@@ -29,7 +29,9 @@ bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context
 {
     OpenVolume volume{skin, std::vector<Role>(skin.faces.size())};
     set_ends(volume, roles);
-    return unless_refused([&] { return !has_steps(volume, context) || !cut_steps(volume, context).empty(); })
+    return unless_refused([&] {
+               return has_steps(volume, context) ? cut_steps(volume, context) : std::vector<StepPiece>();
+           })
         .has_value();
 }
 
@@ -210,7 +212,8 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
 {
     Reading reading;
     reading.enclosed = found.sealed.enclosed;
-    reading.guess = guess_of_bent(found.sealed.volume, found.sealed.closure, RolesBy::finding);
+    if (found.untold || !found.filled.empty())
+        reading.guess = guess_of_bent(found.sealed.volume, found.sealed.closure, RolesBy::finding);
     const RoleCandidate& first = found.first;
     const std::vector<FaceId> names = all_faces(first.roles);
     if (!reading.guess) note_hole(model, found.through, names, found.sealed, reading);

@@ -23,6 +23,8 @@ namespace {
 constexpr std::array kGeometries{"given",         "Newell",         "transfinite",
                                  "annular strip", "followed sides", "parallel to the other end"};
 
+static_assert(kGeometries.size() == static_cast<std::size_t>(topology::Geometry::parallel) + 1);
+
 const char* word(topology::Geometry geometry) { return kGeometries[static_cast<std::size_t>(geometry)]; }
 
 const char* word(Role role)

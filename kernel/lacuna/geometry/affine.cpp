@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/affine.h>
+
+#include <lacuna/core/shared/constants.h>
 
 #include <Eigen/QR>
 #include <Eigen/SVD>

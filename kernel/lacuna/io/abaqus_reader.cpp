@@ -729,13 +729,17 @@ std::vector<AbaqusCard> abaqus_cards(std::string_view text)
     std::vector<AbaqusCard> cards(1);
     for (std::size_t begin = 0, at = 0; at < text.size(); begin = at) {
         const auto next_line = [&] {
-            const std::size_t end = std::min(text.find('\n', at), text.size());
-            return trimmed(text.substr(std::exchange(at, std::min(end + 1, text.size())), end - begin));
+            const std::size_t from = at, end = std::min(text.find('\n', at), text.size());
+            at = std::min(end + 1, text.size());
+            return trimmed(text.substr(from, end - from));
         };
-        std::string words(next_line());
-        const bool comment = words.starts_with("**"), keyword = !comment && words.starts_with('*');
-        while (keyword && words.ends_with(',') && at < text.size()) words += next_line();
-        if (keyword) cards.push_back({parse_keyword(words)});
+        const std::string_view line = next_line();
+        const bool comment = line.starts_with("**"), keyword = !comment && line.starts_with('*');
+        if (keyword) {
+            std::string words(line);
+            while (words.ends_with(',') && at < text.size()) words += next_line();
+            cards.push_back({parse_keyword(words)});
+        }
         AbaqusCard& card = cards.back();
         const auto extend = [&](std::string_view& lines) {
             lines = text.substr(lines.empty() ? begin : static_cast<std::size_t>(lines.data() - text.data()));

@@ -36,11 +36,12 @@ constexpr std::array<std::uint8_t, 27> kSame{0,  1,  2,  3,  4,  5,  6,  7,  8, 
 std::span<const std::uint8_t> node_places(NodeOrder order, DeckShape shape)
 {
     const auto [dimension, corners, nodes] = shape_info(shape);
+    if (nodes == corners) return std::span(kSame).first(static_cast<std::size_t>(nodes));
     const auto own = std::ranges::find_if(kOwnOrders, [&](const OwnOrder& of) {
         const auto [own_dimension, own_corners, most] = shape_info(of.shape);
         return of.order == order && own_dimension == dimension && own_corners == corners && nodes <= most;
     });
-    const bool differs = nodes > corners && own != std::end(kOwnOrders);
+    const bool differs = own != std::end(kOwnOrders);
     return std::span(differs ? own->places : kSame).first(static_cast<std::size_t>(nodes));
 }
 

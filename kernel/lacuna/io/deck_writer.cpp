@@ -204,7 +204,7 @@ TextNumbers numbers_in_text(const Deck& deck)
         if (deck.format != DeckFormat::abaqus) continue;
         for (const AbaqusCard& card : abaqus_cards(text.text)) {
             if (card.keyword.name == "SURFACE") numbers.surfaces.push_back(card.keyword.value("NAME"));
-            if (!card.keyword.name.starts_with("ELEMENT")) continue;
+            if (card.keyword.name != "ELEMENT") continue;
             each_data_line(card, [&](std::string_view line) {
                 if (const auto tag = parse_integer<DeckTag>(next_field(line)); tag && *tag >= 0)
                     numbers.cells.insert(*tag);
@@ -245,10 +245,11 @@ std::optional<std::string> section_material(const Deck& deck, std::string_view s
 
 std::pair<std::string, std::string> model_and_steps(const std::string& cards)
 {
-    for (const AbaqusCard& card : abaqus_cards(cards))
-        if (const auto step = static_cast<std::size_t>(card.text.data() - cards.data());
-            card.keyword.name == "STEP")
-            return {cards.substr(0, step), cards.substr(step)};
+    for (const AbaqusCard& card : abaqus_cards(cards)) {
+        if (card.keyword.name != "STEP") continue;
+        const auto step = static_cast<std::size_t>(card.text.data() - cards.data());
+        return {cards.substr(0, step), cards.substr(step)};
+    }
     return {cards, {}};
 }
 

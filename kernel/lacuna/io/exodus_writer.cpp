@@ -191,10 +191,10 @@ private:
 };
 
 /// Numbers of an element's nodes in Exodus's order.
-char* put_nodes(DeckShape shape, std::span<const Index> nodes, char* out)
+/// @param places  from `node_places()`
+char* put_nodes(std::span<const std::uint8_t> places, std::span<const Index> nodes, char* out)
 {
     std::array<Index, 27> ordered{};
-    const auto places = node_places(NodeOrder::exodus, shape);
     for (std::size_t k = 0; k < nodes.size(); ++k) ordered[places[k]] = nodes[k];
     for (std::size_t k = 0; k < nodes.size(); ++k)
         out = io::put_big(out, static_cast<std::int32_t>(ordered[k]) + 1);
@@ -430,9 +430,10 @@ private:
             nc_.array(
                 "connect" + number, NcType::whole, {rows, columns}, nodes,
                 [view = view_, blocks = blocks_, &block, &of](std::size_t begin, std::size_t end, char* out) {
+                    const auto places = node_places(NodeOrder::exodus, of.shape);
                     block.elements.each(begin, end, [&](std::size_t first, std::size_t last) {
                         of.each_cell(first, last, [&](std::size_t, std::span<const Index> own) {
-                            out = put_nodes(of.shape, own, out);
+                            out = put_nodes(places, own, out);
                         });
                     });
                     return out;

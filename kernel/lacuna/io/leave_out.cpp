@@ -6,7 +6,6 @@
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_writer.h>
-#include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
@@ -162,6 +161,9 @@ private:
     /// face also belongs to a remaining solid.
     void mark_skin()
     {
+        if (std::ranges::none_of(
+                deck_.blocks, [](const DeckBlock& block) { return shape_info(block.shape).dimension == 2; }))
+            return;
         each_with_same_nodes(deck_, [&](std::span<const NumberedCell> alike) {
             bool out = false, stays = false;
             for (const auto& [others, number] : alike)

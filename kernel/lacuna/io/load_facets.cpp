@@ -163,27 +163,28 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     FacetFile all;
     LoadedFiles loaded{.scale = options.scale};
     std::string source;
-    std::vector<Deck> decks;
+    std::vector<std::string> missing = options.without;
     for (const std::string& path : paths) {
         check_cancelled(context);
         source += (source.empty() ? "" : ", ") + path;
-        for (const std::string& warning : decks.emplace_back(read_deck(path)).warnings)
+        auto deck = std::make_shared<Deck>(read_deck(path));
+        for (const std::string& warning : deck->warnings)
             loaded.warnings.push_back({"io.read_differently", "{}", warning});
-    }
-    for (const std::string& part : options.without)
-        if (std::ranges::none_of(decks, [&](const Deck& deck) { return has_part(deck, part); }))
-            refuse_part(decks, part);
-    for (Deck& read : decks) {
-        auto deck = std::make_shared<Deck>(std::move(read));
+        std::erase_if(missing, [&](const std::string& part) { return has_part(*deck, part); });
         std::vector<std::string> parts = options.without;
         std::erase_if(parts, [&](const std::string& part) { return !has_part(*deck, part); });
         if (!parts.empty()) *deck = leave_out(*deck, parts).kept;
         check_cancelled(context);
         FacetFile file = facets_of(*deck, options.tolerance / options.scale);
-        const bool is_mesh = deck->format != DeckFormat::stl && deck->format != DeckFormat::obj;
+        const bool is_mesh = format_of(deck->format).is_mesh;
         file.soup.label_keeps_nodes.assign(file.label_tag.size(), options.keep_mesh && is_mesh ? 1 : 0);
         append(all, std::move(file));
         if (is_mesh) loaded.decks.push_back(std::move(deck));
+    }
+    if (!missing.empty()) { // decks are read once more to name the parts that they have
+        std::vector<Deck> decks;
+        for (const std::string& path : paths) decks.push_back(read_deck(path));
+        refuse_part(decks, missing.front());
     }
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;

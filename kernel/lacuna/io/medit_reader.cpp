@@ -51,8 +51,7 @@ public:
             cursor_.fail("expected MeshVersionFormatted, found {}", found(shown(word)));
         cursor_.integer();
         while (!(word = next_word()).empty() && !same_word(word, "End")) {
-            const auto section = std::ranges::find_if(
-                kSections, [&](const Section& known) { return same_word(known.name, word); });
+            const auto section = find_word(kSections, word, &Section::name);
             if (same_word(word, "Dimension")) {
                 if (cursor_.integer() != 3) cursor_.fail("expected Dimension 3");
             } else if (section == std::end(kSections)) {

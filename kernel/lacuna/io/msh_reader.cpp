@@ -11,7 +11,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 
 namespace lacuna::io {
 
@@ -353,7 +352,7 @@ private:
         const DeckBuilder::Room room = into_.add_elements(block_, count, region_);
         std::array<std::size_t, 27> from{};
         const auto places = node_places(NodeOrder::gmsh, type.shape);
-        for (std::size_t k = 0; k < kept; ++k) from[k] = 1 + skipped + (places[k]);
+        for (std::size_t k = 0; k < kept; ++k) from[k] = 1 + skipped + places[k];
         const char* at = bytes.data();
         Index* node = room.nodes;
         for (std::size_t i = 0; i < count; ++i, at += numbers * sizeof(Tag)) {

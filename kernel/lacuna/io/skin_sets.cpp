@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/io/deck_file.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/join_sets.h>
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/matching/detail/assignment.h>
+
+#include <lacuna/core/shared/constants.h>
 
 #include <cmath>
 
@@ -18,18 +19,17 @@ std::vector<int> assign(const Eigen::MatrixXd& cost)
         const double c = cost(row, column);
         return std::isfinite(c) ? c : finite_sum;
     };
-    const double infinity = kInfinity;
     std::vector<double> row_potential(n + 1, 0), column_potential(n + 1, 0);
     std::vector<int> row_of(n + 1, 0), way(n + 1, 0);
     for (int row = 1; row <= n; ++row) {
         row_of[0] = row;
         int column = 0;
-        std::vector<double> least(n + 1, infinity);
+        std::vector<double> least(n + 1, kInfinity);
         std::vector<bool> used(n + 1, false);
         do {
             used[column] = true;
             const int from = row_of[column];
-            double delta = infinity;
+            double delta = kInfinity;
             int next = 0;
             for (int j = 1; j <= n; ++j) {
                 if (used[j]) continue;

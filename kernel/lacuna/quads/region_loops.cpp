@@ -2,7 +2,7 @@
 #include <lacuna/quads/detail/region_loops.h>
 
 #include <algorithm>
-#include <numeric>
+#include <lacuna/core/shared/renumbered.h>
 
 namespace lacuna::quads {
 
@@ -110,20 +110,11 @@ void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQ
 
 void drop_loose_points(PlanarQuads& mesh, std::size_t fixed)
 {
-    std::vector<Index> number(mesh.points.size(), -1);
-    std::iota(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(fixed), Index{0});
-    std::vector<Vec2> points(mesh.points.begin(), mesh.points.begin() + static_cast<std::ptrdiff_t>(fixed));
-    for (Quad& quad : mesh.quads) {
-        for (Index& p : quad) {
-            Index& own = number[index(p)];
-            if (own < 0) {
-                own = static_cast<Index>(points.size());
-                points.push_back(mesh.points[index(p)]);
-            }
-            p = own;
-        }
-    }
-    mesh.points = std::move(points);
+    Renumbered number(mesh.points);
+    for (std::size_t p = 0; p < fixed; ++p) number(p);
+    for (Quad& quad : mesh.quads)
+        for (Index& p : quad) p = number(p);
+    mesh.points = std::move(number.used);
 }
 
 } // namespace lacuna::quads

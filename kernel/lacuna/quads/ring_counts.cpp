@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace lacuna::quads {
 namespace {
@@ -174,16 +175,16 @@ std::optional<std::vector<int>> ring_counts(const CountTask& task)
     if (about == 0) return std::nullopt;
     const auto ring = ring_loops(task, about);
     if (!ring) return std::nullopt;
+    const bool alone = ring->others.empty();
     // Prefer numbers that preserve the symmetry of the loops.
-    const int symmetric = std::lcm(repeats(task, 0), repeats(task, about));
+    const int symmetric = alone ? std::lcm(repeats(task, 0), repeats(task, about)) : 1;
     std::optional<std::vector<CountedLoop>> best;
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
     const double size = mean_size(task);
-    const bool alone = ring->others.empty();
     const int steps = alone ? widths.steps(size) : 0;
     // Prefer an even number, so that quads alone can fill the area beyond a loop.
-    for (const int multiple : {std::lcm(alone ? symmetric : 1, 2), 2, 1}) {
-        if (!best)
+    for (int last = 0; const int multiple : {std::lcm(symmetric, 2), 2, 1}) {
+        if (!best && multiple != std::exchange(last, multiple))
             best = ring_ends(task, ring->ends, ring->along, multiple, std::array{2 * steps},
                              alone ? kRingSegment : kRingWithHoles);
     }

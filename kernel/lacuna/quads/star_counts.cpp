@@ -13,8 +13,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// Cost of numbers that are not allowed, and of numbers that miss the promised number of quads (within a
-/// quarter). The latter exceeds any cost of sides within their range.
+/// Added cost of numbers that miss the promised number of quads (within a quarter): exceeds any cost of sides
+/// within their range.
 constexpr double kOffAsked = 1e6;
 
 /// The segments between the corners of a patch; empty if a side bends or is not one segment.

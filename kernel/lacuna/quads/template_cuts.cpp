@@ -24,8 +24,6 @@ int twice_foot(const SideCounts& counts, std::size_t i)
     return twice;
 }
 
-int least_twice(bool ends_in_cut, std::size_t i) { return ends_in_cut && i == 0 ? 0 : 2; }
-
 /// Whether a patch can be filled without a cut.
 bool needs_no_cut(const SideCounts& counts)
 {
@@ -112,7 +110,7 @@ bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMos
 {
     for (std::size_t i = 0; i < counts.count; ++i) {
         const int twice = twice_foot(counts, i);
-        if (twice < least_twice(ends_in_cut, i) || twice % 2 != 0) return false;
+        if (twice < (ends_in_cut && i == 0 ? 0 : 2) || twice % 2 != 0) return false;
         foot[i] = twice / 2;
     }
     return true;

@@ -165,8 +165,8 @@ private:
         }
     }
 
-    /// Collect the nodes, ascending, of one share of the grid's cubes. A node within a tolerance of another
-    /// cube belongs to that too. @return false if there are too many
+    /// Collect the nodes, ascending, in one share of the grid's cubes. A node within a tolerance of a second
+    /// cube counts in both. @return false if there are too many
     bool gather(std::size_t share, std::size_t shares)
     {
         entries_.clear();

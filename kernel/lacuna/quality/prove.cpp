@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/core/shared/constants.h>
 #include <lacuna/quality/detail/coincident.h>
 #include <lacuna/quality/detail/findings.h>
 #include <lacuna/quality/detail/text.h>
@@ -7,6 +6,7 @@
 #include <lacuna/quality/shared/layered.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/mesh/quad_mesh.h>
 
 #include <algorithm>

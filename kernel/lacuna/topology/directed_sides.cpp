@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/detail/directed_sides.h>
-#include <lacuna/topology/shared/face_parts.h>
 
 #include <lacuna/topology/shared/face_parts.h>
 

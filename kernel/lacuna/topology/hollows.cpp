@@ -89,7 +89,10 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
     std::vector<FaceId> rest, result;
     std::ranges::copy_if(all_faces(model), std::back_inserter(rest),
                          [&](FaceId face) { return std::ranges::find(cavity, face) == cavity.end(); });
-    const std::set<EdgeId> brims = rim_edges(model, cavity);
+    const std::vector<Rim> mouths = rims(model, cavity);
+    std::set<EdgeId> brims;
+    for (const Rim& rim : mouths)
+        for (const EdgeUse& use : rim.uses) brims.insert(use.edge);
     std::vector<std::vector<FaceId>> parts;
     for (std::vector<FaceId>& part : connected_parts(model, rest)) {
         const std::vector<Rim> own = rims(model, part);
@@ -104,7 +107,7 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
     });
     const std::set<EdgeId> of_outside = rim_edges(model, *outside);
     parts.erase(outside);
-    for (const Rim& rim : rims(model, cavity)) {
+    for (const Rim& rim : mouths) {
         if (!of_outside.contains(rim.uses.front().edge)) continue;
         const std::vector<Vec3> mouth = loop_places(model, rim.uses);
         const Vec3 out = geometry::newell_vector(mouth).stableNormalized();

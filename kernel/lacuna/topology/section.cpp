@@ -392,6 +392,7 @@ private:
             for (std::size_t i = 1; i + 1 < whole.points.size(); ++i)
                 if (vertex_points_.contains(whole.points[i]))
                     cuts.emplace_back(i, vertex_at_.at(whole.points[i]));
+            if (cuts.empty()) continue;
             std::vector<Edge> parts = divided(whole, cuts);
             for (std::size_t k = 1; k < parts.size(); ++k) {
                 parts[k].tag = next[parts[k].origin == Origin::given ? 0 : 1]++;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace lacuna::topology {
 
@@ -117,19 +118,21 @@ SplitPlace place_of_split(const Model& model, EdgeId id, const std::vector<FaceI
 
 } // namespace
 
-std::vector<Edge> divided(const Edge& whole, const std::vector<std::pair<std::size_t, VertexId>>& at)
+std::vector<Edge> divided(Edge whole, const std::vector<std::pair<std::size_t, VertexId>>& at)
 {
+    const std::vector<Index> points = std::exchange(whole.points, {});
+    const std::vector<double> params = std::exchange(whole.params, {});
     std::vector<Edge> parts(at.size() + 1, whole);
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const std::size_t first = k == 0 ? 0 : at[k - 1].first;
-        const std::size_t last = k < at.size() ? at[k].first : whole.points.size() - 1;
+        const std::size_t last = k < at.size() ? at[k].first : points.size() - 1;
         if (k > 0) parts[k].from = at[k - 1].second;
         if (k < at.size()) parts[k].to = at[k].second;
         const auto cut = [&](auto& list, const auto& all) {
             list = {all.begin() + std::ptrdiff_t(first), all.begin() + std::ptrdiff_t(last) + 1};
         };
-        cut(parts[k].points, whole.points);
-        if (!whole.params.empty()) cut(parts[k].params, whole.params);
+        cut(parts[k].points, points);
+        if (!params.empty()) cut(parts[k].params, params);
     }
     return parts;
 }

@@ -44,7 +44,7 @@ std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh)
 
 namespace {
 
-/// The eight corners of a solid that has four or more.
+/// Solids as hexahedra with repeated corners, by their number of corners less four; none has seven.
 constexpr Hex kCorners[] = {{0, 1, 2, 2, 3, 3, 3, 3},
                             {0, 1, 2, 3, 4, 4, 4, 4},
                             mesh::hex_of({0, 1, 2, 3, 4, 5}),

@@ -90,7 +90,8 @@ private:
                                  const std::vector<int>& descriptors);
     void flush_released();
     void limit_memory(std::uint64_t bytes) const;
-    /// Kill the process if it is running, and record how it ended. @param why  we kill it
+    /// Kill the process if it is running, and record how it ended.
+    /// @param why  the reason, for messages of later calls; empty: they give the exit status.
     void end(std::string why = {}) noexcept;
     [[nodiscard]] std::string how_it_ended() const;
     [[nodiscard]] std::string last_words() const;

@@ -208,8 +208,9 @@ struct ReleaseRequest {
 
 // --- bytes --------------------------------------------------------------------------------------------
 
-/// Check that the numbers of a reply are finite, and its indices in range. The CAD process checks the indices
-/// of a request where it uses them.
+/// Check a message, as far as `decode()` does not. Replies come from a process that is not trusted: their
+/// numbers are finite, and their indices in range. Of requests, only what the CAD process does not check where
+/// it uses it.
 /// @throw ProtocolError
 template <class T>
 void check(const T&)

@@ -7,7 +7,8 @@
 
 namespace lacuna::closure {
 
-/// The result of an action; empty if the faces do not permit it and it throws. Cancelling passes through.
+/// The result of an action; empty if it throws an error of the kernel, for instance because the faces do not
+/// permit it. `Cancelled` passes through.
 template <class Do>
 auto unless_refused(const Do& action) -> std::optional<decltype(action())>
 {

@@ -32,7 +32,7 @@ struct StepPiece {
 /// @return  pieces of level 0 first; the volume itself if its ends have no steps.
 /// @throw NotSweepable "closure.steps"  a step whose rim does not lie below one face of the opposite end, or
 ///         that ends at other walls and is not flat; an end in several parts that no walls join; names the
-///         faces.
+///         faces. "closure.cut_apart"  the faces extruded from a rim do not separate the volume.
 /// @note  O(facets log facets) per step. The direction is the mean normal of the stepped end.
 std::vector<StepPiece> cut_steps(const topology::OpenVolume& volume, const RunContext& context = {});
 

@@ -3,8 +3,8 @@
 
 /// Macros and types for functions compiled for several instruction sets; the widest is chosen at run time.
 
-/// A function that is inlined into each caller, and so compiled for the instruction set of the caller; the
-/// second follows the parameters of a lambda.
+/// LACUNA_INLINE: a function that is inlined into each caller, and so compiled for the caller's instruction
+/// set. LACUNA_INLINE_BODY: the same for a lambda, written after its parameters.
 #if defined(__GNUC__)
 #define LACUNA_INLINE [[gnu::always_inline]] inline
 #define LACUNA_INLINE_BODY __attribute__((always_inline))

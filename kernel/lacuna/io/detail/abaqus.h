@@ -23,12 +23,14 @@ struct Keyword {
 /// @param words  from the star on, with continuation lines joined. @pre not empty
 Keyword parse_keyword(std::string_view words);
 
-/// A keyword of a text with its lines.
+/// A keyword with the lines up to the next one. The first card has no name: it holds the lines before the
+/// first keyword.
 struct AbaqusCard {
-    Keyword keyword{};       ///< without a name: of the lines before the first one
-    std::string_view text{}; ///< with the comments below it
-    std::string_view data{}; ///< from the first data line to the last
+    Keyword keyword{};
+    std::string_view text{}; ///< all its lines, with comments
+    std::string_view data{}; ///< from its first data line to its last, with comments between
 };
+/// The cards of a text. They view the text.
 std::vector<AbaqusCard> abaqus_cards(std::string_view text);
 /// Call `take(line)` for the data lines of a card.
 template <class Take>

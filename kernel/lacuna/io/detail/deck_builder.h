@@ -105,7 +105,7 @@ DeckBlock without_elements(const DeckBlock& block, const Gone& gone)
     }
     return kept;
 }
-/// Append the elements of a block to another, likewise without these fields.
+/// Append the elements of a block to another, without the card fields after their nodes (`DeckBlock::more`).
 /// @param first_point   added to their point indices; `first_region` to their region indices.
 /// @param raise  added to their tags.
 void append_block(const DeckBlock& from, Index first_point, Index first_region, DeckTag raise, DeckBlock& to);

@@ -3,8 +3,6 @@
 
 #include <lacuna/quads/region.h>
 
-#include <cstddef>
-
 namespace lacuna::quads::paving {
 
 /// Give every boundary node at least as many quads as its angle needs, so that no corner is straight or

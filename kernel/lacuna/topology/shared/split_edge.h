@@ -20,7 +20,7 @@ int next_tag(const std::vector<Entity>& all, Origin origin)
 }
 
 /// The parts of an edge that is split at inner points, rising, which become vertices. All have its tag.
-std::vector<Edge> divided(const Edge& whole, const std::vector<std::pair<std::size_t, VertexId>>& at);
+std::vector<Edge> divided(Edge whole, const std::vector<std::pair<std::size_t, VertexId>>& at);
 
 /// Result of `split_edge()`.
 struct EdgeSplit {
