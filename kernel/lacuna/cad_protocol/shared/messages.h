@@ -209,8 +209,8 @@ struct ReleaseRequest {
 // --- bytes --------------------------------------------------------------------------------------------
 
 /// Check a message, as far as `decode()` does not. Replies come from a process that is not trusted: their
-/// numbers are finite, and their indices in range. Of requests, only what the CAD process does not check where
-/// it uses it.
+/// numbers are finite, and their indices in range. Of requests, only what the CAD process does not check
+/// where it uses it.
 /// @throw ProtocolError
 template <class T>
 void check(const T&)

@@ -104,8 +104,8 @@ inline constexpr double kGrading = 0.3;
 /// A paving may deviate from the requested number of quads by this share.
 inline constexpr double kQuadsOff = 0.25;
 
-/// A paving is accepted if at least this share of its sides has the requested size, and at least this share of
-/// its rows along the boundary is good.
+/// A paving is accepted if at least this share of its sides has the requested size, and at least this share
+/// of its rows along the boundary is good.
 inline constexpr double kPromisedShare = 0.95;
 
 } // namespace lacuna

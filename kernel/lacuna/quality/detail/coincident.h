@@ -25,8 +25,8 @@ inline double coincidence_tolerance(const Eigen::AlignedBox3d& bounds)
 }
 
 /// A grid of cubes with sides of 1024 tolerances. A point within a tolerance of a side is entered in the next
-/// cube too, which is rare: so two points within a tolerance share a cube. The grid is shifted by a fraction of a cube against the bounds, as meshes
-/// often have whole planes of nodes exactly there.
+/// cube too, which is rare: so two points within a tolerance share a cube. The grid is shifted by a fraction
+/// of a cube against the bounds, as meshes often have whole planes of nodes exactly there.
 struct CoincidenceGrid {
     Vec3 corner;
     double tolerance;
