@@ -3,7 +3,7 @@
 #include "bench.h"
 
 #include <lacuna/io/deck.h>
-#include <lacuna/io/msh.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/mesh/quad_mesh.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/quality/shared/metrics.h>
@@ -121,7 +121,7 @@ void measure_files(const mesh::HexMesh& mesh, const std::string& size, const std
     const std::string path = (folder / "lacuna_bench.msh").string();
     // A new file each time: replacing one makes the file system write the old one out first.
     const auto remove = [&] { std::filesystem::remove(path); };
-    const auto write = [&](const char* name, const io::MshOptions& options, int threads) {
+    const auto write = [&](const char* name, const io::MeshFileOptions& options, int threads) {
         RunContext context;
         context.threads = threads;
         const auto timing = bench::time_of(kRuns, remove,
@@ -134,7 +134,7 @@ void measure_files(const mesh::HexMesh& mesh, const std::string& size, const std
     write("msh22_binary", {true, 2.2}, all);
     write("msh_text", {false, 4.1}, all);
     // With the scaled Jacobian of every cell, measuring it included.
-    const auto write_with_quality = [&](const char* name, io::MshOptions options, int threads) {
+    const auto write_with_quality = [&](const char* name, io::MeshFileOptions options, int threads) {
         RunContext context;
         context.threads = threads;
         const auto timing = bench::time_of(kRuns, remove, [&] {

@@ -14,7 +14,6 @@
 #include <lacuna/io/leave_out.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/mesh_file.h>
-#include <lacuna/io/msh.h>
 #include <lacuna/quality/shared/second_order.h>
 #include <lacuna/team/shared/tasks.h>
 
@@ -23,7 +22,7 @@
 namespace lacuna::lua {
 
 struct WriteArguments {
-    io::MshOptions msh;
+    io::MeshFileOptions msh;
     bool version_given = false, binary_given = false;
     std::vector<quality::Metric> quality{quality::Metric::scaled_jacobian};
     bool quality_given = false;
@@ -193,7 +192,7 @@ const Option<WriteArguments> kIoWriteOptions[] = {
     {"first_node", count<&WriteArguments::deck, &io::MeshDeckOptions::first_node>},
     {"first_cell", count<&WriteArguments::deck, &io::MeshDeckOptions::first_cell>},
     {"element", read_element},
-    {"interfaces", boolean<&WriteArguments::msh, &io::MshOptions::interfaces>},
+    {"interfaces", boolean<&WriteArguments::msh, &io::MeshFileOptions::interfaces>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
     {"partitions", read_partitions},
     {"ghosts", read_ghosts},
@@ -207,7 +206,7 @@ const Option<WriteArguments> kLayeredOptions[] = {
     {"quality", read_quality},
     {"partitions", read_partitions},
     {"ghosts", read_ghosts},
-    {"interfaces", boolean<&WriteArguments::msh, &io::MshOptions::interfaces>},
+    {"interfaces", boolean<&WriteArguments::msh, &io::MeshFileOptions::interfaces>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
     {"groups", read_groups},
 };

@@ -4,7 +4,7 @@
 #include "support/folder.h"
 #include "support/write_vtk.h"
 
-#include <lacuna/io/msh.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/quality/shared/metrics.h>
 
 #include <doctest/doctest.h>

@@ -4,7 +4,7 @@
 #include "support/folder.h"
 #include "support/prove_cells.h"
 
-#include <lacuna/io/msh.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/quality/quality.h>
 
 #include <doctest/doctest.h>
@@ -18,14 +18,14 @@ using namespace lacuna;
 
 namespace {
 
-const std::vector<io::MshOptions> kFormats{{true, 4.1}, {false, 4.1}, {true, 2.2}, {false, 2.2}};
+const std::vector<io::MeshFileOptions> kFormats{{true, 4.1}, {false, 4.1}, {true, 2.2}, {false, 2.2}};
 
 Vec3 far_and_crooked(const Vec3& p)
 {
     return Vec3(p.x() + std::sin(p.y()) / 3, p.y() * 1e-3 - 1e5, p.z() / 7 + p.x() * p.y() * 1e-9);
 }
 
-test::MshCells written_and_read(const mesh::HexMesh& mesh, const io::MshOptions& options)
+test::MshCells written_and_read(const mesh::HexMesh& mesh, const io::MeshFileOptions& options)
 {
     const test::Folder folder;
     io::write_msh(mesh, folder.file("a.msh"), options);
@@ -118,7 +118,7 @@ TEST_CASE("entities are in one group each, with fields, in parts and in every ve
             if (left % 3 == 1) patch.groups.emplace_back("inlet");
             if (left % 3 == 2) patch.groups.insert(patch.groups.begin(), "inlet");
         }
-        for (io::MshOptions options : kFormats)
+        for (io::MeshFileOptions options : kFormats)
             for (const int parts : {0, 2}) {
                 if (parts > 0 && options.version == 2.2) continue;
                 options.partition.parts = parts;

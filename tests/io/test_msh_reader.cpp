@@ -3,7 +3,7 @@
 #include "support/blocks.h"
 #include "support/folder.h"
 
-#include <lacuna/io/msh.h>
+#include <lacuna/io/mesh_file.h>
 
 #include <doctest/doctest.h>
 
@@ -22,13 +22,13 @@ std::string code_of(const test::Folder& folder, const std::string& bytes)
     return test::error_code([&] { io::read_deck(folder.file("x.msh")); });
 }
 
-std::string msh_sample(const test::Folder& folder, const io::MshOptions& options)
+std::string msh_sample(const test::Folder& folder, const io::MeshFileOptions& options)
 {
     io::write_msh(test::block({.columns = 2, .rows = 2, .layers = 2}), folder.file("a.msh"), options);
     return test::bytes_of(folder.file("a.msh"));
 }
 
-const std::vector<io::MshOptions> kReadFormats{{true, 4.1}, {false, 4.1}, {true, 2.2}, {false, 2.2}};
+const std::vector<io::MeshFileOptions> kReadFormats{{true, 4.1}, {false, 4.1}, {true, 2.2}, {false, 2.2}};
 
 } // namespace
 

@@ -6,7 +6,7 @@
 
 #include <lacuna/io/deck.h>
 #include <lacuna/io/deck_file.h>
-#include <lacuna/io/msh.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/quality/shared/metrics.h>
 

@@ -3,7 +3,7 @@
 #include "support/folder.h"
 
 #include <lacuna/core/shared/parallel.h>
-#include <lacuna/io/msh.h>
+#include <lacuna/io/mesh_file.h>
 #include <lacuna/io/whole_file.h>
 
 #include <doctest/doctest.h>

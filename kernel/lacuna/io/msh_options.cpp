@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/io/msh.h>
+#include <lacuna/io/mesh_file.h>
 
 namespace lacuna::io {
 
