@@ -12,7 +12,7 @@ CORNERS = {"line": 2, "triangle": 3, "quad": 4, "tetra": 4, "pyramid": 5, "wedge
 GMSH = {1: "line", 2: "triangle", 3: "quad", 4: "tetra", 5: "hexahedron", 6: "wedge", 7: "pyramid"}
 VTK = {3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hexahedron", 13: "wedge", 14: "pyramid"}
 EXODUS = {"SHELL3": "triangle", "TRI3": "triangle", "SHELL4": "quad", "TETRA4": "tetra", "PYRAMID5": "pyramid",
-          "WEDGE6": "wedge", "HEX8": "hexahedron", "TETRA": "tetra", "HEX": "hexahedron", "WEDGE": "wedge"}
+          "PYRAMID": "pyramid", "WEDGE6": "wedge", "HEX8": "hexahedron", "TETRA": "tetra", "HEX": "hexahedron", "WEDGE": "wedge"}
 
 
 class Mesh:

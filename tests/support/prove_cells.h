@@ -8,8 +8,7 @@
 
 namespace lacuna::test {
 
-/// What `quality::prove()` proves of a swept mesh, found from the cells alone: hexahedra and wedges of any
-/// origin.
+/// What `quality::prove()` proves of a swept mesh, found from the cells alone: cells of any origin.
 /// @param skin  where not empty, quads and triangles that must be exactly the skin, in any order and
 ///              direction.
 quality::Proof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes,

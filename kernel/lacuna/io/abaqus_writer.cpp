@@ -88,6 +88,7 @@ public:
             file_.add(view_->kept->head);
             cards = cards_of(*view_->kept);
         }
+        find_bricks();
         add_nodes();
         choose_sets();
         choose_names();
@@ -114,6 +115,26 @@ private:
         };
         file_.sections.push_back(
             section_of_points("*NODE\n", view_, kNumberBytes + 3 * (kWidth + 2) + 1, put));
+    }
+
+    /// The word for the elements of a block.
+    [[nodiscard]] std::string_view type_of(const MeshView::Block& block) const
+    {
+        const bool own = is_abaqus_element(block.type, block.shape) ||
+                         is_merged_brick(block.shape, is_abaqus_element(block.type, DeckShape::hex8));
+        return own ? std::string_view(block.type) : words_of(block.shape).abaqus;
+    }
+    [[nodiscard]] bool is_brick(const MeshView::Block& block) const
+    {
+        return is_merged_brick(block.shape, is_abaqus_element(type_of(block), DeckShape::hex8));
+    }
+    /// Collect the numbers of pyramids that are written as bricks, because their sides are those of a brick.
+    void find_bricks()
+    {
+        for (const MeshView::Block& block : view_->blocks)
+            if (is_brick(block))
+                block.tags.each(0, block.count, [&](std::size_t, DeckTag tag) { bricks_.push_back(tag); });
+        std::ranges::sort(bricks_);
     }
 
     /// Whether a set of elements has exactly the elements of a region.
@@ -192,23 +213,23 @@ private:
     void add_elements(std::size_t b)
     {
         const MeshView::Block& block = view_->blocks[b];
-        const bool own = is_abaqus_element(block.type, block.shape);
-        const std::string_view type = own ? std::string_view(block.type) : words_of(block.shape).abaqus;
+        const std::string_view type = type_of(block);
         if (type.empty()) refuse_element(block, "Abaqus", "there is no such element");
         std::map<Index, Ranges> of_region;
         mesh::each_run(block.regions, 0, block.count, [&](std::size_t first, std::size_t last, Index region) {
             of_region[region].add(first, last);
         });
-        const auto nodes = static_cast<std::size_t>(shape_info(block.shape).nodes);
+        const auto nodes = static_cast<std::size_t>(is_brick(block) ? 8 : shape_info(block.shape).nodes);
         for (auto& [region, elements] : of_region) {
             const std::size_t count = elements.count();
             file_.sections.push_back(
                 {head_of(type, region), count, (nodes + 1) * kNumberBytes + 4,
-                 [view = view_, b, all = std::move(elements)](std::size_t begin, std::size_t end, char* out) {
+                 [view = view_, b, nodes, all = std::move(elements)](std::size_t begin, std::size_t end,
+                                                                     char* out) {
                      all.each(begin, end, [&](std::size_t first, std::size_t last) {
                          each_cell(view->blocks[b], first, last,
                                    [&](std::size_t, DeckTag tag, std::span<const Index> own_nodes) {
-                                       out = put_element(*view, tag, own_nodes, out);
+                                       out = put_element(*view, tag, own_nodes, nodes, out);
                                    });
                      });
                      return out;
@@ -224,14 +245,15 @@ private:
         return head + "\n";
     }
 
-    static char* put_element(const MeshView& view, DeckTag tag, std::span<const Index> nodes, char* out)
+    /// @param count  nodes to write; the last one is repeated.
+    static char* put_element(const MeshView& view, DeckTag tag, std::span<const Index> nodes,
+                             std::size_t count, char* out)
     {
         out = put_text(out, tag);
-        std::size_t written = 1;
-        for (const Index node : nodes) {
+        for (std::size_t k = 0; k < count; ++k) {
             *out++ = ',';
-            *out++ = written++ % kPerLine == 0 ? '\n' : ' ';
-            out = put_text(out, view.point_tags[index(node)]);
+            *out++ = (k + 1) % kPerLine == 0 ? '\n' : ' ';
+            out = put_text(out, view.point_tags[index(nodes[std::min(k, nodes.size() - 1)])]);
         }
         *out++ = '\n';
         return out;
@@ -241,9 +263,13 @@ private:
     {
         const MeshView::Set& set = view_->sets[s];
         if (set.kind == mesh::SetKind::sides) {
-            file_.sections.push_back(
-                {"*SURFACE, TYPE=ELEMENT, NAME=" + names_[s] + "\n", set.sides.size(), 2 * kNumberBytes,
-                 each([sides = set.sides](std::size_t i, char* out) { return put_side(sides[i], out); })});
+            const auto put = [sides = set.sides, bricks = bricks_](std::size_t i, char* out) {
+                DeckSide side = sides[i];
+                if (side.side > 1 && std::ranges::binary_search(bricks, side.element)) ++side.side;
+                return put_side(side, out);
+            };
+            file_.sections.push_back({"*SURFACE, TYPE=ELEMENT, NAME=" + names_[s] + "\n", set.sides.size(),
+                                      2 * kNumberBytes, each(put)});
             return;
         }
         const std::string word = set.kind == mesh::SetKind::nodes ? "NSET" : "ELSET";
@@ -271,6 +297,7 @@ private:
     View view_;
     bool same_; ///< same format: names and text stay
     DeckFile file_;
+    std::vector<DeckTag> bricks_;      ///< see `find_bricks()`
     std::vector<bool> by_elements_;    ///< sets
     std::vector<bool> makes_set_;      ///< regions
     std::vector<Index> set_of_region_; ///< set that each region creates; -1: none

@@ -21,6 +21,43 @@ bool fan_fills(const std::vector<Vec3>& at, const Vec3& normal)
     return true;
 }
 
+/// Make pyramids of the bricks that `is_merged_brick()` describes. Their sides have the numbers of a pyramid.
+void take_out_pyramids(Deck& deck)
+{
+    std::vector<DeckTag> found;
+    std::vector<DeckBlock> pyramids;
+    for (DeckBlock& block : deck.blocks) {
+        if (block.shape != DeckShape::hex8) continue;
+        const auto is_pyramid = [&](std::size_t e) {
+            const auto n = block.element(e);
+            return n[4] == n[5] && n[4] == n[6] && n[4] == n[7] && n[2] != n[3];
+        };
+        DeckBlock own{.shape = DeckShape::pyramid5, .type = block.type};
+        for (std::size_t e = 0; e < block.count(); ++e) {
+            if (!is_pyramid(e)) continue;
+            own.nodes.insert(own.nodes.end(), block.element(e).begin(), block.element(e).begin() + 5);
+            own.tags.push_back(block.tags[e]);
+            own.regions.push_back(block.regions[e]);
+        }
+        if (own.count() == 0) continue;
+        block = without_elements(block, is_pyramid);
+        found.insert(found.end(), own.tags.begin(), own.tags.end());
+        pyramids.push_back(std::move(own));
+    }
+    if (found.empty()) return;
+    std::erase_if(deck.blocks, [](const DeckBlock& block) { return block.count() == 0; });
+    for (DeckBlock& block : pyramids) deck.blocks.push_back(std::move(block));
+    std::ranges::sort(found);
+    const auto is_found = [&](const DeckSide& side) {
+        return std::ranges::binary_search(found, side.element);
+    };
+    for (DeckSet& set : deck.sets) {
+        std::erase_if(set.sides, [&](const DeckSide& side) { return side.side == 2 && is_found(side); });
+        for (DeckSide& side : set.sides)
+            if (side.side > 2 && is_found(side)) --side.side;
+    }
+}
+
 } // namespace
 
 std::vector<char> used_regions(const Deck& deck)
@@ -188,6 +225,7 @@ Deck DeckBuilder::take(const std::string& path)
 {
     check_points(path);
     deck_.path = path;
+    if (deck_.format == DeckFormat::abaqus || deck_.format == DeckFormat::unv) take_out_pyramids(deck_);
     const std::string passed = counted();
     if (!passed.empty()) deck_.notes.push_back(formatted("{}: passed over {}", path, passed));
     for (const auto& [type, count] : further_nodes_)

@@ -5,6 +5,8 @@
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/mesh_deck.h>
 #include <lacuna/io/detail/texts.h>
+#include <lacuna/io/shared/solid_nodes.h>
+#include <lacuna/mesh/tet_mesh.h>
 
 #include <algorithm>
 #include <limits>
@@ -114,6 +116,30 @@ std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3
 }
 
 } // namespace
+
+mesh::CellNodes solid_nodes(const DeckBlock& block, std::size_t element)
+{
+    const std::span<const Index> own = block.element(element);
+    const DeckShapeInfo& info = shape_info(block.shape);
+    mesh::CellNodes nodes;
+    if (info.corners == 8) {
+        nodes.count = own.size();
+        std::ranges::copy(own, nodes.node.begin());
+        return nodes;
+    }
+    const Hex at = mesh::merged_corners(info.corners);
+    for (const Index corner : at) nodes.node[nodes.count++] = own[index(corner)];
+    if (info.nodes == info.corners) return nodes;
+    const auto sides = side_corners(block.shape);
+    for (const auto& [from, to] : mesh::kHexEdges) {
+        const int a = at[index(from)], b = at[index(to)];
+        const auto side = std::ranges::find_if(
+            sides, [&](const auto& of) { return of == std::pair(a, b) || of == std::pair(b, a); });
+        const auto middle = static_cast<std::size_t>(info.corners + (side - sides.begin()));
+        nodes.node[nodes.count++] = own[side == sides.end() ? index(a) : middle];
+    }
+    return nodes;
+}
 
 std::vector<Vec3> middles_between(const Deck& deck, std::span<const Vec3> from, std::span<const Vec3> to,
                                   double tolerance, double scale)

@@ -280,9 +280,10 @@ void check_numbers(const mesh::MeshView& view, DeckTag most, const std::string& 
 
 void refuse_element(const mesh::MeshView::Block& block, std::string_view format, std::string_view why)
 {
-    throw InvalidInput("io.no_such_element", "{} elements {}{}of {} nodes cannot be written as {}: {}",
-                       block.count, block.type, block.type.empty() ? "" : " ", shape_info(block.shape).nodes,
-                       format, why);
+    throw InvalidInput(
+        Message("io.no_such_element", "{} elements {}{}of {} nodes cannot be written as {}: {}", block.count,
+                block.type, block.type.empty() ? "" : " ", shape_info(block.shape).nodes, format, why)
+            .remedy("write an MSH file, which has all shapes"));
 }
 
 } // namespace lacuna::io

@@ -9,12 +9,17 @@
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
+#include <lacuna/io/shared/mixed_deck.h>
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/mesh/mesh_part.h>
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <tuple>
+#include <type_traits>
+#include <unordered_map>
 
 namespace lacuna::io {
 namespace {
@@ -58,19 +63,115 @@ std::vector<int> sides_of_skin(const mesh::HexMesh& mesh, const std::vector<std:
     return sides;
 }
 
+// What a swept mesh and tetrahedra have in common: cells and skin by shape, and the nodes of each.
+
+/// Positions [begin, end) of the cells, or of the sides of the skin, of one shape.
+struct OfShape {
+    DeckShape shape;
+    std::size_t begin, end;
+};
+using ByShape = std::array<OfShape, 2>;
+
+/// A swept mesh, whose cells and skin are stored in another order.
+struct SweptParts {
+    const mesh::HexMesh& mesh;
+    mesh::CellKinds kinds{mesh};
+
+    [[nodiscard]] ByShape cells() const
+    {
+        return {
+            {{cell_shape(mesh), 0, kinds.hexes()}, {DeckShape::wedge6, kinds.hexes(), mesh.cell_count()}}};
+    }
+    [[nodiscard]] ByShape skin() const
+    {
+        return {{{skin_shape(mesh), 0, kinds.skin_quads()},
+                 {DeckShape::tri3, kinds.skin_quads(), mesh.skin_count()}}};
+    }
+    [[nodiscard]] std::size_t cell(std::size_t i) const { return kinds.cell(i); }
+    [[nodiscard]] std::size_t side(std::size_t i) const { return kinds.skin(i); }
+    [[nodiscard]] mesh::CellNodes cell_nodes(std::size_t c) const { return mesh::cell_nodes(mesh, c); }
+    [[nodiscard]] mesh::CellNodes skin_nodes(std::size_t i) const { return mesh::skin_nodes(mesh, i); }
+    [[nodiscard]] Quad skin_quad(std::size_t i) const { return mesh::skin_quad(mesh, i).nodes; }
+    [[nodiscard]] Index patch(std::size_t i) const { return mesh::skin_quad(mesh, i).patch; }
+    /// The cell of each side of the skin, and the number of its face there.
+    [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<int>> behind_skin() const
+    {
+        std::vector<std::uint32_t> cells = cells_of_skin(mesh);
+        std::vector<int> sides = sides_of_skin(mesh, cells);
+        return {std::move(cells), std::move(sides)};
+    }
+    [[nodiscard]] std::size_t nodes() const { return mesh::corner_count(mesh) + mesh::middle_count(mesh); }
+    void check() const { check_skin(mesh); }
+};
+
+/// Pyramids and tetrahedra.
+struct TetParts {
+    const mesh::TetPart& mesh;
+
+    [[nodiscard]] ByShape cells() const
+    {
+        return {
+            {{DeckShape::pyramid5, 0, mesh.pyramids}, {DeckShape::tet4, mesh.pyramids, mesh.cells.size()}}};
+    }
+    [[nodiscard]] ByShape skin() const
+    {
+        return {
+            {{DeckShape::quad4, 0, mesh.skin_quads}, {DeckShape::tri3, mesh.skin_quads, mesh.skin.size()}}};
+    }
+    [[nodiscard]] static std::size_t cell(std::size_t i) { return i; }
+    [[nodiscard]] static std::size_t side(std::size_t i) { return i; }
+    [[nodiscard]] mesh::CellNodes cell_nodes(std::size_t c) const
+    {
+        const Hex& hex = mesh.cells[c];
+        return mesh::is_tet(hex) ? mesh::CellNodes{{hex[0], hex[1], hex[2], hex[4]}, 4}
+                                 : mesh::CellNodes{{hex[0], hex[1], hex[2], hex[3], hex[4]}, 5};
+    }
+    [[nodiscard]] mesh::CellNodes skin_nodes(std::size_t i) const
+    {
+        const Quad& quad = mesh.skin[i];
+        return {{quad[0], quad[1], quad[2], quad[3]}, mesh::corner_count(quad)};
+    }
+    [[nodiscard]] Quad skin_quad(std::size_t i) const { return mesh.skin[i]; }
+    [[nodiscard]] Index patch(std::size_t i) const { return mesh.skin_patch[i]; }
+    [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<int>> behind_skin() const
+    {
+        std::unordered_map<Quad, std::pair<std::uint32_t, int>, CornerHash<4>> faces;
+        for (const OfShape& of : cells())
+            for (std::size_t c = of.begin; c < of.end; ++c) {
+                const mesh::CellNodes nodes = cell_nodes(c);
+                int number = 0;
+                for (Quad face : face_corners(of.shape)) {
+                    for (Index& corner : face) corner = corner < 0 ? -1 : nodes.node[index(corner)];
+                    faces[rising(face)] = {static_cast<std::uint32_t>(c), ++number};
+                }
+            }
+        std::pair<std::vector<std::uint32_t>, std::vector<int>> behind;
+        for (Quad side : mesh.skin) {
+            if (mesh::is_triangle(side)) side[3] = -1;
+            const auto& [cell, number] = faces.at(rising(side));
+            behind.first.push_back(cell);
+            behind.second.push_back(number);
+        }
+        return behind;
+    }
+    [[nodiscard]] std::size_t nodes() const { return mesh.nodes.size(); }
+    static void check() {}
+};
+
+template <class Parts>
 class MeshAdder {
 public:
-    MeshAdder(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+    MeshAdder(Deck& deck, const Parts& parts, const AddedMesh& added, const MeshDeckOptions& options,
               const RunContext& context)
-        : deck_(deck), mesh_(mesh), added_(added), options_(options), context_(context)
+        : deck_(deck), parts_(parts), mesh_(parts.mesh), added_(added), options_(options), context_(context)
     {
     }
 
     void add()
     {
-        check_skin(mesh_);
+        parts_.check();
         const bool abaqus = options_.format == DeckFormat::abaqus;
-        if (cell_shape(mesh_) == DeckShape::hex27 && !format_of(options_.format).has_hex27)
+        if (parts_.cells()[0].shape == DeckShape::hex27 && !format_of(options_.format).has_hex27)
             throw InvalidInput(Message("io.no_such_element",
                                        "Abaqus, CalculiX, Nastran and UNV have no hexahedron of 27 nodes")
                                    .remedy("sweep with order = 2, serendipity = true for 20 nodes"));
@@ -82,7 +183,8 @@ public:
         const std::vector<std::size_t> of_all = joins() ? sets_of_all(deck_) : std::vector<std::size_t>();
         add_points();
         add_cells();
-        if (joins()) update_sets(of_all);
+        if constexpr (std::is_same_v<Parts, SweptParts>)
+            if (joins()) update_sets(of_all);
         if (abaqus) add_groups(); // surfaces keep their names, element sets are renamed
         if (options_.format != DeckFormat::nastran)
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
@@ -99,9 +201,11 @@ private:
     /// Check that the requested element type has as many nodes as the cells of the mesh.
     void check_element()
     {
-        const bool second = mesh_.order() == 2;
+        const DeckShape shape = parts_.cells()[0].shape;
+        if (shape_info(shape).corners < 8) return; // tetrahedra and pyramids are of one type each
+        const bool second = shape != DeckShape::hex8;
         element_ = options_.element.empty() ? (second ? "C3D20" : "C3D8") : options_.element;
-        if (is_abaqus_element(element_, cell_shape(mesh_))) return;
+        if (is_abaqus_element(element_, shape)) return;
         throw InvalidInput("io.element", "element = \"{}\": expected an Abaqus name of a hexahedron of {}",
                            element_,
                            second ? "twenty nodes, such as C3D20 or C3D20R; the mesh is of order 2"
@@ -116,26 +220,28 @@ private:
         if (done % kPolled == 0) check_cancelled(context_);
     }
 
-    [[nodiscard]] bool joins() const { return added_.bulk == nullptr; }
+    /// Whether the deck holds the nodes and cells.
+    [[nodiscard]] bool stores() const { return added_.bulk == nullptr; }
+    /// Whether it was read from a file.
+    [[nodiscard]] bool joins() const { return stores() && !added_.is_new; }
 
     /// The point of the deck for a node of the mesh; for numbered parts, its number.
     [[nodiscard]] Index point(Index node) const
     {
-        if (joins()) return point_[index(node)];
+        if (stores()) return point_[index(node)];
         return added_.numbers != nullptr ? added_.numbers->of(node) : node;
     }
     [[nodiscard]] DeckTag point_tag(Index node) const
     {
-        return !joins() ? added_.bulk->first_node + point(node) : deck_.point_tags[index(point(node))];
+        return !stores() ? added_.bulk->first_node + point(node) : deck_.point_tags[index(point(node))];
     }
 
     void add_points()
     {
-        if (!joins()) {
+        if (!stores()) {
             std::vector<DeckTag> none;
             const auto* const of = added_.numbers;
-            const std::size_t fresh = of != nullptr ? of->fresh()
-                                                    : mesh::corner_count(mesh_) + mesh::middle_count(mesh_);
+            const std::size_t fresh = of != nullptr ? of->fresh() : parts_.nodes();
             DeckTag& first = added_.bulk->first_node;
             if (options_.first_node != 0) first = options_.first_node;
             free_from(first + (of != nullptr ? of->first() : 0), fresh, {}, none, 0, "first_node", "node");
@@ -167,28 +273,22 @@ private:
         volume_ = volume();
         if (!takes_place()) deck_.regions.push_back({highest + 1, volume_, material_});
         const Index region = region_ = takes_place() ? place_ : static_cast<Index>(deck_.regions.size()) - 1;
-        if (!joins()) {
+        if (!stores()) {
             added_.bulk->first_cell = first_cell_;
             added_.bulk->region = region;
         }
-        const mesh::CellKinds kinds(mesh_);
-        const auto add = [&](DeckShape shape, std::size_t begin, std::size_t end) {
-            if (begin == end) return;
+        for (const auto& [shape, begin, end] : parts_.cells()) {
+            if (begin == end) continue;
             DeckBlock& block = deck_.blocks[block_of(deck_.blocks, shape, type_of(shape))];
-            for (std::size_t i = begin; i < end && joins(); ++i) {
+            for (std::size_t i = begin; i < end && stores(); ++i) {
                 poll(i);
-                const std::size_t c = kinds.cell(i);
-                for (const Index node : cell_nodes(mesh_, c)) block.nodes.push_back(point(node));
+                const std::size_t c = parts_.cell(i);
+                for (const Index node : parts_.cell_nodes(c)) block.nodes.push_back(point(node));
                 block.tags.push_back(first_cell_ + static_cast<DeckTag>(c));
                 block.regions.push_back(region);
             }
-        };
-        add(cell_shape(mesh_), 0, kinds.hexes());
-        add(DeckShape::wedge6, kinds.hexes(), mesh_.cell_count());
-        if (has_sides()) {
-            cells_ = cells_of_skin(mesh_);
-            sides_ = sides_of_skin(mesh_, cells_);
         }
+        if (has_sides()) std::tie(cells_, sides_) = parts_.behind_skin();
     }
 
     [[nodiscard]] bool is_emptied(const std::string& name) const
@@ -222,7 +322,7 @@ private:
         if (unv()) return std::to_string(words.unv);
         if (options_.format == DeckFormat::nastran) return words.nastran;
         if (options_.format != DeckFormat::abaqus) return "";
-        return shape == cell_shape(mesh_) ? element_ : words.abaqus;
+        return !element_.empty() && shape == parts_.cells()[0].shape ? element_ : words.abaqus;
     }
 
     void add_volume_set(const std::string& group)
@@ -231,11 +331,11 @@ private:
         const bool own = group == volume_;
         DeckSet cells;
         cells.listed = extended_ >= 0; // so that several pieces can extend it
-        for (std::size_t c = 0; c < mesh_.cell_count() && joins(); ++c)
+        for (std::size_t c = 0; c < mesh_.cell_count() && stores(); ++c)
             cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
         const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
         if (own && !takes_place()) region = set.name;
-        if (!joins()) added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
+        if (!stores()) added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
     }
 
     /// Update the sets of the deck that the mesh joins. @param of_all  `sets_of_all()` before the mesh
@@ -292,7 +392,7 @@ private:
                 if (other.kind != set.kind || !same_word(other.name, name)) return false;
                 const bool none = other.members.empty() && other.sides.empty();
                 // Without bulk, the sets of all cells are those that this mesh created and that are empty.
-                if (none && !joins()) return set.members.empty() && &other >= deck_.sets.data() + first_set_;
+                if (none && !stores()) return set.members.empty() && &other >= deck_.sets.data() + first_set_;
                 return none ? is_emptied(name) : other.members == set.members && other.sides == set.sides;
             });
         };
@@ -353,11 +453,10 @@ private:
     void add_skin_cells()
     {
         // In UNV each skin element needs a property, in MSH one group; other formats only have skin groups.
-        const mesh::CellKinds kinds(mesh_);
         std::map<std::string, Index> regions;
         const auto region_of = [&](std::size_t i) {
             if (options_.format != DeckFormat::msh) return unv() ? region_ : -1;
-            const auto& groups = mesh_.patches[index(skin_quad(mesh_, i).patch)].groups;
+            const auto& groups = mesh_.patches[index(parts_.patch(i))].groups;
             if (groups.empty()) return Index(-1);
             const auto [found, fresh] = regions.try_emplace(groups.front(), -1);
             if (!fresh) return found->second;
@@ -368,26 +467,24 @@ private:
             if (same == deck_.regions.end()) deck_.regions.push_back({0, groups.front(), {}});
             return found->second;
         };
-        const auto add = [&](DeckShape shape, std::size_t begin, std::size_t end) {
-            if (begin == end) return;
+        for (const auto& [shape, begin, end] : parts_.skin()) {
+            if (begin == end) continue;
             DeckBlock& block = deck_.blocks[block_of(deck_.blocks, shape, type_of(shape))];
             for (std::size_t k = begin; k < end; ++k) {
-                const std::size_t i = kinds.skin(k);
+                const std::size_t i = parts_.side(k);
                 if (is_inner(i) || is_there(i)) continue;
-                for (const Index node : skin_nodes(mesh_, i)) block.nodes.push_back(point(node));
+                for (const Index node : parts_.skin_nodes(i)) block.nodes.push_back(point(node));
                 block.tags.push_back(skin_tag(i));
                 block.regions.push_back(region_of(i));
             }
-        };
-        add(skin_shape(mesh_), 0, kinds.skin_quads());
-        add(DeckShape::tri3, kinds.skin_quads(), mesh_.skin_count());
+        }
     }
 
     /// Whether a mesh added before has the same quad of the skin; if not, the quad is recorded.
     bool is_there(std::size_t i)
     {
         if (added_.skin_tags == nullptr) return false;
-        Quad quad = skin_quad(mesh_, i).nodes;
+        Quad quad = parts_.skin_quad(i);
         for (Index& node : quad) node = point(node);
         const auto [found, fresh] = added_.skin_tags->try_emplace(rising(quad), skin_tag(i));
         if (!fresh) skin_of_.emplace(i, found->second);
@@ -399,7 +496,7 @@ private:
     [[nodiscard]] bool is_inner(std::size_t i) const
     {
         const bool several = added_.before != nullptr;
-        if (several && mesh_.patches[index(skin_quad(mesh_, i).patch)].groups.empty()) return true;
+        if (several && mesh_.patches[index(parts_.patch(i))].groups.empty()) return true;
         return !added_.inner.empty() && added_.inner[i] != 0;
     }
 
@@ -417,7 +514,7 @@ private:
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             poll(i);
             if (added_.skin_cells && is_inner(i)) continue;
-            for (const std::string& name : mesh_.patches[index(skin_quad(mesh_, i).patch)].groups) {
+            for (const std::string& name : mesh_.patches[index(parts_.patch(i))].groups) {
                 std::vector<std::uint32_t>& of = quads[name];
                 if (of.empty()) names.push_back(name);
                 of.push_back(static_cast<std::uint32_t>(i));
@@ -448,7 +545,7 @@ private:
         }
         set.kind = DeckSet::Kind::nodes;
         for (const std::uint32_t i : quads)
-            for (const Index node : skin_nodes(mesh_, i)) set.members.push_back(point_tag(node));
+            for (const Index node : parts_.skin_nodes(i)) set.members.push_back(point_tag(node));
         add_set(set, name, name);
         if (!has_sides()) return;
         DeckSet cells, sides;
@@ -521,7 +618,8 @@ private:
     }
 
     Deck& deck_;
-    const mesh::HexMesh& mesh_;
+    const Parts& parts_;
+    decltype(Parts::mesh) mesh_;
     const AddedMesh& added_;
     const MeshDeckOptions& options_;
     const RunContext& context_;
@@ -545,34 +643,56 @@ private:
 void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
               const RunContext& context)
 {
-    MeshAdder(deck, mesh, added, options, context).add();
+    MeshAdder(deck, SweptParts{mesh}, added, options, context).add();
 }
 
 namespace {
 
-/// Whether another mesh has the same quad, for each quad of each skin.
-std::vector<std::vector<char>> inner_quads(std::span<const BulkPart> parts)
+/// Whether another skin has the same side, for each side of each skin.
+std::vector<std::vector<char>> inner_sides(const std::vector<std::vector<Quad>>& skins)
 {
     struct Place {
         Quad nodes;
-        std::size_t part, quad;
+        std::size_t part, side;
     };
     std::vector<Place> all;
     std::vector<std::vector<char>> inner;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-        inner.emplace_back(parts[p].mesh.skin_count(), 0);
-        for (std::size_t i = 0; i < inner[p].size(); ++i) {
-            Quad quad = skin_quad(parts[p].mesh, i).nodes;
-            for (Index& n : quad) n = parts[p].numbers->of(n);
-            all.push_back({rising(quad), p, i});
+    for (std::size_t p = 0; p < skins.size(); ++p) {
+        inner.emplace_back(skins[p].size(), 0);
+        for (std::size_t i = 0; i < skins[p].size(); ++i) {
+            Quad side = skins[p][i];
+            if (mesh::is_triangle(side)) side[3] = -1;
+            all.push_back({rising(side), p, i});
         }
     }
     std::ranges::sort(all, {}, &Place::nodes);
     for (std::size_t k = 1; k < all.size(); ++k) {
         if (all[k].nodes != all[k - 1].nodes) continue;
-        for (const Place& place : {all[k - 1], all[k]}) inner[place.part][place.quad] = 1;
+        for (const Place& place : {all[k - 1], all[k]}) inner[place.part][place.side] = 1;
     }
     return inner;
+}
+
+/// The skin of a mesh in the numbers of the whole. @param number  of each of its nodes
+template <class Number>
+std::vector<Quad> numbered_skin(const mesh::HexMesh& mesh, const Number& number)
+{
+    std::vector<Quad> skin;
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        Quad& quad = skin.emplace_back(skin_quad(mesh, i).nodes);
+        for (Index& n : quad) n = number(n);
+    }
+    return skin;
+}
+
+/// Start a deck of a format.
+Deck new_deck(DeckFormat format)
+{
+    Deck deck;
+    deck.format = format;
+    if (format == DeckFormat::nastran)
+        deck.texts = {{DeckText::Place::head, "", "BEGIN BULK\n"}, {DeckText::Place::tail, "", "ENDDATA\n"}};
+    return deck;
 }
 
 } // namespace
@@ -580,15 +700,17 @@ std::vector<std::vector<char>> inner_quads(std::span<const BulkPart> parts)
 Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool interfaces,
                        const RunContext& context)
 {
-    Deck deck;
-    deck.format = options.format;
-    if (deck.format == DeckFormat::nastran)
-        deck.texts = {{DeckText::Place::head, "", "BEGIN BULK\n"}, {DeckText::Place::tail, "", "ENDDATA\n"}};
+    Deck deck = new_deck(options.format);
     const bool cells = format_of(options.format).skin == Format::Skin::quads;
     const bool several = parts.front().numbers != nullptr;
     JoinedBefore before; // parts of one name form one region
     std::vector<std::vector<char>> inner(parts.size());
-    if (cells && several && !interfaces) inner = inner_quads(parts);
+    if (cells && several && !interfaces) {
+        std::vector<std::vector<Quad>> skins;
+        for (const BulkPart& part : parts)
+            skins.push_back(numbered_skin(part.mesh, [&](Index n) { return part.numbers->of(n); }));
+        inner = inner_sides(skins);
+    }
     std::map<Quad, DeckTag> skin_tags;
     for (std::size_t p = 0; p < parts.size(); ++p) {
         const mesh::HexMesh& mesh = parts[p].mesh;
@@ -606,6 +728,55 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
         tidy(place.sets);
         options.first_node = options.first_cell = 0;
     }
+    return deck;
+}
+
+Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedTets> tets, std::size_t nodes,
+             MeshDeckOptions options, bool interfaces, const RunContext& context)
+{
+    Deck deck = new_deck(options.format);
+    deck.points.resize(nodes);
+    deck.point_tags.resize(nodes);
+    std::iota(deck.point_tags.begin(), deck.point_tags.end(),
+              options.first_node != 0 ? options.first_node : 1);
+    std::vector<std::vector<Index>> numbers;
+    std::vector<std::vector<Quad>> skins;
+    const auto add_numbers = [&](std::size_t count, const auto& node, const auto& number) {
+        std::vector<Index>& own = numbers.emplace_back(count);
+        for (std::size_t n = 0; n < count; ++n) {
+            own[n] = number(static_cast<Index>(n));
+            deck.points[index(own[n])] = node(n);
+        }
+    };
+    for (const mesh::LayeredPart& part : swept) {
+        const auto number = [&](Index n) { return part.numbers.of(n); };
+        add_numbers(
+            part.mesh.node_count(), [&](std::size_t n) { return part.mesh.node(n); }, number);
+        skins.push_back(numbered_skin(part.mesh, number));
+    }
+    for (const auto& [mesh, number] : tets) {
+        add_numbers(
+            mesh.nodes.size(), [&](std::size_t n) { return mesh.nodes[n]; },
+            [&](Index n) { return number[index(n)]; });
+        std::vector<Quad>& skin = skins.emplace_back(mesh.skin);
+        for (Quad& side : skin)
+            for (Index& n : side) n = number[index(n)];
+    }
+    std::vector<std::vector<char>> inner(skins.size());
+    const bool cells = format_of(options.format).skin == Format::Skin::quads;
+    if (cells && !interfaces) inner = inner_sides(skins);
+    JoinedBefore before; // parts of one name form one region
+    std::map<Quad, DeckTag> skin_tags;
+    options.first_node = 0;
+    const auto add = [&](const auto& parts, std::size_t p) {
+        AddedMesh added{.points = numbers[p], .skin_cells = cells, .before = &before, .is_new = true};
+        if (interfaces) added.skin_tags = &skin_tags;
+        added.inner = std::move(inner[p]);
+        MeshAdder(deck, parts, added, options, context).add();
+        options.first_cell = 0;
+    };
+    for (std::size_t p = 0; p < swept.size(); ++p) add(SweptParts{swept[p].mesh}, p);
+    for (std::size_t t = 0; t < tets.size(); ++t) add(TetParts{tets[t].mesh}, swept.size() + t);
     return deck;
 }
 

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
+#include <lacuna/quality/detail/curved_other.h>
 #include <lacuna/quality/detail/lanes.h>
 
 #include <algorithm>
@@ -225,6 +226,130 @@ LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3],
     return least_scaled(nodes);
 }
 
+/// Divide by 1 - t, of which the polynomial is a multiple, along a direction, and raise to degree five again.
+/// @param degree  along the direction; the coefficients of degree five beyond it are not used
+void divide(Bezier& bezier, std::size_t stride, std::size_t degree)
+{
+    for (std::size_t at = 0; at < kAll; ++at) {
+        if (at / stride % kSide != 0) continue;
+        const auto c = [&](std::size_t i) -> double& { return bezier[at + i * stride]; };
+        for (std::size_t i = 0; i < degree; ++i)
+            c(i) *= static_cast<double>(degree) / static_cast<double>(degree - i);
+        c(degree) = 0;
+    }
+}
+
+/// Raise the degree along a direction to five.
+void elevate(Bezier& bezier, std::size_t stride, std::size_t degree)
+{
+    for (std::size_t at = 0; at < kAll; ++at) {
+        if (at / stride % kSide != 0) continue;
+        const auto c = [&](std::size_t i) -> double& { return bezier[at + i * stride]; };
+        for (std::size_t n = degree + 1; n < kSide; ++n)
+            for (std::size_t i = n; i > 0; --i) {
+                const double share = static_cast<double>(i) / static_cast<double>(n);
+                c(i) = share * c(i - 1) + (1 - share) * (i < n ? c(i) : 0);
+            }
+    }
+}
+
+/// The judgement by the coefficients of the Jacobian, or of what remains of it without positive factors.
+void decide(CurvedCell& cell, const Bezier& bezier, double scaled, int max_depth)
+{
+    double largest = 0, least = kInfinity;
+    for (const double value : bezier) {
+        largest = std::max(largest, std::abs(value));
+        least = std::min(least, value);
+    }
+    if (!std::isfinite(cell.volume) || !(largest > 0)) {
+        cell = {};
+        return;
+    }
+    cell.bound = cell.volume != 0 ? least / std::abs(cell.volume) : -1;
+    cell.scaled_jacobian = scaled;
+    const double floor = kRoundoff * largest; // conversion to Bézier amplifies rounding by less than 1e4
+    cell.positive = cell.scaled_jacobian > 0 &&
+                    (least > floor || positive_parts(bezier, floor, {max_depth, max_depth, max_depth}));
+}
+
+/// The integral of the Jacobian.
+double integral(const Bezier& bezier)
+{
+    double sum = 0;
+    for (const double value : bezier) sum += value;
+    return sum / static_cast<double>(kAll);
+}
+
+/// Whether corner `c` of a hexahedron is at the end of direction `d`.
+constexpr bool is_high(std::size_t c, std::size_t d)
+{
+    return ((d == 0 ? c + 1 : c) & (d == 2 ? 4u : 2u)) != 0;
+}
+
+/// Distances of the middle nodes from the middles of their edges.
+std::array<Vec3, 12> deviations(std::span<const Vec3, 20> nodes)
+{
+    std::array<Vec3, 12> all;
+    for (std::size_t e = 0; e < 12; ++e)
+        all[e] = nodes[8 + e] -
+                 (nodes[index(mesh::kHexEdges[e][0])] + nodes[index(mesh::kHexEdges[e][1])]) / 2;
+    return all;
+}
+
+/// The map of a wedge, pyramid or tetrahedron of order 2 at a point of the unit cube, relative to corner 0:
+/// linear in the corners, and for each edge from a to b its deviation times 4 a b, with the shape functions
+/// of a triangle, a square or the height.
+Vec3 collapsed_place(CellKind kind, std::span<const Vec3, 20> nodes, const std::array<Vec3, 12>& deviation,
+                     const std::array<double, 3>& at)
+{
+    Vec3 place(0, 0, 0);
+    for (std::size_t c = 0; c < 8; ++c) {
+        double weight = 1;
+        for (std::size_t d = 0; d < 3; ++d) weight *= is_high(c, d) ? at[d] : 1 - at[d];
+        place += weight * (nodes[c] - nodes[0]);
+    }
+    for (std::size_t e = 0; e < 12; ++e) {
+        const auto a = index(mesh::kHexEdges[e][0]), b = index(mesh::kHexEdges[e][1]);
+        double weight = 4;
+        for (std::size_t d = 0; d < 3; ++d) {
+            const double t = is_high(a, d) ? at[d] : 1 - at[d];
+            const bool along = is_high(a, d) != is_high(b, d);
+            weight *= along ? t * (1 - t) : t;
+            if (along && d == 0 && kind != CellKind::pyramid) weight *= 1 - at[1];
+            if (along && d != 2 && kind != CellKind::wedge) weight *= 1 - at[2];
+        }
+        place += weight * deviation[e];
+    }
+    return place;
+}
+
+/// The smallest scaled Jacobian at the corners.
+double scaled_at_corners(CellKind kind, std::span<const Vec3, 20> nodes)
+{
+    const std::span<const std::uint8_t> corners = corners_of(kind);
+    // The corner of the cell that a corner of the hexahedron is merged with.
+    const auto merged = [&](std::size_t c) {
+        while (std::ranges::find(corners, c) == corners.end()) --c;
+        return c;
+    };
+    double least = 1;
+    for (const auto& [at, next] : neighbours_in(kind)) {
+        std::array<Vec3, 3> tangents;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto edge = std::ranges::find_if(
+                mesh::kHexEdges, [&, from = at, to = next[k]](const auto& e) {
+                    const std::size_t a = merged(index(e[0])), b = merged(index(e[1]));
+                    return (a == from && b == to) || (a == to && b == from);
+                });
+            const auto middle = 8 + static_cast<std::size_t>(edge - mesh::kHexEdges.begin());
+            tangents[k] = 4 * nodes[middle] - 3 * nodes[at] - nodes[next[k]];
+        }
+        const double determinant = tangents[0].dot(tangents[1].cross(tangents[2]));
+        least = std::min(least, scaled_determinant(kind, determinant, tangents));
+    }
+    return std::max(least, -1.0);
+}
+
 } // namespace
 
 CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
@@ -234,20 +359,38 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
         for (int d = 0; d < 3; ++d) nodes[d][kGrid[n]] = places[n][d] - places[0][d];
     Bezier bezier;
     const double scaled = with_avx512([&]() LACUNA_INLINE_BODY { return find_coefficients(nodes, bezier); });
-    CurvedCell cell;
-    double sum = 0, largest = 0, least = kInfinity;
-    for (const double value : bezier) {
-        sum += value;
-        largest = std::max(largest, std::abs(value));
-        least = std::min(least, value);
+    CurvedCell cell{.volume = integral(bezier)};
+    decide(cell, bezier, scaled, max_depth);
+    return cell;
+}
+
+std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3, 20> places, int max_depth)
+{
+    const std::array<Vec3, 12> deviation = deviations(places);
+    double size = places[0].cwiseAbs().maxCoeff(), most = 0;
+    for (const Vec3& corner : places.first<8>())
+        size = std::max(size, (corner - places[0]).cwiseAbs().maxCoeff());
+    for (const Vec3& by : deviation) most = std::max(most, by.cwiseAbs().maxCoeff());
+    if (most <= kStraight * size) return std::nullopt;
+    std::array<double, 27> nodes[3];
+    for (std::size_t p = 0; p < 27; ++p) {
+        const std::array<double, 3> at{double(p % 3) / 2, double(p / 3 % 3) / 2, double(p / 9) / 2};
+        const Vec3 place = collapsed_place(kind, places, deviation, at);
+        for (int d = 0; d < 3; ++d) nodes[d][p] = place[d];
     }
-    if (!std::isfinite(sum) || !(largest > 0)) return cell;
-    cell.volume = sum / static_cast<double>(kAll);
-    cell.bound = cell.volume != 0 ? least / std::abs(cell.volume) : -1;
-    cell.scaled_jacobian = scaled;
-    const double floor = kRoundoff * largest; // conversion to Bézier amplifies rounding by less than 1e4
-    cell.positive = cell.scaled_jacobian > 0 &&
-                    (least > floor || positive_parts(bezier, floor, {max_depth, max_depth, max_depth}));
+    Bezier bezier;
+    with_avx512([&]() LACUNA_INLINE_BODY { return find_coefficients(nodes, bezier); });
+    CurvedCell cell{.volume = integral(bezier)};
+    if (kind != CellKind::pyramid) {
+        divide(bezier, kStrides[1], 5);
+        elevate(bezier, kStrides[1], 4);
+    }
+    if (kind != CellKind::wedge) {
+        divide(bezier, kStrides[2], 5);
+        divide(bezier, kStrides[2], 4);
+        elevate(bezier, kStrides[2], 3);
+    }
+    decide(cell, bezier, scaled_at_corners(kind, places), max_depth);
     return cell;
 }
 

@@ -51,7 +51,7 @@ void put(A& with, Own& quality)
 {
     with(quality.hexes), with(quality.wedges), with(quality.min_scaled_jacobian);
     with(quality.mean_scaled_jacobian), with(quality.inverted), with(quality.uncertified);
-    with(quality.histogram), with(quality.volume), with(quality.worst);
+    with(quality.histogram), with(quality.volume), with(quality.worst), with(quality.least_by_kind);
 }
 
 /// The results of all slabs in order, where each process contributes its own slabs.
@@ -326,15 +326,17 @@ MeasuredLayers measure(const LayeredMesh& layered, const RunContext& context, co
         measured.slabs.push_back(std::move(slab_found.place));
         all.hexes += own.hexes;
         all.wedges += own.wedges;
+        for (std::size_t k = 0; k < own.least_by_kind.size(); ++k)
+            all.least_by_kind[k] = std::min(all.least_by_kind[k], own.least_by_kind[k]);
         all.inverted += own.inverted;
         all.uncertified += own.uncertified;
         all.volume += own.volume;
-        sum += own.mean_scaled_jacobian * static_cast<double>(own.hexes + own.wedges);
+        sum += own.mean_scaled_jacobian * static_cast<double>(own.cells());
         for (std::size_t b = 0; b < own.histogram.size(); ++b) all.histogram[b] += own.histogram[b];
         for (const WorstCell& cell : own.worst) worst.offer(cell, cell.cell % mesh.quads.size());
     }
-    if (all.hexes + all.wedges == 0) return measured;
-    all.mean_scaled_jacobian = sum / static_cast<double>(all.hexes + all.wedges);
+    if (all.cells() == 0) return measured;
+    all.mean_scaled_jacobian = sum / static_cast<double>(all.cells());
     for (const auto& [cell, column] : worst.entries) all.worst.push_back(cell);
     all.min_scaled_jacobian = all.worst.front().scaled_jacobian;
     return measured;

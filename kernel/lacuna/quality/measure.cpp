@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quality/detail/cell_columns.h>
+#include <lacuna/quality/detail/curved_other.h>
 #include <lacuna/quality/detail/worst_list.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/quality/shared/second_order.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace lacuna::quality {
 namespace {
 
-constexpr int kDepth = 6; ///< as in `certified_positive()`
+constexpr auto kHexKind = static_cast<std::size_t>(CellKind::hex);
 
 struct Partial {
     double sum = 0;
     double volume = 0;
     std::size_t inverted = 0;
     std::size_t uncertified = 0;
-    std::size_t wedges = 0;
+    std::array<std::size_t, 4> count{};      ///< by kind; hexahedra are not counted
+    std::array<double, 4> least{1, 1, 1, 1}; ///< scaled Jacobian by kind
     std::array<std::uint32_t, 20> histogram{};
     WorstList worst;
 };
@@ -35,11 +38,6 @@ void put_cell(Values& values, Signs& signs, int lane, double scaled, double volu
     signs[static_cast<std::size_t>(lane)] = positive ? Sign::positive : Sign::not_positive;
 }
 
-bool is_positive(const WedgeValues& wedge)
-{
-    return wedge.scaled > 0 && (wedge.smallest > 0 || positive_everywhere(view_of(over_cube(wedge)), kDepth));
-}
-
 /// Count the cells that are not positive everywhere.
 void count_bad(Partial& partial, const Values& values, const Signs& signs, int filled)
 {
@@ -48,16 +46,17 @@ void count_bad(Partial& partial, const Values& values, const Signs& signs, int f
         const bool upright = values.scaled[lane] > 0;
         if (!upright) ++partial.inverted;
         if (upright && (values.smallest[lane] > 0 || sign == Sign::positive)) continue;
-        if (!upright || sign == Sign::not_positive || !positive_everywhere(view_of(values, lane), kDepth))
+        if (!upright || sign == Sign::not_positive ||
+            !positive_everywhere(view_of(values, lane), kCertifyDepth))
             ++partial.uncertified;
     }
 }
 
 /// Add the cells of a batch, the first of which has the number `first`. Tests that most cells pass are made
-/// for the whole batch first.
+/// for the whole batch first. @param hexes  all are hexahedra
 template <class Cells>
 void add_batch(Partial& partial, const Cells& cells, const Values& values, const Signs& signs,
-               std::size_t first, int filled)
+               std::size_t first, int filled, bool hexes)
 {
     double sum = partial.sum, volume = partial.volume;
     double least = values.scaled[0], most = values.scaled[0];
@@ -80,12 +79,26 @@ void add_batch(Partial& partial, const Cells& cells, const Values& values, const
     for (std::size_t c = first; c < end && partial.worst.takes(least); ++c)
         partial.worst.offer({.cell = c, .scaled_jacobian = values.scaled[c - first]}, cells.column_of(c));
     if (!positive) count_bad(partial, values, signs, filled);
+    if (hexes) {
+        partial.least[kHexKind] = std::min(partial.least[kHexKind], least);
+        return;
+    }
+    for (std::size_t c = first; c < end; ++c) {
+        double& of_kind = partial.least[static_cast<std::size_t>(cells.kind(c % cells.columns()))];
+        of_kind = std::min(of_kind, values.scaled[c - first]);
+    }
 }
 
 /// For meshes of order 1: no cell is curved.
-constexpr auto kNoneCurved = [](std::size_t /*cell*/, std::array<Vec3, 27>& /*nodes*/) { return false; };
+constexpr auto kNoneCurved = [](std::size_t /*cell*/) { return std::optional<CurvedCell>(); };
 
-/// @param curved  returns whether a cell is curved, and sets its nodes if it is.
+/// The judgement of a hexahedron of order 2, if it is curved.
+std::optional<CurvedCell> judge_curved(const std::array<Vec3, 27>& nodes)
+{
+    return is_straight(nodes) ? std::optional<CurvedCell>() : judge(nodes);
+}
+
+/// @param curved  returns the judgement of a cell, if it is curved.
 /// @param kept    null, or memory for the scaled Jacobian of every cell, if no cell is curved.
 template <class Cells, class Curved>
 Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& context,
@@ -100,18 +113,18 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
             cells, begin, end, [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
                 evaluate(batch, values);
                 Signs signs = signs_after_cut(values);
-                std::array<Vec3, 27> nodes;
-                for (int lane = 0; lane < filled; ++lane) {
-                    if (!curved(first + static_cast<std::size_t>(lane), nodes)) continue;
-                    const CurvedCell cell = judge(nodes);
-                    put_cell(values, signs, lane, cell.scaled_jacobian, cell.volume, cell.positive);
-                }
-                for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
-                    const WedgeValues wedge = evaluate_wedge(corners);
-                    put_cell(values, signs, lane, wedge.scaled, wedge.volume, is_positive(wedge));
-                    ++partials[c].wedges;
-                });
-                add_batch(partials[c], cells, values, signs, first, filled);
+                bool hexes = true;
+                for_each_other(cells, first, filled,
+                               [&](int lane, CellKind kind, const CellCorners& corners) {
+                                   const OtherValues other = evaluate_other(kind, corners);
+                                   put_cell(values, signs, lane, other.scaled, other.volume, other.positive);
+                                   ++partials[c].count[static_cast<std::size_t>(kind)];
+                                   hexes = false;
+                               });
+                for (int lane = 0; lane < filled; ++lane)
+                    if (const auto cell = curved(first + static_cast<std::size_t>(lane)))
+                        put_cell(values, signs, lane, cell->scaled_jacobian, cell->volume, cell->positive);
+                add_batch(partials[c], cells, values, signs, first, filled, hexes);
                 if (kept == nullptr) return;
                 std::transform(values.scaled, values.scaled + filled, kept + first,
                                [](double scaled) { return static_cast<float>(scaled); });
@@ -125,14 +138,18 @@ Quality measure_all(const Cells& cells, const Curved& curved, const RunContext& 
     for (const Partial& partial : partials) {
         sum += partial.sum;
         quality.volume += partial.volume;
-        quality.wedges += partial.wedges;
+        quality.wedges += partial.count[static_cast<std::size_t>(CellKind::wedge)];
+        quality.pyramids += partial.count[static_cast<std::size_t>(CellKind::pyramid)];
+        quality.tets += partial.count[static_cast<std::size_t>(CellKind::tet)];
+        for (std::size_t k = 0; k < partial.least.size(); ++k)
+            quality.least_by_kind[k] = std::min(quality.least_by_kind[k], partial.least[k]);
         quality.inverted += partial.inverted;
         quality.uncertified += partial.uncertified;
         for (std::size_t b = 0; b < quality.histogram.size(); ++b)
             quality.histogram[b] += partial.histogram[b];
         for (const auto& [cell, column] : partial.worst.entries) worst.offer(cell, column);
     }
-    quality.hexes -= quality.wedges;
+    quality.hexes -= quality.wedges + quality.pyramids + quality.tets;
     quality.mean_scaled_jacobian = sum / static_cast<double>(count);
     for (const auto& [cell, column] : worst.entries)
         quality.worst.push_back({cell.cell, -1, centre_of(cells, cell.cell), cell.scaled_jacobian});
@@ -146,10 +163,7 @@ Quality measure(const mesh::HexMesh& mesh, const RunContext& context, Keep keep)
 {
     const bool keeps = keep == Keep::of_cells && mesh.order() == 1;
     const auto kept = std::make_shared<std::vector<float>>(keeps ? mesh.cell_count() : 0);
-    const auto curved = [&mesh](std::size_t cell, std::array<Vec3, 27>& nodes) {
-        nodes = hex27_of(mesh, cell);
-        return !is_straight(nodes);
-    };
+    const auto curved = [&mesh](std::size_t cell) { return judge_curved(hex27_of(mesh, cell)); };
     Quality quality = mesh.order() == 1 ? measure_all(SweptCells{mesh}, kNoneCurved, context,
                                                       keeps ? kept->data() : nullptr)
                                         : measure_all(SweptCells{mesh}, curved, context);
@@ -169,15 +183,18 @@ Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNod
 {
     std::vector<Hex> corners(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) std::copy_n(cells[c].node.begin(), 8, corners[c].begin());
-    const auto curved = [&](std::size_t cell, std::array<Vec3, 27>& places) {
+    const auto curved = [&](std::size_t cell) -> std::optional<CurvedCell> {
         const std::span<const Index> all = cells[cell].all();
-        if (all.size() == 8) return false;
+        if (all.size() == 8) return std::nullopt;
+        std::array<Vec3, 27> places;
         for (std::size_t n = 0; n < 8; ++n) places[n] = nodes[index(all[n])];
         const std::array<Vec3, 27> straight = mesh::as_hex27(std::span(places).first<8>());
         for (std::size_t n = 8; n < all.size(); ++n)
             places[n] = all[n] < 0 ? straight[n] : nodes[index(all[n])];
+        if (const CellKind kind = kind_of(corners[cell]); kind != CellKind::hex)
+            return judge_other(kind, std::span(places).first<20>());
         if (all.size() < 27) places = mesh::as_hex27(std::span<const Vec3>(places).first(all.size()));
-        return !is_straight(places);
+        return judge_curved(places);
     };
     return measure_all(ListedCells{nodes, corners, columns}, curved, context);
 }

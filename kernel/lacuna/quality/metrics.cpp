@@ -90,14 +90,14 @@ struct Tally {
     }
 };
 
-/// Value of a wedge for metrics that are not defined for wedges.
+/// Value of another cell than a hexahedron for metrics that are not defined for it.
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// Store the metrics of a wedge in a lane.
-void put_wedge(std::span<const Metric> metrics, const WedgeCorners& corners, double* values)
+/// Store the metrics of such a cell in a lane.
+void put_other(std::span<const Metric> metrics, CellKind kind, const CellCorners& corners, double* values)
 {
     for (std::size_t m = 0; m < metrics.size(); ++m)
-        values[m * kMetricLanes] = wedge_metric(metrics[m], corners).value_or(kNoValue);
+        values[m * kMetricLanes] = other_metric(metrics[m], kind, corners).value_or(kNoValue);
 }
 
 /// Call `body(chunk, first cell, filled lanes, values)` for every batch of every chunk, chunks in parallel.
@@ -110,9 +110,10 @@ void for_each_value(const Cells& cells, std::span<const Metric> metrics, double 
         for_each_batch<kMetricLanes>(
             cells, begin, end, [&](const CellBatch<kMetricLanes>& batch, std::size_t first, int filled) {
                 evaluate_metrics(batch, metrics, average_volume, values.data());
-                for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
-                    put_wedge(metrics, corners, values.data() + lane);
-                });
+                for_each_other(cells, first, filled,
+                               [&](int lane, CellKind kind, const CellCorners& corners) {
+                                   put_other(metrics, kind, corners, values.data() + lane);
+                               });
                 body(c, first, filled, values.data());
             });
     });
@@ -145,7 +146,7 @@ struct CellsInRow {
     SweptCells all;
     std::size_t first, layer, count;
 
-    [[nodiscard]] bool is_wedge(std::size_t column) const { return all.is_wedge(first + column); }
+    [[nodiscard]] CellKind kind(std::size_t column) const { return all.kind(first + column); }
     [[nodiscard]] std::size_t columns() const { return count; }
     [[nodiscard]] std::size_t layers() const { return 1; }
     [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t above) const
@@ -197,6 +198,7 @@ std::vector<MetricSummary> measure_all(const Cells& cells, std::span<const Metri
         MetricSummary& summary = summaries[m];
         const Tally& sum = sums[m];
         summary.metric = metrics[m];
+        summary.cells = sum.count;
         if (sum.count == 0) continue;
         const auto count = static_cast<double>(sum.count);
         summary.min = sum.min;
@@ -224,8 +226,8 @@ void put_scaled_jacobians(const Cells& cells, std::size_t begin, std::size_t end
     for_each_batch<kLanes>(
         cells, begin, end, [&](const CellBatch<kLanes>& batch, std::size_t first, int filled) {
             evaluate_scaled(batch, scaled);
-            for_each_wedge(cells, first, filled, [&](int lane, const WedgeCorners& corners) {
-                scaled[lane] = evaluate_wedge(corners).scaled;
+            for_each_other(cells, first, filled, [&](int lane, CellKind kind, const CellCorners& corners) {
+                scaled[lane] = evaluate_other(kind, corners).scaled;
             });
             std::transform(scaled, scaled + filled, out + first, in_single_precision);
         });
@@ -247,7 +249,7 @@ struct PickedCells {
     std::span<const std::uint32_t> cells;
     std::uint32_t width = static_cast<std::uint32_t>(all.columns());
 
-    [[nodiscard]] bool is_wedge(std::size_t column) const { return all.is_wedge(cells[column] % width); }
+    [[nodiscard]] CellKind kind(std::size_t column) const { return all.kind(cells[column] % width); }
     [[nodiscard]] std::size_t columns() const { return cells.size(); }
     [[nodiscard]] std::size_t layers() const { return 1; }
     [[nodiscard]] LevelCorners corners(std::size_t column, std::size_t layer) const

@@ -218,7 +218,7 @@ Found check_quality(const Quality& quality, double min_scaled_jacobian, int laye
             if (!(cell.scaled_jacobian >= below)) cells.push_back(entity("cell", cell.cell));
         return cells;
     };
-    const std::size_t cells = quality.hexes + quality.wedges;
+    const std::size_t cells = quality.cells();
     const WorstCell first = quality.worst.empty() ? WorstCell{} : quality.worst.front();
     const std::string where = place_in_mesh(first, layers);
     if (quality.inverted > 0)

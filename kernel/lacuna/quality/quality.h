@@ -34,6 +34,16 @@ double wedge_scaled_jacobian(std::span<const Vec3, 6> corners);
 /// height, with nine Bernstein coefficients.
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 6);
 
+/// The scaled Jacobian of a pyramid with the base 0-1-2-3 and the apex 4: the smallest at the corners of the
+/// base of the determinant of the three edges, divided by their lengths, times √2; at most 1. It is 1 for a
+/// pyramid of equal sides. Verdict takes the tetrahedra at these corners instead, with all their edges, and 0
+/// for a folded one.
+double pyramid_scaled_jacobian(std::span<const Vec3, 5> corners);
+
+/// The scaled Jacobian of a tetrahedron, Verdict's: √2 times the determinant of three edges at a corner,
+/// divided by the largest product of the lengths of the edges at a corner. It is 1 for a regular one.
+double tet_scaled_jacobian(std::span<const Vec3, 4> corners);
+
 /// One of the worst cells of a mesh.
 struct WorstCell {
     std::size_t cell = 0; ///< from 0
@@ -54,6 +64,12 @@ struct Quality {
     double volume = 0;                       ///< sum over the cells [model length³]
     /// The scaled Jacobian of every cell, if requested from `measure()`; else null.
     std::shared_ptr<const std::vector<float>> of_cells;
+    std::size_t pyramids = 0; ///< pyramids and tetrahedra count in all values above, as wedges do
+    std::size_t tets = 0;     ///< tetrahedra
+    /// The smallest scaled Jacobian of the hexahedra, wedges, pyramids and tetrahedra; 1 if there are none.
+    std::array<double, 4> least_by_kind{1, 1, 1, 1};
+
+    [[nodiscard]] std::size_t cells() const { return hexes + wedges + pyramids + tets; }
 };
 
 /// Which results `measure()` stores.
@@ -67,7 +83,8 @@ enum class Keep {
 /// @pre  every corner is a valid node number (`prove()` checks it).
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {}, Keep keep = Keep::sums);
 
-/// As above, for a list of hexahedra, and of wedges stored as `mesh::is_wedge()` says.
+/// As above, for a list of hexahedra, and of other cells stored as hexahedra with merged corners: wedges as
+/// `mesh::is_wedge()`, pyramids and tetrahedra as `mesh::has_apex()` says (`mesh/tet_mesh.h`).
 /// @param columns  the column of a sweep for each cell, for `Quality::worst`; empty: unknown.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context = {},
                       std::span<const Index> columns = {});

@@ -39,9 +39,16 @@ std::string to_table(const Quality& quality)
     const auto count = [](std::size_t value, std::size_t width) {
         return pad_left(std::to_string(value), width);
     };
-    std::string text = "hexahedra              " + count(quality.hexes, 12) + "\n";
-    if (quality.wedges > 0) text += "wedges                 " + count(quality.wedges, 12) + "\n";
-    text += "scaled Jacobian  least " + fixed(quality.min_scaled_jacobian, 4, 12) + "\n";
+    constexpr const char* kKinds[] = {"hexahedra ", "wedges    ", "pyramids  ", "tetrahedra"};
+    const std::size_t counts[] = {quality.hexes, quality.wedges, quality.pyramids, quality.tets};
+    std::string text, least;
+    for (std::size_t k = 0; k < std::size(counts); ++k) {
+        if (counts[k] == 0 && (k > 0 || quality.cells() > 0)) continue;
+        text += kKinds[k] + count(counts[k], 25) + "\n";
+        if (counts[k] < quality.cells())
+            least += "   of the " + (kKinds[k] + fixed(quality.least_by_kind[k], 4, 15)) + "\n";
+    }
+    text += "scaled Jacobian  least " + fixed(quality.min_scaled_jacobian, 4, 12) + "\n" + least;
     text += "                  mean " + fixed(quality.mean_scaled_jacobian, 4, 12) + "\n";
     text += "inverted               " + count(quality.inverted, 12) + "\n";
     text += "not certified valid    " + count(quality.uncertified, 12) + "\n";
@@ -74,6 +81,7 @@ std::string to_table(std::span<const MetricSummary> summaries)
         text += pad_left(head, kWidth);
     text += "\n";
     for (const MetricSummary& summary : summaries) {
+        if (summary.cells == 0) continue;
         const MetricInfo& info = metric_info(summary.metric);
         text += pad_right(info.name, kNameWidth);
         for (const double value : {summary.min, summary.mean, summary.max})

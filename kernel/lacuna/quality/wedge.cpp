@@ -72,18 +72,6 @@ Coefficients over_cube(const WedgeValues& values)
     return cube;
 }
 
-std::optional<double> wedge_metric(Metric metric, const WedgeCorners& corners)
-{
-    const WedgeValues values = evaluate_wedge(corners);
-    if (metric == Metric::scaled_jacobian) return values.scaled;
-    if (metric == Metric::volume) return values.volume;
-    if (metric != Metric::jacobian) return std::nullopt;
-    double least = kInfinity;
-    for (const std::array<double, 3>& along : values.coefficients)
-        least = std::min({least, along.front(), along.back()});
-    return least;
-}
-
 double wedge_scaled_jacobian(std::span<const Vec3, 6> corners) { return evaluate_wedge(corners).scaled; }
 
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth)

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/core/shared/renumbered.h>
+#include <lacuna/mesh/tet_mesh.h>
 #include <lacuna/quality/shared/metrics.h>
 #include <lacuna/quality/shared/second_order.h>
 
@@ -44,20 +45,11 @@ std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh)
 
 namespace {
 
-/// Solids as hexahedra with repeated corners, by their number of corners less four; none has seven.
-constexpr Hex kCorners[] = {{0, 1, 2, 2, 3, 3, 3, 3},
-                            {0, 1, 2, 3, 4, 4, 4, 4},
-                            mesh::hex_of({0, 1, 2, 3, 4, 5}),
-                            {},
-                            {0, 1, 2, 3, 4, 5, 6, 7}};
-
-/// Scaled Jacobian of hexahedra and wedges; NaN for other solids.
+/// Scaled Jacobian of the cells.
 std::vector<double> quality_of(const ListedCells& region, const RunContext& context)
 {
     std::vector<double> values = quality::metric_values(region.nodes, region.cells,
                                                         quality::Metric::scaled_jacobian, context);
-    for (std::size_t c = 0; c < values.size(); ++c)
-        if (region.cells[c][4] == region.cells[c][5]) values[c] = std::numeric_limits<double>::quiet_NaN();
     parallel_each(context, region.curved.size(), quality::kCurvedGrain, [&](std::size_t c) {
         const std::span<const Index> own = region.curved[c].all();
         if (own.empty()) return;
@@ -97,7 +89,7 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
             }
             ListedCells& cells = found.regions[at->second];
             const auto own = block.element(e);
-            Hex cell = kCorners[info.corners - 4];
+            Hex cell = mesh::merged_corners(info.corners);
             for (Index& n : cell) n = numbering[at->second](own[index(n)]);
             cells.cells.push_back(cell);
             if (curved && std::find(own.begin(), own.end(), -1) == own.end()) {

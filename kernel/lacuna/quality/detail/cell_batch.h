@@ -78,6 +78,8 @@ CoefficientsView view_of(const CellValues<N>& values, int lane)
     return {&values.bezier[0][lane], N};
 }
 
+inline constexpr int kCertifyDepth = 6; ///< as in `certified_positive()`
+
 /// Whether J is positive in the whole cell, decided from its Bézier coefficients. See `certified_positive()`.
 bool positive_everywhere(const CoefficientsView& bezier, int max_depth);
 

@@ -4,7 +4,7 @@
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/quality/detail/cell_batch.h>
-#include <lacuna/quality/detail/wedge.h>
+#include <lacuna/quality/detail/other_cells.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -22,7 +22,10 @@ struct SweptCells {
     const mesh::HexMesh& mesh;
     std::size_t hex_columns = mesh.quads.size() - mesh.triangle_count();
 
-    [[nodiscard]] bool is_wedge(std::size_t column) const { return column >= hex_columns; }
+    [[nodiscard]] CellKind kind(std::size_t column) const
+    {
+        return column >= hex_columns ? CellKind::wedge : CellKind::hex;
+    }
 
     [[nodiscard]] std::size_t columns() const { return mesh.quads.size(); }
     [[nodiscard]] std::size_t column_of(std::size_t cell) const { return cell % mesh.quads.size(); }
@@ -43,7 +46,7 @@ struct ListedCells {
     std::span<const Index> swept{}; ///< column of the sweep for each cell; empty: each cell is a column
 
     [[nodiscard]] std::size_t column_of(std::size_t c) const { return swept.empty() ? c : index(swept[c]); }
-    [[nodiscard]] bool is_wedge(std::size_t column) const { return mesh::is_wedge(hexes[column]); }
+    [[nodiscard]] CellKind kind(std::size_t column) const { return kind_of(hexes[column]); }
 
     [[nodiscard]] std::size_t columns() const { return hexes.size(); }
     [[nodiscard]] std::size_t layers() const { return 1; }
@@ -127,23 +130,24 @@ void for_each_batch(const Cells& cells, std::size_t begin, std::size_t end, cons
     }
 }
 
-/// The corners of wedge `cell`. @pre cells.is_wedge(cell % cells.columns())
 template <class Cells>
-WedgeCorners wedge_corners(const Cells& cells, std::size_t cell)
+CellCorners corners_of(const Cells& cells, std::size_t cell)
 {
     const std::size_t column = cell % cells.columns(), layer = cell / cells.columns();
     const LevelCorners low = cells.corners(column, layer), high = cells.corners(column, layer + 1);
-    return {*low[0], *low[1], *low[2], *high[0], *high[1], *high[2]};
+    return {*low[0], *low[1], *low[2], *low[3], *high[0], *high[1], *high[2], *high[3]};
 }
 
-/// Call `body(lane, corners)` for the wedges of a batch, whose values as hexahedra must be replaced.
+/// Call `body(lane, kind, corners)` for the cells of a batch that are no hexahedra, whose values as hexahedra
+/// must be replaced.
 template <class Cells, class Body>
-void for_each_wedge(const Cells& cells, std::size_t first, int filled, const Body& body)
+void for_each_other(const Cells& cells, std::size_t first, int filled, const Body& body)
 {
     const std::size_t column = first % cells.columns();
     for (int lane = 0; lane < filled; ++lane) {
         const auto k = static_cast<std::size_t>(lane);
-        if (cells.is_wedge(column + k)) body(lane, wedge_corners(cells, first + k));
+        if (const CellKind kind = cells.kind(column + k); kind != CellKind::hex)
+            body(lane, kind, corners_of(cells, first + k));
     }
 }
 
@@ -152,13 +156,9 @@ template <class Cells>
 Vec3 centre_of(const Cells& cells, std::size_t cell)
 {
     Vec3 centre(0, 0, 0);
-    if (cells.is_wedge(cell % cells.columns())) {
-        for (const Vec3& corner : wedge_corners(cells, cell)) centre += corner / 6;
-        return centre;
-    }
-    const std::size_t layer = cell / cells.columns();
-    for (const std::size_t level : {layer, layer + 1})
-        for (const Vec3* corner : cells.corners(cell % cells.columns(), level)) centre += 0.125 * *corner;
+    const CellCorners corners = corners_of(cells, cell);
+    const std::span<const std::uint8_t> different = corners_of(cells.kind(cell % cells.columns()));
+    for (const std::size_t corner : different) centre += corners[corner] / double(different.size());
     return centre;
 }
 

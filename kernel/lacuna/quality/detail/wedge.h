@@ -2,10 +2,8 @@
 #pragma once
 
 #include <lacuna/quality/detail/cell_batch.h>
-#include <lacuna/quality/shared/metrics.h>
 
 #include <array>
-#include <optional>
 #include <span>
 
 /// Arithmetic of one wedge. Internal to this folder.
@@ -34,8 +32,5 @@ WedgeValues evaluate_wedge(std::span<const Vec3, 6> corners);
 /// The coefficients as those of a cell over the unit cube, whose square is mapped to the triangle by
 /// collapsing one side to the third corner. They are positive everywhere if and only if the wedge's are.
 Coefficients over_cube(const WedgeValues& values);
-
-/// The metric, if it is defined for wedges: scaled Jacobian, Jacobian and volume.
-std::optional<double> wedge_metric(Metric metric, const WedgeCorners& corners);
 
 } // namespace lacuna::quality

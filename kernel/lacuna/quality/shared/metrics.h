@@ -85,19 +85,21 @@ struct MetricSummary {
     int layer = -1;                                   ///< its layer, from 0; -1 for a list of cells
     Vec3 centre{0, 0, 0};                             ///< its centre, the mean of its corners
     double value = 0;                                 ///< its value
+    std::size_t cells = 0;                            ///< cells for which the metric is defined
 };
 
-/// Measure every cell; cells of order 2 by their corners. Wedges count in the metrics defined for them:
-/// scaled Jacobian, Jacobian and volume. Parallel; independent of the number of threads. O(cells · metrics).
+/// Measure every cell; cells of order 2 by their corners. Wedges, pyramids and tetrahedra count in the
+/// metrics defined for them: scaled Jacobian, Jacobian and volume. Parallel; independent of the number of
+/// threads. O(cells · metrics).
 /// @pre  every corner is a valid node number (`prove()` checks it).
 std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<const Metric> metrics,
                                            const RunContext& context = {});
 
-/// As above, for a list of hexahedra.
+/// As above, for a list of cells as of `measure_cells()`.
 std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::span<const Hex> hexes,
                                            std::span<const Metric> metrics, const RunContext& context = {});
 
-/// The metric of each cell, by cell number; 0 for wedges if the metric is not defined for them. Parallel.
+/// The metric of each cell, by cell number; 0 for cells for which it is not defined. Parallel.
 /// Cells of order 2 are measured by their corners, except that the scaled Jacobian of a curved cell is that
 /// of `judge()`. The scaled Jacobian is rounded to single precision, as proofs store it.
 /// @param average_volume  reference of the size metrics; empty: `mean_volume()` of the mesh.

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/io/deck_file.h>
+#include <lacuna/mesh/mesh_part.h>
+#include <lacuna/mesh/tet_mesh.h>
+
+#include <cstddef>
+#include <span>
+
+namespace lacuna::io {
+
+/// Tetrahedra and pyramids among several meshes with shared nodes. Holds references only.
+struct NumberedTets {
+    const mesh::TetPart& mesh;
+    std::span<const Index> numbers; ///< of each of its nodes in the whole mesh, from 0
+};
+
+/// Convert swept meshes and tetrahedra with shared nodes to a deck, with regions and sets as in
+/// `write_mesh()`.
+/// @param swept       meshes that store their nodes
+/// @param nodes       number of nodes of the whole mesh
+/// @param interfaces  as `MeshFileOptions::interfaces`
+/// @throw InvalidInput  as `write_mesh()`. Cancelled
+/// @note  O(n log n) in the sides of the skins, O(n) in the cells.
+Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedTets> tets, std::size_t nodes,
+             MeshDeckOptions options, bool interfaces, const RunContext& context = {});
+
+} // namespace lacuna::io

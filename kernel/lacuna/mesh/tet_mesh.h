@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/hex_mesh.h>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lacuna::mesh {
+
+/// A pyramid or a tetrahedron is stored as a hexahedron whose upper corners are merged: {0, 1, 2, 3, 4, 4, 4,
+/// 4} with the base 0-1-2-3, and {0, 1, 2, 2, 3, 3, 3, 3}. The normal of 0-1-2 points to the last corner.
+constexpr bool has_apex(const Hex& hex) { return hex[4] == hex[5] && hex[4] == hex[6] && hex[4] == hex[7]; }
+constexpr bool is_pyramid(const Hex& hex) { return has_apex(hex) && hex[2] != hex[3]; }
+constexpr bool is_tet(const Hex& hex) { return has_apex(hex) && hex[2] == hex[3]; }
+
+/// Places of the corners of a tetrahedron, pyramid, wedge or hexahedron, in the order of `CellShape`, at
+/// those of a hexahedron. @param corners  4, 5, 6 or 8
+constexpr Hex merged_corners(int corners)
+{
+    switch (corners) {
+    case 4:
+        return {0, 1, 2, 2, 3, 3, 3, 3};
+    case 5:
+        return {0, 1, 2, 3, 4, 4, 4, 4};
+    case 6:
+        return {0, 1, 2, 2, 3, 4, 5, 5};
+    default:
+        return {0, 1, 2, 3, 4, 5, 6, 7};
+    }
+}
+
+/// A closed surface of triangles and quads, oriented outward.
+struct ClosedSkin {
+    std::vector<Vec3> points; ///< [model length]
+    std::vector<Triangle> triangles;
+    std::vector<Quad> quads;
+};
+
+/// Cells that fill a closed skin: tetrahedra, and a pyramid on each of its quads.
+struct TetMesh {
+    std::vector<Vec3> nodes; ///< first the points of the skin, as given
+    std::vector<Hex> cells;  ///< as `is_tet()` and `is_pyramid()` say
+};
+
+/// Fills a skin; `cad::fill_skin()` does it with Gmsh.
+using TetMesher = std::function<TetMesh(const ClosedSkin&, const RunContext&)>;
+
+/// Pyramids and tetrahedra that fill a volume, or a part of one, with their skin.
+struct TetPart {
+    std::vector<Vec3> nodes;       ///< [model length]
+    std::vector<Hex> cells;        ///< pyramids, then tetrahedra
+    std::size_t pyramids = 0;      ///< number of pyramids
+    std::vector<Quad> skin;        ///< oriented outward; quads, then triangles as {a, b, c, c}
+    std::size_t skin_quads = 0;    ///< number of quads of the skin
+    std::vector<Index> skin_patch; ///< patch of each quad and triangle of the skin
+    std::vector<SkinPatch> patches;
+    std::vector<std::string> volume_groups{"volume"}; ///< the first is the name of the region
+
+    [[nodiscard]] std::size_t cell_count() const { return cells.size(); }
+    [[nodiscard]] std::size_t skin_count() const { return skin.size(); }
+    [[nodiscard]] const Vec3& node(std::size_t n) const { return nodes[n]; }
+};
+
+} // namespace lacuna::mesh

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "support/folder.h"
+#include "support/mixed_cells.h"
+
+#include <lacuna/core/error.h>
+#include <lacuna/io/deck_file.h>
+#include <lacuna/io/mesh_file.h>
+#include <lacuna/io/shared/solid_nodes.h>
+#include <lacuna/quality/shared/prove_cells.h>
+#include <lacuna/quality/shared/second_order.h>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+using namespace lacuna;
+using io::Deck;
+using io::DeckFormat;
+using test::Folder;
+
+namespace {
+
+struct WrittenAs {
+    const char* file;
+    DeckFormat format;
+    io::MeshFileOptions options{};
+    bool second_order_pyramids = true;
+};
+const WrittenAs kWrittenAs[] = {
+    {"a.msh", DeckFormat::msh},
+    {"b.msh", DeckFormat::msh, {.binary = false}},
+    {"c.msh", DeckFormat::msh, {.binary = true, .version = 2.2}},
+    {"d.msh", DeckFormat::msh, {.binary = false, .version = 2.2}},
+    {"a.vtk", DeckFormat::vtk},
+    {"b.vtk", DeckFormat::vtk, {.binary = false}},
+    {"a.vtu", DeckFormat::vtu},
+    {"a.inp", DeckFormat::abaqus, {}, false},
+    {"a.bdf", DeckFormat::nastran},
+    {"a.unv", DeckFormat::unv, {}, false},
+    {"a.exo", DeckFormat::exodus},
+};
+
+/// Nodes of the elements by shape, in the order of the file.
+std::map<io::DeckShape, std::multiset<std::vector<Index>>> elements_by_shape(const Deck& deck)
+{
+    std::map<io::DeckShape, std::multiset<std::vector<Index>>> elements;
+    for (const io::DeckBlock& block : deck.blocks)
+        for (std::size_t e = 0; e < block.count(); ++e)
+            elements[block.shape].emplace(block.element(e).begin(), block.element(e).end());
+    return elements;
+}
+
+std::vector<mesh::CellNodes> measurable_cells(const Deck& deck)
+{
+    std::vector<mesh::CellNodes> solids;
+    for (const io::DeckBlock& block : deck.blocks)
+        for (std::size_t e = 0; e < block.count(); ++e) solids.push_back(io::solid_nodes(block, e));
+    return solids;
+}
+
+} // namespace
+
+TEST_CASE("hexahedra, wedges, pyramids and tetrahedra come back from every format, of order 1 and 2")
+{
+    for (const int order : {1, 2})
+        for (const WrittenAs& target : kWrittenAs) {
+            CAPTURE(order);
+            CAPTURE(target.file);
+            const bool pyramids = order == 1 || target.second_order_pyramids;
+            const Deck deck = test::mixed_deck(3, order, order == 2 ? 0.01 : 0, pyramids);
+            const Folder folder;
+            const std::string path = folder.file(target.file);
+            io::write_deck(deck, target.format, path, {}, target.options);
+            const Deck again = io::read_deck(path);
+            CHECK(elements_by_shape(again) == elements_by_shape(deck));
+            REQUIRE(again.points.size() == deck.points.size());
+            double farthest = 0;
+            for (std::size_t p = 0; p < deck.points.size(); ++p)
+                farthest = std::max(farthest, (again.points[p] - deck.points[p]).norm());
+            CHECK(farthest < 1e-11);
+            const auto solids = measurable_cells(again);
+            const quality::Quality quality = quality::measure_cells(again.points, solids);
+            CHECK(quality.uncertified == 0);
+            CHECK(quality.pyramids == (pyramids ? 6 : 0));
+            CHECK(quality.tets == 96);
+            if (order == 2) {
+                const auto given = quality::measure_cells(deck.points, measurable_cells(deck));
+                CHECK(quality.volume == doctest::Approx(given.volume));
+                CHECK(quality.min_scaled_jacobian == doctest::Approx(given.min_scaled_jacobian));
+                continue;
+            }
+            CHECK(quality.volume == doctest::Approx(18));
+            std::vector<Hex> corners(solids.size());
+            for (std::size_t c = 0; c < solids.size(); ++c)
+                std::copy_n(solids[c].node.begin(), 8, corners[c].begin());
+            CHECK_FALSE(quality::prove_cells(again.points, corners).finding);
+        }
+}
+
+TEST_CASE(
+    "a pyramid is a brick with a repeated apex in Abaqus and UNV, and refused there where it is of order 2")
+{
+    const Folder folder;
+    Deck deck = test::mixed_deck(3, 1);
+    io::DeckSet skin{.kind = io::DeckSet::Kind::sides, .name = "skin"};
+    for (const io::DeckBlock& block : deck.blocks)
+        for (const io::DeckTag tag : block.tags)
+            for (int side = 1; side <= static_cast<int>(mesh::face_corners(block.shape).size()); ++side)
+                skin.sides.push_back({tag, side});
+    std::ranges::sort(skin.sides);
+    deck.sets = {skin};
+    const std::string path = folder.file("a.inp");
+    for (int round = 0; round < 2; ++round) {
+        io::write_deck(round == 0 ? deck : io::read_deck(path), DeckFormat::abaqus, path);
+        std::ifstream file(path);
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        CHECK(text.find("C3D5") == std::string::npos);
+        const Deck again = io::read_deck(path);
+        CHECK(elements_by_shape(again) == elements_by_shape(deck));
+        const auto same = std::ranges::find(again.sets, io::DeckSet::Kind::sides, &io::DeckSet::kind);
+        REQUIRE(same != again.sets.end());
+        CHECK(same->sides == skin.sides);
+    }
+    // A deck's own word stays.
+    const std::string own =
+        "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0.5,0.5,1\n*ELEMENT, TYPE=C3D5\n1,1,2,3,4,5\n"
+        "*ELEMENT, TYPE=C3D8R\n2,4,3,2,1,5,5,5,5\n";
+    const Deck kept = io::read_deck("own.inp", own);
+    CHECK(kept.element_count(3) == 2);
+    io::write_deck(kept, DeckFormat::abaqus, path);
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    CHECK(text.find("TYPE=C3D5\n1, 1, 2, 3, 4, 5\n") != std::string::npos);
+    CHECK(text.find("TYPE=C3D8R\n2, 4, 3, 2, 1, 5, 5, 5, 5\n") != std::string::npos);
+    CHECK(elements_by_shape(io::read_deck(path)) == elements_by_shape(kept));
+
+    const Deck second = test::mixed_deck(3, 2);
+    for (const char* name : {"b.inp", "b.unv"}) {
+        const io::Format* const format = io::find_format(name);
+        CHECK_THROWS_WITH_AS(io::write_deck(second, *format, io::OutputPath(folder.file(name))),
+                             doctest::Contains("6 elements of 13 nodes"), InvalidInput);
+        CHECK_FALSE(std::filesystem::exists(folder.file(name)));
+    }
+}
