@@ -3,15 +3,14 @@
 
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
-#include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/detail/face_sides.h>
+#include <lacuna/surface/detail/facet_curvature.h>
 #include <lacuna/surface/detail/graded_points.h>
+#include <lacuna/surface/detail/width_sizes.h>
 #include <lacuna/surface/shared/edge_nodes.h>
-#include <lacuna/topology/shared/cone_shape.h>
-#include <lacuna/topology/shared/facet_area.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -59,67 +58,12 @@ void take_least(std::optional<SizeCause>& least, const SizeCause& cause)
 void add_curvature(const Model& model, FaceId face, const SizeField& asked, int per_turn,
                    std::vector<PointSize>& sizes, std::optional<SizeCause>& cause)
 {
-    const Face& f = model[face];
-    if (f.kind == "plane") return;
-    struct Around {
-        Eigen::Matrix3d bends = Eigen::Matrix3d::Zero();
-        double area = 0, shortest = kInfinity;
-
-        void add(const Around& other)
-        {
-            bends += other.bends;
-            area += other.area;
-        }
-    };
-    const std::vector<Index> number = corner_points(f);
-    const auto place = [&](Index p) {
-        return static_cast<std::size_t>(std::lower_bound(number.begin(), number.end(), p) - number.begin());
-    };
-    std::vector<Around> at(number.size());
-    std::unordered_map<std::uint64_t, std::size_t> first;
-    first.reserve(2 * f.triangles.size());
-    for (std::size_t i = 0; i < f.triangles.size(); ++i) {
-        const Triangle& t = f.triangles[i];
-        const Vec3 normal = facet_area_vector(model, t);
-        const std::array<std::size_t, 3> own{place(t[0]), place(t[1]), place(t[2])};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Index a = t[k], b = t[(k + 1) % 3];
-            Around &from = at[own[k]], &to = at[own[(k + 1) % 3]];
-            const Vec3 side = model.at(b) - model.at(a);
-            from.area += normal.norm() / 3;
-            for (Around* end : {&from, &to}) end->shortest = std::min(end->shortest, side.norm());
-            const auto [found, fresh] = first.try_emplace(edge_key(a, b), i);
-            if (fresh) continue;
-            const Vec3 other = facet_area_vector(model, f.triangles[found->second]);
-            const double length = side.norm();
-            if (!(length > 0) || !(normal.norm() > 0) || !(other.norm() > 0)) continue;
-            const double bend = std::atan2(other.cross(normal).dot(side) / length, other.dot(normal));
-            const Vec3 across = side.cross(normal + other).stableNormalized();
-            const Eigen::Matrix3d part = bend * length / 2 * across * across.transpose();
-            from.bends += part;
-            to.bends += part;
-        }
-    }
-    // The facets at one vertex are too few if they are slivers, so the neighbours' facets are included.
-    std::vector<Around> wide = at;
-    for (const auto& [side, triangle] : first) {
-        const std::size_t a = place(static_cast<Index>(side >> 32));
-        const std::size_t b = place(static_cast<Index>(side & 0xffffffffU));
-        wide[a].add(at[b]);
-        wide[b].add(at[a]);
-    }
-    for (std::size_t p = 0; p < wide.size(); ++p) {
-        const Around& around = wide[p];
-        const Index point = number[p];
-        if (!(around.area > 0)) continue;
-        const Vec3 bends = geometry::symmetric_eigenvalues(around.bends / around.area);
-        const double curvature = bends.cwiseAbs().maxCoeff();
-        if (!(curvature * model.diagonal > 1e-6)) continue; // flatter than any size resolves
-        double size = kFullTurn / (curvature * per_turn);
-        if (f.surface == nullptr) size = std::max(size, around.shortest / 2);
-        size = std::max(size, kLeastShare * asked(model.at(point)));
-        if (!(size < asked(model.at(point)))) continue;
-        sizes.push_back({model.at(point), size});
+    for (const PointCurvature& at : facet_curvature(model, face)) {
+        if (!(at.most > 0)) continue;
+        double size = std::max(kFullTurn / (at.most * per_turn), at.least_size);
+        size = std::max(size, kLeastShare * asked(at.point));
+        if (!(size < asked(at.point))) continue;
+        sizes.push_back({at.point, size});
         take_least(cause, {size, face, {}, {}, 0});
     }
 }
@@ -142,7 +86,8 @@ struct RimPiece {
 /// The boundary of a face as pieces in a tree, and the size by local width.
 class Width {
 public:
-    Width(const Model& model, FaceId face) : model_(model), face_(face)
+    /// @param least  minimum size by the gap, as a share of the requested one.
+    Width(const Model& model, FaceId face, double least = 0) : model_(model), face_(face), least_(least)
     {
         double rim = 0;
         std::map<EdgeId, int> uses;
@@ -227,7 +172,8 @@ private:
                     if (size < most) sizes.push_back({at.point, size});
                     if (size < most) because(size);
                 }
-                const double share = sizing.gap > 0 ? width / sizing.gap : most;
+                double share = sizing.gap > 0 ? width / sizing.gap : most;
+                share = std::max(share, least_ * asked(at.point));
                 if (share >= most) continue;
                 // Add the point halfway across too, so that quads do not grow away from the rim.
                 sizes.push_back({at.point, share});
@@ -286,6 +232,7 @@ private:
 
     const Model& model_;
     FaceId face_;
+    double least_;
     double mean_width_ = 0;
     geometry::FacetTree tree_;
     std::vector<RimPiece> pieces_; ///< for each triangle in the tree
@@ -301,6 +248,13 @@ bool is_mapped(const Model& model, FaceId face)
 }
 
 } // namespace
+
+void add_width_sizes(const Model& model, FaceId face, const SizeField& asked, const ShapeSizing& sizing,
+                     double least, std::vector<PointSize>& sizes)
+{
+    std::optional<SizeCause> cause;
+    Width(model, face, least).add(asked, sizing, sizes, cause);
+}
 
 ShapeSize shape_size(const OpenVolume& volume, const SizeField& asked, const ShapeSizing& sizing)
 {

@@ -54,6 +54,10 @@ std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<c
                                  std::span<const GivenColumns> columns = {}, const RunContext& context = {},
                                  bool exact = true);
 
+/// Check that layers and columns can follow all edges between the walls of a sealed volume.
+/// @throw NotSweepable "surface.wall_edge"; as `linking_surfaces()`. Cancelled
+void check_wall_edges(const topology::OpenVolume& volume, const RunContext& context = {});
+
 /// Points of the nodes on the target's rim.
 std::vector<Vec3> target_points(const LinkingSurface& link, const LinkingNodes& nodes);
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/surface/detail/linked_triangles.h>
+#include <lacuna/surface/detail/skin_shape.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Isotropic remeshing of linked triangles, as `triangulate_skin()` describes.
+class SkinRemesher {
+public:
+    /// @param lines   sampled. @param shapes  of each face of the model. All are read while this lives.
+    SkinRemesher(LinkedTriangles& mesh, std::span<const SkinLine> lines,
+                 std::span<const FaceShapeTree> shapes, const SizeField& size, const RunContext& context)
+        : mesh_(mesh), lines_(lines), shapes_(shapes), size_(size), context_(context)
+    {
+    }
+
+    void run(const topology::Model& model);
+
+private:
+    [[nodiscard]] double ratio(Index s) const;
+    [[nodiscard]] double worst_around(Index node, const Vec3& place) const;
+    [[nodiscard]] bool is_live(Index s) const { return mesh_.lives(s); }
+
+    void split_long();
+    Index try_split(Index s);
+    void collapse_short();
+    bool try_collapse(Index s, double least);
+    [[nodiscard]] bool is_better_flipped(Index s) const;
+    void flip_all();
+    /// @return the sides that were flipped.
+    std::vector<Index> flip_from(std::vector<Index> open);
+    [[nodiscard]] Vec3 centre_around(Index node) const;
+    [[nodiscard]] const FaceShapeTree& shape_at(Index node) const;
+    /// Moves fail if they cause an angle below `least` and the smallest there, both as tangents.
+    bool move_to(Index node, const Vec3& place, double least);
+    bool move_along_line(Index node, double least);
+    void smooth(double least);
+    /// @param moves  whether nodes may leave their exact place.
+    void improve(bool moves);
+    bool improve(Index side, bool moves);
+    void make_exact(const topology::Model& model);
+    void set_normals(Index node);
+    void pause();
+
+    LinkedTriangles& mesh_;
+    std::span<const SkinLine> lines_;
+    std::span<const FaceShapeTree> shapes_;
+    const SizeField& size_;
+    const RunContext& context_;
+    unsigned steps_ = 0;
+};
+
+} // namespace lacuna::surface

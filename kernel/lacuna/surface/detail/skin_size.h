@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/surface/detail/graded_points.h>
+#include <lacuna/surface/detail/skin_shape.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// Sizes of the triangles of a skin: the requested ones, reduced where the skin is curved, narrow or thin,
+/// and those of given nodes next to them.
+///
+/// - Curvature: a full turn has `n` sides. Of all n from 12 on, the smallest is used for which the predicted
+///   loss of volume is half of `kSameVolume`. A side h along a curvature k is off by k h² / 12 on average.
+/// - Width: faces and edges as in `shape_size()`, down to a tenth of the requested size.
+/// - Thin places: where the opposite skin is w away, sides sag by at most a quarter of w.
+/// - Short edges have one side.
+///
+/// @param given  sides of given meshes: middle and length.
+/// @param size   requested.
+SizeField skin_sizes(const topology::Model& model, std::span<const SkinLine> lines,
+                     std::vector<PointSize> given, const SizeField& size, const RunContext& context);
+
+} // namespace lacuna::surface

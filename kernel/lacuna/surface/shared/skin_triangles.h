@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/tet_mesh.h>
+#include <lacuna/surface/size_field.h>
+#include <lacuna/topology/model.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::surface {
+
+/// The mesh of a face that is kept as it is, such as a wall of a swept neighbour.
+struct FixedFace {
+    FaceId face;
+    std::vector<Vec3> nodes; ///< [model length]
+    std::vector<Quad> quads; ///< in `nodes`; a triangle repeats its last corner
+};
+
+/// Target length of the triangles' sides.
+struct SkinSize {
+    double size = 0; ///< > 0 [model length]
+    SizeField at{};  ///< sizes by place, instead of `size`; may be empty
+};
+
+/// A meshed skin, and the face of each of its cells.
+struct SkinMesh {
+    mesh::ClosedSkin skin;
+    std::vector<FaceId> triangle_face, quad_face;
+};
+
+/// Mesh the closed skin of a model with triangles; faces with fixed or given meshes keep these.
+///
+/// Algorithm: isotropic remeshing of the facets (@cite botsch_2004_remeshing), all faces at once. Long sides
+/// are split, the longest first, and short ones collapsed; flips increase the smaller angle of two triangles;
+/// nodes move to the centres of their triangles and back to the face. Nodes on edges stay on their edge,
+/// vertices stay. At the end nodes lie on exact curves and surfaces where there are any. No step reverses a
+/// triangle against the normal of the facets. Departures: the remaining small angles are then improved one
+/// by one (@cite hu_2017_remeshing).
+///
+/// Sides are shorter than requested where faces are curved, so that the volume within the skin differs from
+/// that of the model by about half a percent at most, and where faces are narrow, down to a tenth of the
+/// requested size. Sizes grow by `kGrading` away from these places and from the nodes of fixed faces.
+///
+/// Facets of a face that turn by more than `kCreaseAngle` keep the crease between them.
+/// @pre   the faces of the model are oriented outward.
+/// @post  vertices and given nodes are kept bit for bit.
+/// @throw InvalidInput "surface.skin_open"  an edge is not used twice; names it. Those of
+///        `topology::give_mesh()` for the fixed faces. BackendError "surface.skin_folds" or
+///        "surface.skin_crosses"  triangles fold or cross at this size; names the faces. Cancelled
+/// @note  Deterministic for any number of threads. O(n log n) in facets and triangles.
+SkinMesh triangulate_skin(const topology::Model& model, const SkinSize& size,
+                          std::span<const FixedFace> fixed = {}, const RunContext& context = {});
+
+} // namespace lacuna::surface
