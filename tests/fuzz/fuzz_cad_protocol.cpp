@@ -28,7 +28,7 @@ void read(std::string_view bytes)
     }
 }
 
-constexpr int kMessages = 16;
+constexpr int kMessages = 18;
 
 void read_as(int which, std::string_view bytes)
 {
@@ -37,7 +37,8 @@ void read_as(int which, std::string_view bytes)
         read<Hello>,           read<Progress>,         read<Failure>,        read<LoadRequest>,
         read<LoadReply>,       read<EvaluateRequest>,  read<EvaluateReply>,  read<ProjectRequest>,
         read<ProjectReply>,    read<RecombineRequest>, read<RecombineReply>, read<BeginSolidRequest>,
-        read<BeginSolidReply>, read<MakeSolidRequest>, read<MakeSolidReply>, read<ReleaseRequest>};
+        read<BeginSolidReply>, read<MakeSolidRequest>, read<MakeSolidReply>, read<ReleaseRequest>,
+        read<FillSkinRequest>, read<FillSkinReply>};
     kReads[which % kMessages](bytes);
 }
 
@@ -118,8 +119,12 @@ std::string sample(int which)
         return encode(solid);
     case 14:
         return encode(MakeSolidReply{1, 2, 3});
-    default:
+    case 15:
         return encode(ReleaseRequest{1});
+    case 16:
+        return encode(FillSkinRequest{model.points, {{{0, 1, 2}}, {{2, 1, 0}, {0, 1, 2}}}});
+    default:
+        return encode(FillSkinReply{std::vector<Vec3>(4, Vec3::Ones()), {{0, 1, 2, 3}}});
     }
 }
 

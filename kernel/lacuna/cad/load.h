@@ -10,6 +10,11 @@
 #include <string>
 #include <vector>
 
+namespace lacuna::mesh {
+struct ClosedSkin;
+struct TetMesh;
+} // namespace lacuna::mesh
+
 namespace lacuna::cad {
 
 using io::LoadOptions;
@@ -40,6 +45,18 @@ io::LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOpti
 /// @throw NotSweepable  an odd number of boundary segments ("cad.odd_rim"), or triangles remain
 ///                      ("cad.recombine"). InvalidInput  as quads::check(). BackendError  the process ended.
 quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext& context = {});
+
+/// Fill a closed skin with tetrahedra by Gmsh, in the CAD process, with a pyramid on each of its quads. Cells
+/// have about the size of the skin's faces; each face is on one cell. A skin with cavities is one outer part
+/// and one part for each cavity. The result is the same to the bit for the same skin.
+/// @pre   every point is a corner of a face.
+/// @post  the nodes are the skin's points, the apexes of its quads in order, then those inside; the cells are
+///        the pyramids in the order of the quads, then tetrahedra; all are positive.
+/// @throw InvalidInput  the skin is open, inside out or in several parts ("cad.skin_open"). NotSweepable  its
+///                      faces cross ("cad.skin_crosses"), a quad is not convex ("cad.skin_quad"), Gmsh fails
+///                      ("cad.fill_skin"), or more than 1e7 tetrahedra are needed ("cad.tet_count").
+///                      BackendError  as load().
+mesh::TetMesh fill_skin(const mesh::ClosedSkin& skin, const RunContext& context = {});
 
 /// Version of Gmsh in the CAD process, and the confinement features that this system lacks; "none" if the
 /// CAD process is not installed.

@@ -411,7 +411,9 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
         end("it was stopped while working on " + task.subject);
         throw;
     }
-    spent_ = spent_ || opcode == Opcode::load;
+    // Gmsh keeps its lock if meshing throws, and meshes nothing after that.
+    const bool meshing = opcode == Opcode::recombine || opcode == Opcode::fill_skin;
+    spent_ = spent_ || opcode == Opcode::load || (meshing && failure.kind == Failure::backend);
     switch (failure.kind) {
     case Failure::invalid_input:
         throw InvalidInput(Message(failure.message));

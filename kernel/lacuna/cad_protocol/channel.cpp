@@ -15,7 +15,7 @@ namespace lacuna::cad_protocol {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4443414c; // "LCAD"
-constexpr std::uint16_t kVersion = 4;        // incremented with every change of a message
+constexpr std::uint16_t kVersion = 5;        // incremented with every change of a message
 /// Most descriptors of one frame; the kernel allows 253.
 constexpr std::size_t kMostDescriptors = 250;
 /// Most bytes of one frame: more than any model that can be meshed.

@@ -91,6 +91,24 @@ void check(const RecombineReply& m)
         require_below(quad, m.points.size(), "a node number of a quad is out of range");
 }
 
+void check(const FillSkinRequest& m)
+{
+    require_finite(m.points, "a point of a skin is not finite");
+    require(!m.shells.empty(), "a skin has no shells");
+    for (const auto& shell : m.shells) {
+        require(!shell.empty(), "a shell is empty");
+        for (const Triangle& t : shell)
+            require_below(t, m.points.size(), "a point number of a skin is out of range");
+    }
+}
+
+void check(const FillSkinReply& m)
+{
+    require_finite(m.points, "a node is not finite");
+    for (const Quad& tet : m.tets)
+        require_below(tet, m.points.size(), "a node number of a tetrahedron is out of range");
+}
+
 void check(const BeginSolidReply& m)
 {
     for (const auto& source : m.sources) {

@@ -2,6 +2,7 @@
 #include <lacuna/cad_worker/serve.h>
 
 #include <lacuna/cad_worker/confine.h>
+#include <lacuna/cad_worker/fill_skin.h>
 #include <lacuna/cad_worker/import_cad.h>
 #include <lacuna/cad_worker/recombine.h>
 #include <lacuna/cad_worker/solid_builder.h>
@@ -69,6 +70,8 @@ public:
             return project(decode<ProjectRequest>(frame.bytes));
         case Opcode::recombine:
             return encode(recombine(decode<RecombineRequest>(frame.bytes)));
+        case Opcode::fill_skin:
+            return encode(fill_skin(decode<FillSkinRequest>(frame.bytes)));
         case Opcode::begin_solid:
             return begin_solid(frame);
         case Opcode::make_solid:

@@ -69,8 +69,8 @@ void Session::save(const std::string& option, const std::optional<Value>& next)
 Session::Session(std::string subject) : subject_(std::move(subject))
 {
     run([&] { gmsh::logger::getLastError(last_error_); });
-    // A script may set these. Its Mesh options need no restoring: only recombine() meshes, and it sets its
-    // own.
+    // A script may set these. Its Mesh options need no restoring: only recombine() and
+    // fill_skin() mesh, and they set their own.
     for (const char* option : {"General.Terminal", "General.Verbosity", "General.AbortOnError",
                                "General.NumThreads", "Geometry.Tolerance", "Geometry.AutoCoherence"})
         run([&] { save<double>(option, std::nullopt); });

@@ -41,9 +41,9 @@ public:
 /// A CAD process (lacuna-cad), started at the first request and kept.
 ///
 /// It may end at any time (a crash, a limit, a signal). The request in progress then fails with a
-/// BackendError that says how it ended, and later requests to this object with WorkerGone; `current()` starts
-/// another one. A process that failed to load a file still serves the models it holds but loads no more.
-/// Thread-safe: requests are serialised. A child made by fork() starts its own process.
+/// BackendError that says how it ended, and later requests to this object with WorkerGone; `current()`
+/// starts another one. A process that failed to load a file or to mesh still serves the models it holds but
+/// loads no more. Thread-safe: requests are serialised. A child made by fork() starts its own process.
 class Worker {
 public:
     /// The running process, started if there is none.
@@ -108,7 +108,7 @@ private:
     bool ended_ = false;              ///< by itself or killed by us; guarded by `busy_`
     int status_ = 0;                  ///< its exit status, as from wait()
     std::string end_;                 ///< why we killed it
-    std::atomic<bool> spent_ = false; ///< a load failed, so the state of Gmsh's parsers is unknown
+    std::atomic<bool> spent_ = false; ///< loading or meshing failed, so the state of Gmsh is unknown
     std::mutex released_mutex_;
     std::vector<std::uint64_t> released_;
     std::unordered_map<std::uint64_t, std::uint64_t> charged_;

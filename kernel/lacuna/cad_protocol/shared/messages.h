@@ -27,6 +27,7 @@ enum class Opcode : std::uint16_t {
     evaluate,
     project,
     recombine,
+    fill_skin,
     begin_solid,
     make_solid,
     release,
@@ -134,6 +135,16 @@ struct RecombineReply {
     std::vector<Quad> quads;
 };
 
+/// Closed shells of triangles, oriented outward: the outer one, then cavities.
+struct FillSkinRequest {
+    std::vector<Vec3> points;
+    std::vector<std::vector<Triangle>> shells;
+};
+struct FillSkinReply {
+    std::vector<Vec3> points; ///< those of the request first
+    std::vector<Quad> tets;   ///< the corners of each tetrahedron
+};
+
 /// Entities of a loaded model that are used to make a solid. Three files in memory are sent along: two for
 /// intermediate results, and the result.
 struct SolidSource {
@@ -223,6 +234,8 @@ void check(const ProjectRequest& m);
 void check(const ProjectReply& m);
 void check(const RecombineRequest& m);
 void check(const RecombineReply& m);
+void check(const FillSkinRequest& m);
+void check(const FillSkinReply& m);
 void check(const BeginSolidReply& m);
 void check(const MakeSolidRequest& m);
 
