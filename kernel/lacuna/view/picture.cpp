@@ -26,6 +26,12 @@ void write_picture(std::span<const Region> regions, const io::OutputPath& path, 
     write(scene_of(regions, options, context), path, options, context);
 }
 
+void write_picture(const io::Deck& deck, const io::OutputPath& path, const PictureOptions& options,
+                   const RunContext& context)
+{
+    write(scene_of(listed_cells(deck, context), options, context), path, options, context);
+}
+
 void write_picture(const topology::Model& model, const io::OutputPath& path, const PictureOptions& options,
                    const RunContext& context)
 {

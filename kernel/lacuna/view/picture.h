@@ -47,6 +47,12 @@ struct PictureOptions {
 void write_picture(std::span<const Region> regions, const io::OutputPath& path,
                    const PictureOptions& options = {}, const RunContext& context = {});
 
+/// Draw the solids of a deck, with straight sides. Two-dimensional elements define the groups of the skin.
+/// @throw InvalidInput  as above; "view.no_solids"; "view.layers"  the colours or the cells of layers, which
+///        a deck does not have.
+void write_picture(const io::Deck& deck, const io::OutputPath& path, const PictureOptions& options = {},
+                   const RunContext& context = {});
+
 /// Draw faces in pale colours with their edges; edges used by one face are red. For faces that came with a
 /// mesh, the sides of its elements are drawn.
 void write_picture(const topology::Model& model, const io::OutputPath& path,

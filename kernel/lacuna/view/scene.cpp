@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/quality/shared/metrics.h>
 #include <lacuna/view/detail/cell_set.h>
 
@@ -160,12 +161,16 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
                            found(from), found(to), needed(most));
 }
 
+std::string title_of(std::size_t regions, std::size_t cells)
+{
+    return formatted("{}, {}", counted(regions, "region"), counted(cells, "cell"));
+}
+
 std::string title_of(std::span<const Region> regions)
 {
     std::size_t cells = 0;
     for (const Region& region : regions) cells += region.mesh->cell_count();
-    if (regions.size() > 1)
-        return formatted("{}, {}", counted(regions.size(), "region"), counted(cells, "cell"));
+    if (regions.size() > 1) return title_of(regions.size(), cells);
     const auto layers = static_cast<std::size_t>(regions.front().mesh->layers);
     return formatted("{}: {}, {}", regions.front().name, counted(cells, "cell"), counted(layers, "layer"));
 }
@@ -173,11 +178,12 @@ std::string title_of(std::span<const Region> regions)
 /// Whether sides inside the volume may be visible.
 bool laid_open(const PictureOptions& options) { return options.cut || options.layers; }
 
-Legend legend_of(std::span<const Region> regions, const std::vector<Colours>& colours,
+template <class Regions>
+Legend legend_of(const Regions& regions, const std::string& title, const std::vector<Colours>& colours,
                  const PictureOptions& options)
 {
     Legend legend;
-    legend.title = options.title.empty() ? title_of(regions) : options.title;
+    legend.title = options.title.empty() ? title : options.title;
     bool made_void = false;
     switch (options.colour) {
     case ColourBy::quality:
@@ -253,9 +259,98 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
     if (scene.sides.empty())
         throw InvalidInput(Message("view.empty", "picture: option 'cut' hides all cells")
                                .remedy("reverse its normal or move its point"));
-    scene.legend = legend_of(regions, colours, options);
+    scene.legend = legend_of(regions, title_of(regions), colours, options);
     if (options.colour == ColourBy::quality) scene.legend.low = quality_low(least);
     if (options.colour == ColourBy::layer) scene.legend.high = layers;
+    return scene;
+}
+
+namespace {
+
+/// The corners of a face of a cell that may be stored with repeated corners; fewer than three: no face.
+std::vector<Index> face_nodes(const Hex& hex, const Quad& face)
+{
+    std::vector<Index> nodes;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Index node = hex[index(face[k])];
+        if (node != hex[index(face[(k + 1) % 4])]) nodes.push_back(node);
+    }
+    return nodes;
+}
+
+Quad key_of(std::span<const Index> corners)
+{
+    Quad key{-1, -1, -1, -1};
+    std::ranges::copy(corners, key.begin());
+    return rising(key);
+}
+
+/// Add the sides of the visible cells of a region that no other visible cell shares.
+void add_sides(Scene& scene, const ListedCells& region, const Colours& colours, const PictureOptions& options)
+{
+    std::map<Quad, Index> patch; // of the sides of the skin
+    for (std::size_t i = 0; i < region.sides.size(); ++i) {
+        const Quad& side = region.sides[i];
+        patch[key_of(std::span(side).first(mesh::corner_count(side)))] = region.side_patch[i];
+    }
+    std::map<Quad, std::pair<std::size_t, std::vector<Index>>> open; // cell and corners of sides used once
+    for (std::size_t c = 0; c < region.cells.size(); ++c) {
+        Vec3 centre = Vec3::Zero();
+        for (const Index n : region.cells[c]) centre += region.nodes[index(n)] / 8;
+        if (options.cut && (centre - options.cut->point).dot(options.cut->normal) > 0) continue;
+        for (const Quad& face : mesh::kHexFaces) {
+            std::vector<Index> nodes = face_nodes(region.cells[c], face);
+            if (nodes.size() < 3) continue;
+            const Quad key = key_of(nodes);
+            if (!open.try_emplace(key, c, std::move(nodes)).second) open.erase(key);
+        }
+    }
+    for (const auto& [key, side] : open) {
+        const auto& [cell, corners] = side;
+        const auto found = patch.find(key);
+        const Index own = found != patch.end() ? found->second : -1;
+        DrawnSide drawn;
+        drawn.count = corners.size();
+        for (std::size_t k = 0; k < corners.size(); ++k) drawn.corner[k] = region.nodes[index(corners[k])];
+        drawn.colour = colours.of(cell, 0, own);
+        drawn.hatched = colours.hatched(own);
+        scene.sides.push_back(drawn);
+    }
+}
+
+} // namespace
+
+Scene scene_of(const DeckCells& deck, const PictureOptions& options, const RunContext& context)
+{
+    if (options.layers || options.colour == ColourBy::layer)
+        throw InvalidInput(
+            Message("view.layers", "picture: a mesh with tetrahedra, or of a file, has no layers")
+                .remedy("leave out 'layers', and colour it by quality, groups or region"));
+    Scene scene;
+    Colours colours;
+    colours.by = options.colour;
+    colours.patches = deck.patches;
+    double least = 1;
+    std::size_t cells = 0;
+    for (const ListedCells& region : deck.regions) {
+        cells += region.cells.size();
+        for (const double value : region.quality)
+            if (value < least) least = value;
+    }
+    colours.low = quality_low(least);
+    for (const ListedCells& region : deck.regions) {
+        check_cancelled(context);
+        colours.quality = region.quality;
+        add_sides(scene, region, colours, options);
+        ++colours.region;
+    }
+    if (!options.edges)
+        for (DrawnSide& side : scene.sides) side.hidden = 15;
+    if (scene.sides.empty())
+        throw InvalidInput(Message("view.empty", "picture: option 'cut' hides all cells")
+                               .remedy("reverse its normal or move its point"));
+    scene.legend = legend_of(deck.regions, title_of(deck.regions.size(), cells), {colours}, options);
+    if (options.colour == ColourBy::quality) scene.legend.low = colours.low;
     return scene;
 }
 

@@ -24,8 +24,8 @@ struct ShownPatch {
 /// The patches of a swept mesh, with their numbers of quads.
 std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh);
 
-/// Solids as a list of cells with eight corners. Other cells than hexahedra repeat corners: a wedge as
-/// `mesh::hex_of()` says, a pyramid is {a, b, c, d, e, e, e, e}, a tetrahedron {a, b, c, c, d, d, d, d}.
+/// Solids as a list of cells with eight corners. Other cells than hexahedra repeat corners, as
+/// `mesh::merged_corners()` says.
 struct ListedCells {
     std::string name;
     std::vector<Vec3> nodes;
@@ -34,7 +34,7 @@ struct ListedCells {
     /// cell is of order 2.
     std::vector<mesh::CellNodes> curved;
     std::vector<Index> tags;     ///< cell numbers in the file; 0 if too large
-    std::vector<double> quality; ///< scaled Jacobian; NaN for cells that have none
+    std::vector<double> quality; ///< scaled Jacobian
     std::vector<Quad> sides;     ///< two-dimensional elements; a triangle is {a, b, c, c}
     std::vector<Index> side_patch;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/view/detail/cell_set.h>
 #include <lacuna/view/detail/legend.h>
 #include <lacuna/view/picture.h>
 
@@ -33,6 +34,8 @@ struct Scene {
 
 /// @throw InvalidInput  as `write_picture()`.
 Scene scene_of(std::span<const Region> regions, const PictureOptions& options, const RunContext& context);
+/// The solids of a deck; middle nodes are not drawn.
+Scene scene_of(const DeckCells& cells, const PictureOptions& options, const RunContext& context);
 /// @param roles  of each face; may be null.
 Scene scene_of(const topology::Model& model, const std::vector<topology::Role>* roles,
                const PictureOptions& options);
