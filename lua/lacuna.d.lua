@@ -99,7 +99,7 @@
 ---@field gap? integer quads asked for across a narrow place of the source; default: none, 3 where there is no size
 ---@field max_deviation? number how far the skin may be from the sealed skin [model length]; default: a quarter of a quad's side
 ---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
----@field fallback? "wedges"|"leave_out" what becomes of a volume that cannot be hexahedra alone; default: an error
+---@field fallback? "wedges"|"leave_out"|"mixed" what becomes of a volume that cannot be hexahedra alone; default: an error
 ---@field wedges? boolean triangles that an end came with stay, with wedges on them; default false: quads among triangles are an error
 ---@field rows? integer rows of quads from every loop of the source that stay as they are laid; default: what the paver finds good
 ---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size
@@ -207,6 +207,7 @@
 
 ---@class lacuna.MetricSummary
 ---@field name lacuna.MetricName
+---@field cells integer cells for which it is defined
 ---@field min number
 ---@field mean number
 ---@field max number
@@ -220,6 +221,9 @@
 ---@class lacuna.Quality
 ---@field hexes integer
 ---@field wedges integer
+---@field pyramids integer
+---@field tets integer
+---@field least { hexes?: number, wedges?: number, pyramids?: number, tets?: number } smallest scaled Jacobian of each kind of cell that occurs
 ---@field min_scaled_jacobian number
 ---@field mean_scaled_jacobian number
 ---@field inverted integer cells with a corner that is not positive
@@ -315,6 +319,7 @@ function Model:picture(path, options) end
 ---@class lacuna.CutOptions
 ---@field plane? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal
 ---@field face? lacuna.FaceRef a Face of any model, or one of the volume's own
+---@field auto? boolean where pieces result that can be swept
 
 ---@class lacuna.Volume
 ---@field class lacuna.Class as the volume was given
@@ -432,6 +437,8 @@ function Buffer:bytes() end
 ---@field nodes integer
 ---@field hexes integer
 ---@field wedges integer
+---@field pyramids integer
+---@field tets integer
 ---@field layers integer
 ---@field order 1|2
 ---@field regions string[] the one volume's name
@@ -511,6 +518,8 @@ function Assembly:sweep_to(path, options) end
 ---@field nodes integer
 ---@field hexes integer
 ---@field wedges integer
+---@field pyramids integer
+---@field tets integer
 ---@field order 1|2
 ---@field layers table<string, integer> by region
 ---@field regions string[]
@@ -537,6 +546,12 @@ function AssemblyMesh:cells() end
 ---@param i integer
 ---@return integer ... six numbers of nodes
 function AssemblyMesh:wedge(i) end
+---@param i integer
+---@return integer n1, integer n2, integer n3, integer n4, integer apex
+function AssemblyMesh:pyramid(i) end
+---@param i integer
+---@return integer n1, integer n2, integer n3, integer n4
+function AssemblyMesh:tet(i) end
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function AssemblyMesh:write(path, options) end

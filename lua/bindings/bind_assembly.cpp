@@ -153,57 +153,69 @@ int node(lua_State* L)
 {
     lua_settop(L, 2);
     const auto& state = check<AssemblyMeshState>(L, 1);
-    for (const double x : fill::node(state.swept, check_number(L, "node", state.swept.nodes)))
-        lua_pushnumber(L, x);
+    for (const double x : fill::node(state, check_number(L, "node", state.swept.nodes))) lua_pushnumber(L, x);
     return 3;
 }
 
-/// Push the corners of the i-th hexahedron or wedge, the parts' one after the other.
-int push_cell(lua_State* L, const char* call, bool wedge)
+/// The call that gives a cell of a shape.
+template <mesh::CellShape Shape>
+constexpr const char* kCellCall = Shape == mesh::CellShape::hex8       ? "hex"
+                                  : Shape == mesh::CellShape::wedge6   ? "wedge"
+                                  : Shape == mesh::CellShape::pyramid5 ? "pyramid"
+                                                                       : "tet";
+
+/// n1, ... = mesh:hex(i), and of wedges, pyramids and tetrahedra; the parts' one after the other
+template <mesh::CellShape Shape>
+int cell(lua_State* L)
 {
     lua_settop(L, 2);
     const auto& state = check<AssemblyMeshState>(L, 1);
-    const std::size_t count = wedge ? sum_of<&mesh::HexMesh::wedge_count>(state)
-                                    : sum_of<&mesh::HexMesh::hex_count>(state);
-    const Hex hex = fill::cell(state.swept, wedge, check_number(L, call, count));
-    const auto push = [&](Index corner) { lua_pushinteger(L, to_lua(corner)); };
-    if (!wedge) {
-        for (const Index corner : hex) push(corner);
-        return 8;
-    }
-    for (const Index corner : mesh::wedge_of(hex)) push(corner);
-    return 6;
+    const std::size_t number = check_number(L, kCellCall<Shape>, fill::cell_count(state, Shape));
+    auto& corners = temporary<std::vector<Index>>(L);
+    guard(L, [&] { corners = fill::cell(state, Shape, number); });
+    for (const Index corner : corners) lua_pushinteger(L, to_lua(corner));
+    return static_cast<int>(corners.size());
 }
 
-/// n1, ..., n8 = mesh:hex(i)
-int hex(lua_State* L) { return push_cell(L, "hex", false); }
-
-/// n1, ..., n6 = mesh:wedge(i)
-int wedge(lua_State* L) { return push_cell(L, "wedge", true); }
+template <mesh::CellShape Shape>
+int cell_count(lua_State* L)
+{
+    return give(L, fill::cell_count(check<AssemblyMeshState>(L, 1), Shape));
+}
 
 int mesh_to_string(lua_State* L)
 {
     const auto& state = check<AssemblyMeshState>(L, 1);
-    lua_pushfstring(L, "Mesh of %I hexes, %I nodes, %I regions",
-                    static_cast<lua_Integer>(sum_of<&mesh::HexMesh::hex_count>(state)),
+    const auto count = [&](mesh::CellShape shape) {
+        return static_cast<lua_Integer>(fill::cell_count(state, shape));
+    };
+    lua_pushfstring(L, "Mesh of %I hexes, %I nodes, %I regions", count(mesh::CellShape::hex8),
                     static_cast<lua_Integer>(state.swept.nodes),
-                    static_cast<lua_Integer>(state.regions.size()));
+                    static_cast<lua_Integer>(state.regions.size() + state.tets.size()));
+    if (state.tets.empty()) return 1;
+    lua_pushfstring(L, ", %I pyramids, %I tetrahedra", count(mesh::CellShape::pyramid5),
+                    count(mesh::CellShape::tet4));
+    lua_concat(L, 2);
     return 1;
 }
 
 const luaL_Reg kAssemblyMeta[] = {{"__tostring", assembly_to_string}, {nullptr, nullptr}};
 const Field kAssemblyFields[] = {{nullptr, nullptr}};
 const luaL_Reg kAssemblyMeshMethods[] = {{"node", node},
-                                         {"hex", hex},
-                                         {"wedge", wedge},
+                                         {"hex", cell<mesh::CellShape::hex8>},
+                                         {"wedge", cell<mesh::CellShape::wedge6>},
+                                         {"pyramid", cell<mesh::CellShape::pyramid5>},
+                                         {"tet", cell<mesh::CellShape::tet4>},
                                          {"groups", mesh_groups<AssemblyMeshState>},
                                          {nullptr, nullptr}};
 const luaL_Reg kAssemblyMeshMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 const Field kAssemblyMeshFields[] = {
-    {"wedges", push_sum<AssemblyMeshState, &mesh::HexMesh::wedge_count>},
+    {"wedges", cell_count<mesh::CellShape::wedge6>},
+    {"pyramids", cell_count<mesh::CellShape::pyramid5>},
+    {"tets", cell_count<mesh::CellShape::tet4>},
     {"order", mesh_order<AssemblyMeshState>},
     {"nodes", mesh_nodes},
-    {"hexes", push_sum<AssemblyMeshState, &mesh::HexMesh::hex_count>},
+    {"hexes", cell_count<mesh::CellShape::hex8>},
     {"layers", mesh_layers},
     {"regions", mesh_regions},
     {"report", mesh_report},

@@ -81,7 +81,7 @@ int assembly_coordinates(lua_State* L)
     lua_settop(L, 1);
     const auto& mesh = hold<AssemblyMeshState>(L, 1);
     auto& box = new_box<BufferState>(L);
-    guard(L, [&] { box = std::make_shared<BufferState>(of_points(whole_cells(mesh.swept).nodes)); });
+    guard(L, [&] { box = std::make_shared<BufferState>(of_points(whole_cells(mesh).nodes)); });
     return 1;
 }
 
@@ -91,7 +91,7 @@ int assembly_cells(lua_State* L)
     const auto& mesh = hold<AssemblyMeshState>(L, 1);
     auto& box = new_box<BufferState>(L);
     guard(L, [&] {
-        const WholeCells whole = whole_cells(mesh.swept);
+        const WholeCells whole = whole_cells(mesh);
         std::vector<Index> nodes;
         nodes.reserve(whole.hexes.size() * 8);
         for (const Hex& hex : whole.hexes)

@@ -107,6 +107,7 @@ int is_watertight(lua_State* L)
 struct CutArguments {
     const Box<ModelState>* model = nullptr; ///< the volume's own faces; held by the call
     std::optional<geometry::Plane> plane;
+    bool automatic = false;
     Box<ModelState> of; ///< the model of `face`
     FaceId face;
 };
@@ -144,7 +145,8 @@ void read_cutting_face(lua_State* L, int index, const Where& where, CutArguments
     });
 }
 
-const Option<CutArguments> kClosureCutOptions[] = {{"plane", read_plane}, {"face", read_cutting_face}};
+const Option<CutArguments> kClosureCutOptions[] = {
+    {"plane", read_plane}, {"face", read_cutting_face}, {"auto", boolean<&CutArguments::automatic>}};
 
 /// The faces of a volume as a model of their own, on top of the stack.
 Box<ModelState>& push_model(lua_State* L, const VolumeState& state)
@@ -175,13 +177,15 @@ int cut(lua_State* L)
     if (!lua_isnil(L, 2)) {
         arguments.model = &push_model(L, state);
         read_options(L, 2, "cut", kClosureCutOptions, arguments);
-        if (arguments.plane.has_value() == (arguments.of != nullptr))
-            fail(L, "cut: give either 'plane' or 'face', or no options, for a volume with steps");
+        if (arguments.plane.has_value() + (arguments.of != nullptr) + arguments.automatic != 1)
+            fail(L,
+                 "cut: give either 'plane', 'face' or auto = true, or no options, for a volume with steps");
     }
     RunContext& context = push_context(L);
     auto& pieces = temporary<std::vector<Box<VolumeState>>>(L);
     guard(L, [&] {
-        const fill::Cut where{arguments.plane, arguments.of ? &arguments.of->model : nullptr, arguments.face};
+        const fill::Cut where{arguments.plane, arguments.of ? &arguments.of->model : nullptr, arguments.face,
+                              arguments.automatic};
         for (fill::Volume& piece : fill::cut(state, where, context)) {
             pieces.push_back(std::make_shared<VolumeState>());
             *pieces.back() = std::move(piece);

@@ -14,6 +14,7 @@
 #include <lacuna/io/leave_out.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/mesh_file.h>
+#include <lacuna/io/shared/solid_nodes.h>
 #include <lacuna/quality/shared/second_order.h>
 #include <lacuna/team/shared/tasks.h>
 
@@ -377,10 +378,25 @@ io::Deck joined_deck(const fill::FilledParts& state, const WriteArguments& argum
     return joined_deck(meshes, arguments, context);
 }
 
+/// Write a mesh that has tetrahedra. Its parts become one deck.
+void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,
+                 const RunContext& context)
+{
+    const io::Format& format = io::needed_mesh_format("write", path.text());
+    if (!arguments.with.empty() || arguments.msh.partition.parts > 0)
+        throw InvalidInput(Message("lua.mixed_write", "write: a mesh with tetrahedra is written without '{}'",
+                                   arguments.with.empty() ? "partitions" : "with")
+                               .remedy("leave it out"));
+    arguments.deck.format = format.deck;
+    const io::Deck deck = fill::whole_deck(state, arguments.deck, arguments.msh.interfaces, context);
+    io::write_deck(deck, format, path, context, arguments.msh);
+}
+
 /// Write the mesh of an assembly, in parts where these are asked for.
 void write_parts(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,
                  const Crew* crew, const RunContext& context)
 {
+    if (!state.tets.empty()) return write_mixed(state, path, arguments, context);
     if (state.swept.number.empty())
         return team::write_parts(state.swept, path,
                                  {.binary = arguments.msh.binary,
@@ -497,34 +513,18 @@ int load(lua_State* L)
     return 1;
 }
 
-/// All hexahedra and wedges of a deck, of any order, wedges as `mesh::hex_of()` has them; other solids cannot
-/// be judged, and where there are no others their number is an error.
-std::vector<mesh::CellNodes> hexes_of(const io::Deck& deck)
+/// All solids of a deck, of any order.
+std::vector<mesh::CellNodes> solids_of(const io::Deck& deck)
 {
-    std::vector<mesh::CellNodes> hexes;
-    for (const io::DeckBlock& block : deck.blocks) {
-        const io::DeckShapeInfo& info = io::shape_info(block.shape);
-        const bool wedge = info.dimension == 3 && info.corners == 6;
-        if (!wedge && (info.dimension != 3 || info.corners != 8)) continue;
-        for (std::size_t e = 0; e < block.count(); ++e) {
-            mesh::CellNodes& nodes = hexes.emplace_back();
-            const auto own = block.element(e);
-            nodes.count = wedge ? 8 : own.size();
-            if (wedge) {
-                const Hex hex = mesh::hex_of({own[0], own[1], own[2], own[3], own[4], own[5]});
-                std::copy(hex.begin(), hex.end(), nodes.node.begin());
-            } else {
-                std::copy(own.begin(), own.end(), nodes.node.begin());
-            }
-        }
-    }
-    if (!hexes.empty()) return hexes;
-    const auto others = deck.element_count(3);
-    throw InvalidInput("lua.no_hexahedra", "check: {} holds no hexahedra and no wedges{}", deck.path,
-                       others > 0 ? formatted(", only {} other solids", others) : "");
+    std::vector<mesh::CellNodes> solids;
+    for (const io::DeckBlock& block : deck.blocks)
+        if (io::shape_info(block.shape).dimension == 3)
+            for (std::size_t e = 0; e < block.count(); ++e) solids.push_back(io::solid_nodes(block, e));
+    if (!solids.empty()) return solids;
+    throw InvalidInput("lua.no_hexahedra", "check: {} holds no solids", deck.path);
 }
 
-/// quality = lacuna.check(path): of the hexahedra of a file
+/// quality = lacuna.check(path): of the solids of a file
 int check_file(lua_State* L)
 {
     lua_settop(L, 1);
@@ -536,7 +536,7 @@ int check_file(lua_State* L)
     guard(L, [&] {
         check_input_path(lent, path);
         io::Deck deck = io::read_deck(path, context);
-        const std::vector<mesh::CellNodes> cells = hexes_of(deck);
+        const std::vector<mesh::CellNodes> cells = solids_of(deck);
         source.nodes = std::move(deck.points);
         source.quality = quality::measure_cells(source.nodes, cells, context);
         source.hexes.resize(cells.size());

@@ -117,10 +117,25 @@ int mesh_left_out(lua_State* L)
     return 1;
 }
 
+template <auto Count>
+int cell_count(lua_State* L)
+{
+    return give(L, (check<MeshState>(L, 1).swept.mesh.*Count)());
+}
+
+/// A sweep makes no pyramids and tetrahedra; assemblies may have some.
+int no_cells(lua_State* L)
+{
+    check<MeshState>(L, 1);
+    return give(L, std::size_t{0});
+}
+
 const Field kMeshFields[] = {
     {"nodes", mesh_nodes},
-    {"hexes", push_sum<MeshState, &mesh::HexMesh::hex_count>},
-    {"wedges", push_sum<MeshState, &mesh::HexMesh::wedge_count>},
+    {"hexes", cell_count<&mesh::HexMesh::hex_count>},
+    {"wedges", cell_count<&mesh::HexMesh::wedge_count>},
+    {"pyramids", no_cells},
+    {"tets", no_cells},
     {"layers", mesh_layers},
     {"regions", mesh_regions},
     {"order", mesh_order<MeshState>},

@@ -47,12 +47,13 @@ void measure_metrics(lua_State* L, QualitySource& source)
 void push_metric(lua_State* L, const quality::MetricSummary& summary)
 {
     const quality::MetricInfo& info = quality::metric_info(summary.metric);
-    lua_createtable(L, 0, 9);
+    lua_createtable(L, 0, 10);
     set_string(L, "name", info.name);
     set_number(L, "min", summary.min);
     set_number(L, "mean", summary.mean);
     set_number(L, "max", summary.max);
     set_number(L, "deviation", summary.deviation);
+    set_count(L, "cells", summary.cells);
     set_count(L, "outside", summary.outside);
     set_number(L, "outside_share", summary.outside_share);
     if (info.acceptable) {
@@ -151,7 +152,7 @@ int assembly_quality(lua_State* L)
     const int at = lua_gettop(L);
     RunContext& context = push_context(L);
     guard(L, [&] {
-        WholeCells whole = whole_cells(mesh.swept);
+        WholeCells whole = whole_cells(mesh);
         if (!mesh.quality) mesh.quality = fill::measure(whole, context);
         source.quality = *mesh.quality;
         source.nodes = std::move(whole.nodes);
@@ -169,7 +170,7 @@ const luaL_Reg kQualityAssemblyMethods[] = {{"quality", assembly_quality}, {null
 void push_quality(lua_State* L, int source)
 {
     const quality::Quality& q = temporary_at<QualitySource>(L, source).quality;
-    lua_createtable(L, 0, 10);
+    lua_createtable(L, 0, 13);
     set_number(L, "min_scaled_jacobian", q.min_scaled_jacobian);
     set_number(L, "mean_scaled_jacobian", q.mean_scaled_jacobian);
     set_count(L, "inverted", q.inverted);
@@ -177,6 +178,14 @@ void push_quality(lua_State* L, int source)
     set_boolean(L, "certified", q.uncertified == 0 && q.inverted == 0);
     set_count(L, "hexes", q.hexes);
     set_count(L, "wedges", q.wedges);
+    set_count(L, "pyramids", q.pyramids);
+    set_count(L, "tets", q.tets);
+    lua_createtable(L, 0, 4);
+    const std::pair<const char*, std::size_t> kinds[] = {
+        {"hexes", q.hexes}, {"wedges", q.wedges}, {"pyramids", q.pyramids}, {"tets", q.tets}};
+    for (std::size_t k = 0; k < std::size(kinds); ++k)
+        if (kinds[k].second > 0) set_number(L, kinds[k].first, q.least_by_kind[k]);
+    lua_setfield(L, -2, "least");
     set_number(L, "volume", q.volume);
     push_array(L, q.worst, [&](const quality::WorstCell& worst) {
         push_cell(L, worst.cell, worst.layer, worst.centre, "scaled_jacobian", worst.scaled_jacobian);

@@ -189,22 +189,11 @@ void set_tags(lua_State* L, const char* key, const topology::Model& model, const
 
 // --- fields and methods that a Mesh and an AssemblyMesh share ------------------------------------------
 
-template <auto Count, class State>
-std::size_t sum_of(const State& state)
-{
-    std::size_t all = 0;
-    for (const sweep::Swept& part : fill::parts(state)) all += (part.mesh.*Count)();
-    return all;
-}
-template <class State, auto Count>
-int push_sum(lua_State* L)
-{
-    return give(L, sum_of<Count>(check<State>(L, 1)));
-}
 template <class State>
 int mesh_order(lua_State* L)
 {
-    return give(L, fill::parts(check<State>(L, 1)).front().mesh.order());
+    const std::span<const sweep::Swept> parts = fill::parts(check<State>(L, 1));
+    return give(L, parts.empty() ? 1 : parts.front().mesh.order());
 }
 /// { {name=, dim=, cells=}, ... } = mesh:groups()
 template <class State>

@@ -274,6 +274,7 @@ const Word<Quads> kQuads[] = {
 const Word<sweep::Fallback> kFallbacks[] = {
     {"wedges", sweep::Fallback::wedges},
     {"leave_out", sweep::Fallback::leave_out},
+    {"mixed", sweep::Fallback::mixed},
 };
 
 void read_order(lua_State* L, int index, const Where& where, SweepArguments& arguments)
@@ -350,7 +351,12 @@ SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, 
     read_options(L, index, call, kSweepOptions, arguments);
     push_field(L, index, "size", arguments.size_function, arguments.size);
     push_field(L, index, "row_height", arguments.row_height_function, arguments.row_height);
-    guard(L, [&] { arguments.quad_mesher = cad::recombine; });
+    guard(L, [&] {
+        arguments.quad_mesher = cad::recombine;
+        arguments.tet_mesher = cad::fill_skin;
+    });
+    if (arguments.fallback == sweep::Fallback::mixed && std::string_view(call) == "sweep_to")
+        fail(L, "sweep_to: fallback = \"mixed\" needs the whole mesh in memory: use sweep and write");
     // A height alone stands for one row of it.
     if (arguments.row_height && arguments.rows == 0) arguments.rows = 1;
     guard(L, [&] {

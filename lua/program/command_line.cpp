@@ -78,7 +78,7 @@ other file as faces, which can be selected and copied as roles.
 )"},
     {"check", "FILE", 1, "--json", "check a mesh; exit code 1 if a cell is invalid",
      R"(
-Reads the hexahedra and wedges of a mesh: %MESHES.
+Reads the solids of a mesh: %MESHES.
 Prints counts, a histogram of the scaled Jacobian and one line for each metric. A cell is valid if its
 Jacobian is proved positive everywhere in it. The exit code is 1 if a cell is invalid.
 

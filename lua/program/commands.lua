@@ -82,7 +82,7 @@ function commands.check()
     print(quality)
   end
   if not quality.certified then
-    local cells = quality.hexes + quality.wedges
+    local cells = quality.hexes + quality.wedges + quality.pyramids + quality.tets
     error(("%s: %d of %d cells are invalid"):format(first, quality.uncertified, cells), 0)
   end
 end

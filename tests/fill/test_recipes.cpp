@@ -261,10 +261,10 @@ TEST_CASE("regions, groups, nodes and cells of parts are those of the recipe's m
         CHECK(recipe.text("(function() for _, g in ipairs(mesh:groups()) do if g.name == '" + group.name +
                           "' then return g.dim .. ' ' .. g.cells end end end)()") ==
               std::to_string(group.dim) + " " + std::to_string(group.cells));
-    const fill::WholeCells whole = fill::whole_cells(mesh.swept);
+    const fill::WholeCells whole = fill::whole_cells(mesh);
     CHECK(fill::measure(whole).uncertified == 0);
     for (std::size_t c = 0; c < whole.hexes.size(); c += 7)
-        CHECK(fill::cell(mesh.swept, false, c) == whole.hexes[c]);
+        CHECK(std::ranges::equal(fill::cell(mesh, mesh::CellShape::hex8, c), whole.hexes[c]));
     for (std::size_t n = 0; n < whole.nodes.size(); n += 11)
-        CHECK(fill::node(mesh.swept, n) == whole.nodes[n]);
+        CHECK(fill::node(mesh, n) == whole.nodes[n]);
 }

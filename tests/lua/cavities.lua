@@ -282,9 +282,7 @@ for _, n in ipairs { 12, 24 } do
     local r = 6 + 2 * math.cos(b)
     return { r * math.cos(a), r * math.sin(a), 2 * math.sin(b) }
   end)
-  local message = check.fails(function() model:open_volume() end, "topology.torus", "full_turn = true")
-  check.that(#message < 400, message)
-  local ring = call_advised(model, message):sweep { layers = 12, size = 1 }
+  local ring = model:open_volume():sweep { layers = 12, size = 1 }
   check.equal(ring:quality().certified, true)
 end
 
@@ -294,7 +292,8 @@ grid(ball, "ball", 24, 12, false, function(u, v)
   if v == 0 or v == 1 then a = 0 end
   return { 3 * math.sin(b) * math.cos(a), 3 * math.sin(b) * math.sin(a), 3 * math.cos(b) }
 end)
-check.fails(function() ball:open_volume() end, "topology.sphere", ":cut{ plane = { {0, 0, 0}, {0, 0, 1} } }")
+check.fails(function() ball:open_volume():sweep() end, "topology.sphere",
+  ":cut{ plane = { {0, 0, 0}, {0, 0, 1} } }")
 
 -- What a message says of a fault of Lacuna is told by test_bindings; what `info` says is no promise.
 check.that(pocketed:open_volume({ faces = { "p1_end", "p1_wall_1_1", "p1_wall_1_2", "p1_wall_1_3",

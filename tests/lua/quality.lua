@@ -186,6 +186,57 @@ check.fails(function() fields { quality = { "shape", "beauty" } } end, "quality[
 check.fails(function() fields { quality = 3 } end, "quality", "found 3")
 check.that(not check.exists(folder .. "/c.msh"))
 
+-- A file with each kind of solid: counts, the least of each, metrics where they are defined.
+local top = 1 + 0.5 ^ 0.5
+check.write(folder .. "/mixed.msh", ([[
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+12
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0 0 1
+6 1 0 1
+7 1 1 1
+8 0 1 1
+9 0.5 0.5 %.17g
+10 1.5 0.5 1.5
+11 2 0.5 0
+12 2 0.5 1
+$EndNodes
+$Elements
+4
+1 5 2 0 1 1 2 3 4 5 6 7 8
+2 7 2 0 1 5 6 7 8 9
+3 4 2 0 1 6 7 9 10
+4 6 2 0 1 2 11 3 6 12 7
+$EndElements
+]]):format(top))
+local mixed = lacuna.check(folder .. "/mixed.msh")
+for _, kind in ipairs { "hexes", "wedges", "pyramids", "tets" } do
+  check.equal(mixed[kind], 1, kind)
+  check.that(mixed.least[kind] >= mixed.min_scaled_jacobian, kind)
+end
+check.near(mixed.least.hexes, 1, 1e-12)
+check.near(mixed.least.pyramids, 1, 1e-12)
+check.that(mixed.certified)
+check.equal(mixed.metrics.volume.cells, 4)
+check.equal(mixed.metrics.shape.cells, 1)
+check.that(tostring(mixed):find "pyramids" and tostring(mixed):find "of the tetrahedra")
+check.equal(quality.least.tets, nil)
+check.near(quality.least.hexes, quality.min_scaled_jacobian, 0)
+-- A pyramid is a brick there, and a pyramid again when it is read.
+for _, ending in ipairs { ".inp", ".unv", ".bdf", ".exo", ".vtk" } do
+  lacuna.convert(folder .. "/mixed.msh", folder .. "/mixed" .. ending)
+  local again = lacuna.check(folder .. "/mixed" .. ending)
+  check.equal(again.pyramids, 1, ending)
+  check.near(again.volume, mixed.volume, 1e-9, ending)
+  check.equal(#lacuna.load(folder .. "/mixed" .. ending):info().faces > 0, true, ending)
+end
+
 -- What is kept for a quality goes with it: many of them do not pile up.
 for _ = 1, 200 do mesh:quality() end
 collectgarbage()

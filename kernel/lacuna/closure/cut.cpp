@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <unordered_map>
@@ -55,14 +56,18 @@ public:
     {
     }
 
-    /// @param within  null, or facets of a face: only regions that contain some of them are cut.
-    std::vector<StepPiece> run(const geometry::FacetTree* within)
+    /// A region of the plane by its loops, in plane coordinates.
+    using Region = std::vector<std::vector<Vec2>>;
+
+    /// @param suits  which regions of the plane inside the volume are cut; empty: all.
+    std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits)
     {
         find_walks();
-        if (within != nullptr) choose(*within);
+        if (suits) choose(suits);
         const WalkImprint made = imprint(parted_.volume, walks_, plane_, context_);
         parted_.plane = plane_;
         add_partitions(made);
+        if (parted_.partitions.empty()) refuse_miss();
         model_ = with_loops(std::move(model_));
         return pieces_of(parted_, {"the plane"}, context_);
     }
@@ -122,24 +127,16 @@ private:
                            found(least), found(most));
     }
 
-    /// Keep the walks round regions that contain some of the facets.
-    void choose(const geometry::FacetTree& within)
+    /// Keep the walks round some regions.
+    void choose(const std::function<bool(const Region&)>& suits)
     {
         std::vector<std::vector<Vec2>> loops;
         for (const SectionWalk& walk : walks_) loops.push_back(outline(walk));
         std::vector<SectionWalk> kept;
         for (const std::vector<std::size_t>& region : regions_of(loops)) {
-            Outline outline;
-            for (const std::size_t l : region) outline.add_loop(loops[l]);
-            const std::vector<Vec2>& flat = outline.flat;
-            const geometry::Triangulation facets = geometry::triangulate(
-                flat, outline.loops, {.interior_points = false}, context_);
-            const bool met = std::ranges::any_of(facets.triangles, [&](const Triangle& t) {
-                const Vec2 centre = (flat[index(t[0])] + flat[index(t[1])] + flat[index(t[2])]) / 3;
-                return within.closest(geometry::from_plane(plane_, centre), tolerance_ * tolerance_)
-                           .triangle >= 0;
-            });
-            if (!met) continue;
+            Region own;
+            for (const std::size_t l : region) own.push_back(loops[l]);
+            if (!suits(own)) continue;
             for (const std::size_t l : region) kept.push_back(walks_[l]);
         }
         if (kept.empty())
@@ -361,16 +358,33 @@ std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& con
     });
 }
 
-std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plane& plane,
-                                  const geometry::FacetTree* within, const RunContext& context)
+using Suits = std::function<bool(const std::vector<std::vector<Vec2>>&)>;
+
+std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plane& plane, const Suits& suits,
+                                  const RunContext& context)
 {
     const auto walks = section_walks(volume.model, all_faces(volume.model), plane, volume.model.tolerance);
     if (std::ranges::any_of(walks, [](const SectionWalk& walk) { return !walk.closed; })) {
         // The missing faces then have the shape of the closed whole, including its corners.
         if (const std::optional<OpenVolume> whole = sealed(volume, context))
-            return PlaneCutter(*whole, plane, context).run(within);
+            return PlaneCutter(*whole, plane, context).run(suits);
     }
-    return PlaneCutter(volume, plane, context).run(within);
+    return PlaneCutter(volume, plane, context).run(suits);
+}
+
+/// Whether a region contains some of the facets.
+bool contains_facets(const std::vector<std::vector<Vec2>>& region, const geometry::Plane& plane,
+                     const geometry::FacetTree& facets, double tolerance, const RunContext& context)
+{
+    Outline outline;
+    for (const std::vector<Vec2>& loop : region) outline.add_loop(loop);
+    const std::vector<Vec2>& flat = outline.flat;
+    const geometry::Triangulation own = geometry::triangulate(flat, outline.loops, {.interior_points = false},
+                                                              context);
+    return std::ranges::any_of(own.triangles, [&](const Triangle& t) {
+        const Vec2 centre = (flat[index(t[0])] + flat[index(t[1])] + flat[index(t[2])]) / 3;
+        return facets.closest(geometry::from_plane(plane, centre), tolerance * tolerance).triangle >= 0;
+    });
 }
 
 /// Whether a face belongs to the volume, or did before the volume was split.
@@ -391,7 +405,31 @@ bool is_own(const OpenVolume& volume, const Model& model, FaceId face)
 std::vector<StepPiece> cut_by_plane(const OpenVolume& volume, const geometry::Plane& plane,
                                     const RunContext& context)
 {
-    return cut_within(volume, plane, nullptr, context);
+    return cut_within(volume, plane, {}, context);
+}
+
+std::vector<StepPiece> cut_at_edges(const OpenVolume& volume, const geometry::Plane& plane,
+                                    const std::vector<EdgeId>& edges, const RunContext& context)
+{
+    std::vector<Vec2> middles;
+    for (const EdgeId edge : edges) {
+        const std::vector<Vec3> chain = use_places(volume.model, {edge, false});
+        const std::size_t k = (chain.size() - 1) / 2;
+        middles.push_back(geometry::to_plane(plane, (chain[k] + chain[k + 1]) / 2));
+    }
+    const double tolerance = volume.model.tolerance;
+    const auto runs_along = [&](const std::vector<std::vector<Vec2>>& region) {
+        return std::ranges::any_of(region, [&](const std::vector<Vec2>& loop) {
+            for (std::size_t i = 0; i < loop.size(); ++i)
+                for (const Vec2& middle : middles) {
+                    const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
+                    const double t = std::clamp((middle - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+                    if ((a + t * (b - a) - middle).norm() <= tolerance) return true;
+                }
+            return false;
+        });
+    };
+    return cut_within(volume, plane, runs_along, context);
 }
 
 std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model, FaceId face,
@@ -411,7 +449,11 @@ std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model,
                         "by its plane"));
     if (own) return cut_by_plane(volume, *plane, context);
     const geometry::FacetTree facets(model.points, model[face].triangles);
-    return cut_within(volume, *plane, &facets, context);
+    const double tolerance = volume.model.tolerance;
+    const auto has_some = [&](const std::vector<std::vector<Vec2>>& region) {
+        return contains_facets(region, *plane, facets, tolerance, context);
+    };
+    return cut_within(volume, *plane, has_some, context);
 }
 
 } // namespace lacuna::closure

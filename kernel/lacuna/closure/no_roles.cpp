@@ -97,32 +97,29 @@ EdgeId crossing_of_bores(const Model& model)
     return {};
 }
 
-/// Whether a skin has one handle, as a torus has, and a plane cuts it across in two places.
+} // namespace
+
 bool is_ring(const OpenVolume& volume, const RunContext& context)
 {
     const std::vector<FaceId> all = all_faces(volume.model);
-    if (connected_parts(volume.model, all).size() != 1 || euler_number(volume.model, all) != 0) return false;
+    if (!free_edges(volume).empty() || connected_parts(volume.model, all).size() != 1 ||
+        euler_number(volume.model, all) != 0)
+        return false;
     return unless_refused([&] { return cut_full_turn(volume, context); }).has_value();
 }
 
-} // namespace
-
-void refuse_without_roles(const Model& given, const std::vector<FaceId>& faces, const RunContext& context)
+Message why_no_roles(const Model& given, const std::vector<FaceId>& faces, const RunContext& context)
 {
     const OpenVolume volume = open_volume(given, {{}, {}, faces}, context);
     const Model& model = volume.model;
     const std::string walls = in_braces(given, faces);
-    if (free_edges(volume).empty() && is_ring(volume, context))
-        throw InvalidInput(Message("topology.torus", "the torus of {} has no ends", entities_of(given, faces))
-                               .remedy("sweep it as a full turn: open_volume{{ {}full_turn = true }}",
-                                       faces.size() == given.faces.size() ? "" : "walls = " + walls + ", "));
     const auto round = round_shape(model, FaceId(0));
     if (round && round->is_sphere() && model.faces.size() == 1 && free_edges(volume).empty())
-        throw InvalidInput(
-            Message("topology.sphere", "{} is a whole sphere, which has no ends", entities_of(given, faces))
-                .remedy("cut it in two by open_volume{{ walls = {} }}:{} and open each piece with "
-                        "piece:model():open_volume()",
-                        walls, cut_in_words(model, round->centre, Vec3::UnitZ())));
+        return Message("topology.sphere", "{} is a whole sphere, which has no ends",
+                       entities_of(given, faces))
+            .remedy("cut it in two by open_volume{{ walls = {} }}:{} and open each piece with "
+                    "piece:model():open_volume()",
+                    walls, cut_in_words(model, round->centre, Vec3::UnitZ()));
     const std::string cut = cut_at_concave_edge(volume, context);
     const auto advised = [&](Message message) -> Message {
         if (cut.empty())
@@ -132,17 +129,16 @@ void refuse_without_roles(const Model& given, const std::vector<FaceId>& faces, 
     };
     for (const FaceId face : all_faces(model))
         if (is_cone_to_its_tip(model, face))
-            throw InvalidInput(advised(
-                Message("topology.cone", "{} is a cone up to its apex, where layers would have no width",
-                        entity_of(model, face))));
+            return advised(Message("topology.cone",
+                                   "{} is a cone up to its apex, where layers would have no width",
+                                   entity_of(model, face)));
     if (const EdgeId edge = crossing_of_bores(model); edge.valid())
-        throw InvalidInput(advised(Message("topology.crossing_bores",
-                                           "bores cross at {}, and no single sweep can follow both",
-                                           entity_of(model, edge))));
+        return advised(Message("topology.crossing_bores",
+                               "bores cross at {}, and no single sweep can follow both",
+                               entity_of(model, edge)));
     std::vector<NamedEntity> tags = entities_of(given, faces);
     for (NamedEntity& face : tags) face.name.clear(); // keeps the message short
-    throw InvalidInput(
-        advised(Message("topology.no_roles", "no source, target and walls were found among {}", tags)));
+    return advised(Message("topology.no_roles", "no source, target and walls were found among {}", tags));
 }
 
 std::string listed(const std::vector<Reading>& readings, std::ptrdiff_t most)
@@ -160,7 +156,7 @@ void check_tubes(const OpenVolume& volume, const RunContext& context)
     const Model& model = volume.model;
     const std::vector<FaceId> part = no_tube(volume), all = all_faces(model);
     if (part.empty() || has_branches(volume, context)) return;
-    if (crossing_of_bores(model).valid()) refuse_without_roles(model, all, context);
+    if (crossing_of_bores(model).valid()) throw InvalidInput(why_no_roles(model, all, context));
     const std::vector<Reading> readings = find_readings(model, all, context);
     const std::size_t loops = rims(model, part).size();
     Message message("closure.tube_loops",

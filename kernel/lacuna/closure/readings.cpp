@@ -71,6 +71,35 @@ bool closes_flat(const Reading& reading)
                                [&](FaceId face) { return has_flat_loops(model, face); });
 }
 
+/// A void without ends: a ring, which is swept as a full turn, or one that flat faces in its free loops seal.
+Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
+{
+    OpenVolume open = open_volume(model, {{}, {}, faces}, context);
+    if (is_ring(open, context)) {
+        Reading ring;
+        ring.roles.roles.walls = faces;
+        ring.roles.reasons.push_back("the faces form a closed ring, which is swept as a full turn");
+        ring.volume = std::move(open);
+        ring.volume.full_turn = true;
+        ring.enclosed = enclosed_volume(ring.volume);
+        return ring;
+    }
+    Message why = why_no_roles(model, faces, context);
+    auto filled = fill_flat_loops(model, faces, context);
+    Reading reading;
+    if (filled && !filled->channel) {
+        reading.volume = std::move(filled->volume);
+        reading.closure = std::move(filled->closure);
+        reading.enclosed = enclosed_volume(reading.volume);
+    }
+    double area = 0;
+    for (const FaceId face : all_faces(reading.volume.model)) area += face_area(reading.volume.model, face);
+    // A face that is closed by itself encloses nothing.
+    if (!(reading.enclosed > reading.volume.model.tolerance * area)) throw InvalidInput(std::move(why));
+    reading.no_roles = std::move(why);
+    return reading;
+}
+
 } // namespace
 
 OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
@@ -112,7 +141,7 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
         throw InvalidInput(Message("topology.no_faces", "the model has no faces to form a volume")
                                .remedy("load a file that has some, or add_face{{ points =, cells = }}"));
     std::vector<Reading> readings = find_readings(model, faces, context);
-    if (readings.empty()) refuse_without_roles(model, faces, context);
+    if (readings.empty()) return read_skin(model, faces, context);
     if (number == 0) {
         if (auto open = leave_holes_open(model, readings, faces, context)) return std::move(*open);
     }

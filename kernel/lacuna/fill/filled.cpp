@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/filled.h>
 
+#include <lacuna/io/shared/mixed_deck.h>
 #include <lacuna/quality/shared/second_order.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace lacuna::fill {
@@ -29,12 +31,21 @@ void count(std::vector<Group>& groups, const std::string& name, int dim, std::si
     known->cells += cells;
 }
 
+/// @param patch  of each side of the skin
+template <class Patch>
+void count_skin(std::vector<Group>& groups, const std::vector<mesh::SkinPatch>& patches, std::size_t sides,
+                const Patch& patch)
+{
+    std::vector<std::size_t> of_patch(patches.size(), 0);
+    for (std::size_t i = 0; i < sides; ++i) ++of_patch[index(patch(i))];
+    for (std::size_t p = 0; p < patches.size(); ++p)
+        for (const std::string& name : patches[p].groups) count(groups, name, 2, of_patch[p]);
+}
+
 void count_skin(std::vector<Group>& groups, const mesh::HexMesh& mesh)
 {
-    std::vector<std::size_t> of_patch(mesh.patches.size(), 0);
-    for (std::size_t i = 0; i < mesh.skin_count(); ++i) ++of_patch[index(mesh::skin_quad(mesh, i).patch)];
-    for (std::size_t p = 0; p < mesh.patches.size(); ++p)
-        for (const std::string& name : mesh.patches[p].groups) count(groups, name, 2, of_patch[p]);
+    count_skin(groups, mesh.patches, mesh.skin_count(),
+               [&](std::size_t i) { return mesh::skin_quad(mesh, i).patch; });
 }
 
 } // namespace
@@ -54,6 +65,8 @@ std::vector<std::string> report(const FilledParts& mesh)
     for (std::size_t p = 0; p < mesh.regions.size(); ++p)
         for (const std::string& line : mesh.swept.parts[p].report)
             lines.push_back(mesh.regions[p] + ": " + line);
+    for (const FilledTets& tets : mesh.tets)
+        for (const std::string& line : tets.report) lines.push_back(tets.region + ": " + line);
     return lines;
 }
 
@@ -70,18 +83,22 @@ std::vector<Region> regions(const FilledParts& mesh)
         known->layers += part.mesh.layers;
         add(part.fidelity, known->fidelity);
     }
+    for (const FilledTets& tets : mesh.tets) all.push_back({tets.region, 0, tets.fidelity});
     return all;
 }
 
 sweep::Fidelity fidelity(const FilledParts& mesh)
 {
     sweep::Fidelity whole;
-    for (const sweep::Swept& part : mesh.swept.parts) {
-        whole.volume += part.fidelity.volume;
-        whole.sealed_volume += part.fidelity.sealed_volume;
-        whole.max_distance = std::max(whole.max_distance, part.fidelity.max_distance);
-        whole.mean_distance += part.fidelity.mean_distance / static_cast<double>(mesh.regions.size());
-    }
+    const auto parts = static_cast<double>(mesh.swept.parts.size() + mesh.tets.size());
+    const auto add = [&](const sweep::Fidelity& part) {
+        whole.volume += part.volume;
+        whole.sealed_volume += part.sealed_volume;
+        whole.max_distance = std::max(whole.max_distance, part.max_distance);
+        whole.mean_distance += part.mean_distance / parts;
+    };
+    for (const sweep::Swept& part : mesh.swept.parts) add(part.fidelity);
+    for (const FilledTets& tets : mesh.tets) add(tets.fidelity);
     return whole;
 }
 
@@ -104,14 +121,21 @@ std::vector<Group> groups(const FilledParts& mesh)
         if (region != "volume") count(regions, region, 3, part.mesh.cell_count()); // default: unnamed
         sum += part.mesh.cell_count();
     }
+    for (const auto& [part, number, shared, region, quality, fidelity, faces, report] : mesh.tets) {
+        count_skin(all, part.patches, part.skin.size(), [&](std::size_t i) { return part.skin_patch[i]; });
+        const std::string& name = part.volume_groups.front();
+        if (name != "volume") count(regions, name, 3, part.cells.size());
+        sum += part.cells.size();
+    }
     std::ranges::sort(all, {}, &Group::name);
     all.insert(all.end(), regions.begin(), regions.end());
     all.push_back({"volume", 3, sum});
     return all;
 }
 
-WholeCells whole_cells(const sweep::SweptAssembly& swept)
+WholeCells whole_cells(const FilledParts& mesh_of_all)
 {
+    const sweep::SweptAssembly& swept = mesh_of_all.swept;
     WholeCells whole;
     whole.nodes.resize(swept.nodes);
     std::size_t columns = 0;
@@ -132,7 +156,27 @@ WholeCells whole_cells(const sweep::SweptAssembly& swept)
         }
         columns += mesh.quads.size();
     }
+    for (const FilledTets& tets : mesh_of_all.tets) {
+        for (std::size_t n = 0; n < tets.number.size(); ++n)
+            whole.nodes[index(tets.number[n])] = tets.mesh.nodes[n];
+        for (Hex hex : tets.mesh.cells) {
+            for (Index& n : hex) n = tets.number[index(n)];
+            whole.hexes.push_back(hex);
+            whole.column.push_back(static_cast<Index>(columns++));
+        }
+    }
     return whole;
+}
+
+io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options, bool interfaces,
+                    const RunContext& context)
+{
+    std::vector<mesh::LayeredPart> swept;
+    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p)
+        swept.push_back({mesh.swept.parts[p].mesh, nullptr, mesh.swept.numbering[p]});
+    std::vector<io::NumberedTets> tets;
+    for (const FilledTets& part : mesh.tets) tets.push_back({part.mesh, part.number});
+    return io::deck_of(swept, tets, mesh.swept.nodes, options, interfaces, context);
 }
 
 quality::Quality measure(const WholeCells& cells, const RunContext& context)
@@ -141,23 +185,67 @@ quality::Quality measure(const WholeCells& cells, const RunContext& context)
                                 : quality::measure_cells(cells.nodes, cells.curved, context, cells.column);
 }
 
-Vec3 node(const sweep::SweptAssembly& swept, std::size_t node)
+Vec3 node(const FilledParts& mesh, std::size_t node)
 {
-    std::size_t p = 0;
-    const auto in_part = [&] { return std::ranges::find(swept.number[p], static_cast<Index>(node)); };
-    while (in_part() == swept.number[p].end()) ++p;
-    return swept.parts[p].mesh.node(static_cast<std::size_t>(in_part() - swept.number[p].begin()));
+    const auto place_in = [&](const std::vector<Index>& number) {
+        const auto at = std::ranges::find(number, static_cast<Index>(node));
+        return at == number.end() ? std::nullopt
+                                  : std::optional(static_cast<std::size_t>(at - number.begin()));
+    };
+    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p)
+        if (const auto own = place_in(mesh.swept.number[p])) return mesh.swept.parts[p].mesh.node(*own);
+    std::size_t t = 0;
+    while (!place_in(mesh.tets[t].number)) ++t;
+    return mesh.tets[t].mesh.nodes[*place_in(mesh.tets[t].number)];
 }
 
-Hex cell(const sweep::SweptAssembly& swept, bool wedge, std::size_t number)
+namespace {
+
+/// The cells of a shape in one part: the position of the first, and the number of them.
+std::pair<std::size_t, std::size_t> cells_of(const mesh::HexMesh& mesh, mesh::CellShape shape)
 {
-    const auto count = wedge ? &mesh::HexMesh::wedge_count : &mesh::HexMesh::hex_count;
-    std::size_t p = 0;
-    while (number >= (swept.parts[p].mesh.*count)()) number -= (swept.parts[p++].mesh.*count)();
-    const mesh::HexMesh& mesh = swept.parts[p].mesh;
-    Hex hex = mesh.hex(mesh::CellKinds(mesh).cell(number + (wedge ? mesh.hex_count() : 0)));
-    for (Index& corner : hex) corner = swept.number[p][index(corner)];
-    return hex;
+    if (shape == mesh::CellShape::hex8) return {0, mesh.hex_count()};
+    return {mesh.hex_count(), shape == mesh::CellShape::wedge6 ? mesh.wedge_count() : 0};
+}
+std::pair<std::size_t, std::size_t> cells_of(const mesh::TetPart& mesh, mesh::CellShape shape)
+{
+    if (shape == mesh::CellShape::pyramid5) return {0, mesh.pyramids};
+    return {mesh.pyramids, shape == mesh::CellShape::tet4 ? mesh.cells.size() - mesh.pyramids : 0};
+}
+
+/// Corners of a cell that is stored as a hexahedron with merged corners, each once.
+std::vector<Index> corners_of(const Hex& hex, const std::vector<Index>& number)
+{
+    std::vector<Index> corners;
+    for (const Index n : hex)
+        if (corners.empty() || corners.back() != number[index(n)]) corners.push_back(number[index(n)]);
+    return corners;
+}
+
+} // namespace
+
+std::size_t cell_count(const FilledParts& mesh, mesh::CellShape shape)
+{
+    std::size_t count = 0;
+    for (const sweep::Swept& part : mesh.swept.parts) count += cells_of(part.mesh, shape).second;
+    for (const FilledTets& tets : mesh.tets) count += cells_of(tets.mesh, shape).second;
+    return count;
+}
+
+std::vector<Index> cell(const FilledParts& mesh, mesh::CellShape shape, std::size_t number)
+{
+    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
+        const mesh::HexMesh& part = mesh.swept.parts[p].mesh;
+        const auto [first, count] = cells_of(part, shape);
+        if (number < count)
+            return corners_of(part.hex(mesh::CellKinds(part).cell(first + number)), mesh.swept.number[p]);
+        number -= count;
+    }
+    std::size_t t = 0;
+    for (; number >= cells_of(mesh.tets[t].mesh, shape).second; ++t)
+        number -= cells_of(mesh.tets[t].mesh, shape).second;
+    const auto first = cells_of(mesh.tets[t].mesh, shape).first;
+    return corners_of(mesh.tets[t].mesh.cells[first + number], mesh.tets[t].number);
 }
 
 } // namespace lacuna::fill

@@ -3,6 +3,9 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/fill/volume.h>
+#include <lacuna/io/deck_file.h>
+#include <lacuna/mesh/cell_shape.h>
+#include <lacuna/mesh/tet_mesh.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/sweep.h>
@@ -22,12 +25,25 @@ struct FilledVolume {
     std::string material; ///< material of the volume
 };
 
-/// The mesh of an assembly, or of a volume that was cut.
+/// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
+struct FilledTets {
+    mesh::TetPart mesh;
+    std::vector<Index> number; ///< of each of its nodes in the whole mesh, from 0
+    std::size_t shared = 0;    ///< number of sides of its skin that meshes before it have
+    std::string region;
+    quality::Quality quality;        ///< from the proof
+    sweep::Fidelity fidelity;        ///< the skin against the sealed skin
+    std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
+    std::vector<std::string> report; ///< why it was not swept, sizes, shape
+};
+
+/// The mesh of an assembly, or of a volume that was cut or filled with tetrahedra.
 struct FilledParts {
-    sweep::SweptAssembly swept;
+    sweep::SweptAssembly swept;         ///< its `nodes` count those of `tets` too
     std::vector<std::string> regions;   ///< one for each part; the pieces of a full turn share one
     std::vector<std::string> materials; ///< one for each part; empty: no material
     std::vector<sweep::LeftOut> left_out;
+    std::vector<FilledTets> tets;
 };
 
 /// A mesh, and the volumes with the roles that they were swept with.
@@ -68,19 +84,31 @@ std::vector<Group> groups(const FilledParts& mesh);
 /// The nodes and cells of all parts, numbered as one mesh.
 struct WholeCells {
     std::vector<Vec3> nodes;
-    std::vector<Hex> hexes;              ///< corners; for wedges see `mesh::is_wedge()`
+    /// Corners; for wedges see `mesh::is_wedge()`, for pyramids and tetrahedra `mesh::has_apex()`.
+    std::vector<Hex> hexes;
     std::vector<mesh::CellNodes> curved; ///< at order 2: all nodes of each cell
     std::vector<Index> column;           ///< column that each cell belongs to, numbered over all parts
 };
-WholeCells whole_cells(const sweep::SweptAssembly& swept);
+WholeCells whole_cells(const FilledParts& mesh);
+
+/// All parts as one deck for `io::write_deck()`, with groups as regions and sets: how a mesh with tetrahedra
+/// is written.
+/// @pre  the parts store their nodes.
+/// @param interfaces  as `io::MeshFileOptions::interfaces`
+/// @throw  as `io::write_parts()`
+io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options, bool interfaces = false,
+                    const RunContext& context = {});
 
 quality::Quality measure(const WholeCells& cells, const RunContext& context = {});
 
-/// The coordinates of a node, by its number in the whole mesh. @pre node < swept.nodes
-Vec3 node(const sweep::SweptAssembly& swept, std::size_t node);
+/// The coordinates of a node, by its number in the whole mesh. @pre node < mesh.swept.nodes
+Vec3 node(const FilledParts& mesh, std::size_t node);
 
-/// The corners of a cell, by its number among the hexahedra or among the wedges; parts are counted in order.
-/// @pre  such a cell exists.
-Hex cell(const sweep::SweptAssembly& swept, bool wedge, std::size_t number);
+/// Number of hexahedra, wedges, pyramids or tetrahedra. @param shape  hex8, wedge6, pyramid5 or tet4
+std::size_t cell_count(const FilledParts& mesh, mesh::CellShape shape);
+
+/// The corners of a cell, by its number among those of its shape; parts are counted in order.
+/// @pre  number < cell_count(mesh, shape)
+std::vector<Index> cell(const FilledParts& mesh, mesh::CellShape shape, std::size_t number);
 
 } // namespace lacuna::fill

@@ -2,11 +2,14 @@
 #include <lacuna/fill/detail/members.h>
 
 #include <lacuna/closure/shared/branches.h>
+#include <lacuna/closure/shared/partition.h>
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/nearest_word.h>
 #include <lacuna/fill/detail/kept_mesh.h>
+#include <lacuna/fill/detail/tets.h>
 #include <lacuna/surface/shared/boundary_layers.h>
+#include <lacuna/surface/shared/walls.h>
 #include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
@@ -139,28 +142,35 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
 
 // --- parts ------------------------------------------------------------------------------------------------
 
-/// Add a volume, or the pieces that it has to be cut into.
-/// @param name   region name; pieces get a number appended.
+/// Add the pieces of a volume. One without ends can only be filled with tetrahedra.
+/// @param name   region name, to which a number is appended.
 /// @param whole  group of the cells of all pieces.
+void add_pieces(std::vector<Part>& parts, const Member& asked, const std::string& name,
+                const std::string& whole, std::vector<closure::StepPiece> pieces)
+{
+    int number = 0;
+    for (closure::StepPiece& piece : pieces) {
+        const double from = piece.turn_from, to = piece.turn_to;
+        Part& part = parts.emplace_back(Part{&asked, name, {}, nullptr});
+        part.volume = piece_of(*asked.volume, std::move(piece), formatted("{}_{}", name, ++number));
+        part.volume.turn_from = from;
+        part.volume.turn_to = to;
+        if (to - from < 1) part.volume.turn_of = name;
+        part.piece_of = asked.volume;
+        part.whole = whole;
+    }
+}
+
+/// Add a volume, or the pieces that it has to be cut into. @param name, whole  as above
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
                const std::string& whole, const RunContext& context)
 {
     const Volume& volume = *asked.volume;
-    if (!closure::has_pieces(volume.volume, context)) {
+    if (volume.no_roles || !closure::has_pieces(volume.volume, context)) {
         parts.push_back({&asked, name, volume, nullptr});
         return;
     }
-    int number = 0;
-    for (closure::StepPiece& piece : closure::cut_into_pieces(volume.volume, context)) {
-        const double from = piece.turn_from, to = piece.turn_to;
-        Part& part = parts.emplace_back(Part{&asked, name, {}, nullptr});
-        part.volume = piece_of(volume, std::move(piece), formatted("{}_{}", name, ++number));
-        part.volume.turn_from = from;
-        part.volume.turn_to = to;
-        if (to - from < 1) part.volume.turn_of = name;
-        part.piece_of = &volume;
-        part.whole = whole;
-    }
+    add_pieces(parts, asked, name, whole, closure::cut_into_pieces(volume.volume, context));
 }
 
 /// Run `what` on a volume of an assembly. If it fails and the volume may be left out, record that.
@@ -205,41 +215,106 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
     return member;
 }
 
-/// Close the volumes and sweep all parts as one mesh.
+/// The parts of an assembly, ready to be meshed.
+struct Prepared {
+    std::vector<sweep::AssemblyMember> members;
+    std::vector<std::string> materials; ///< of these, as the next
+    std::vector<const Part*> parts;
+    std::vector<sweep::LeftOut> left_out;
+};
+
+/// Close the volumes. One without ends to sweep between can only be filled with tetrahedra.
+Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, bool alone,
+                 const RunContext& context)
+{
+    Prepared ready;
+    ready.left_out = std::move(left_out);
+    for (std::size_t p = 0; p < all.size(); ++p) {
+        Part& part = all[p];
+        const std::string number = formatted("volume_{}", p + 1);
+        if (part.kept) {
+            ready.materials.push_back(part.kept->material);
+            ready.members.push_back(member_of(*part.kept, number));
+            ready.parts.push_back(&part);
+            continue;
+        }
+        const bool mixed = part.asked->options.fallback == sweep::Fallback::mixed;
+        const std::string region = part.volume.name.empty() ? number : part.volume.name;
+        bool unswept = false;
+        const auto close_part = [&] {
+            unswept = mixed && part.volume.no_roles;
+            if (!mixed) require_roles(part.volume);
+            if (unswept && part.volume.volume.full_turn) return; // it is closed
+            part.volume = mixed ? close(part.volume, {}, context)
+                                : close_to_sweep(part.volume, region, context);
+            unswept = unswept || !closure::has_ends(part.volume.volume);
+        };
+        if (part.left_out || !do_or_leave_out(ready.left_out, region, *part.asked, close_part)) continue;
+        ready.materials.push_back(part.volume.material);
+        ready.members.push_back(member_of(part, region, alone));
+        ready.members.back().unswept = mixed && unswept;
+        ready.parts.push_back(&part);
+    }
+    return ready;
+}
+
+/// Fill the volumes that are not swept, each beside the meshes made before.
+void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunContext& context)
+{
+    const sweep::SweptAssembly& swept = mesh.swept;
+    for (const sweep::Unswept& one : swept.unswept) {
+        const sweep::AssemblyMember& member = ready.members[one.member];
+        const Part& part = *ready.parts[one.member];
+        ToFill what{&one.volume,
+                    member.region,
+                    part.whole,
+                    alone,
+                    one.why                ? *one.why
+                    : part.volume.no_roles ? *part.volume.no_roles
+                                           : Message("closure.no_ends", "it has no ends to sweep between"),
+                    {}};
+        for (const sweep::SharedFace& face : swept.beside) {
+            if (face.a != one.member && face.b != one.member) continue;
+            const bool first = face.a == one.member;
+            const std::size_t other = first ? face.b : face.a;
+            const FaceId own = first ? face.face_a : face.face_b, there = first ? face.face_b : face.face_a;
+            if (const auto p = std::ranges::find(swept.member, other); p != swept.member.end()) {
+                const sweep::Swept& made = swept.parts[static_cast<std::size_t>(p - swept.member.begin())];
+                what.fixed.push_back(cells_on(made.mesh, made.faces, there, own));
+            } else if (const auto t = std::ranges::find(swept.unswept, other, &sweep::Unswept::member);
+                       t < swept.unswept.begin() + static_cast<std::ptrdiff_t>(mesh.tets.size())) {
+                what.fixed.push_back(
+                    cells_on(mesh.tets[static_cast<std::size_t>(t - swept.unswept.begin())], there, own));
+            }
+        }
+        mesh.tets.push_back(fill_with_tets(what, part.asked->options, context));
+    }
+    if (!mesh.tets.empty()) number_nodes(mesh);
+}
+
+/// Close the volumes, sweep all parts as one mesh, and fill those that cannot be swept, if their options say
+/// so.
 /// @param left_out  volumes that were left out before.
 /// @param alone     whether the parts are the pieces of a single volume, with no other member.
 FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, bool alone,
                         const RunContext& context)
 {
-    std::vector<sweep::AssemblyMember> members;
-    std::vector<std::string> materials;
-    for (std::size_t p = 0; p < all.size(); ++p) {
-        Part& part = all[p];
-        const std::string number = formatted("volume_{}", p + 1);
-        if (part.kept) {
-            materials.push_back(part.kept->material);
-            members.push_back(member_of(*part.kept, number));
-            continue;
-        }
-        const std::string region = part.volume.name.empty() ? number : part.volume.name;
-        const auto close = [&] { part.volume = close_to_sweep(part.volume, region, context); };
-        if (part.left_out || !do_or_leave_out(left_out, region, *part.asked, close)) continue;
-        materials.push_back(part.volume.material);
-        members.push_back(member_of(part, region, alone));
-    }
+    Prepared ready = prepare(all, std::move(left_out), alone, context);
     check_known_faces(all);
-    for (sweep::AssemblyMember& member : members) keep_known_faces(member);
-    if (members.empty() && !left_out.empty()) throw NotSweepable(left_out.front().message);
-    FilledParts mesh{sweep::sweep_assembly(members, context), {}, {}, std::move(left_out)};
+    for (sweep::AssemblyMember& member : ready.members) keep_known_faces(member);
+    if (ready.members.empty() && !ready.left_out.empty()) throw NotSweepable(ready.left_out.front().message);
+    FilledParts mesh{sweep::sweep_assembly(ready.members, context), {}, {}, std::move(ready.left_out), {}};
     for (const std::size_t m : mesh.swept.member) {
-        mesh.regions.push_back(members[m].turn_of.empty() ? members[m].region : members[m].turn_of);
-        mesh.materials.push_back(materials[m]);
+        const sweep::AssemblyMember& member = ready.members[m];
+        mesh.regions.push_back(member.turn_of.empty() ? member.region : member.turn_of);
+        mesh.materials.push_back(ready.materials[m]);
     }
     for (const Part& one : all)
         if (one.asked != nullptr && !one.left_out) report_left_out(one.volume, mesh.swept.report);
     for (const sweep::LeftOut& out : mesh.left_out)
         mesh.swept.report.push_back(formatted("left out: {} [{}]", out.message.text(), out.message.code()));
     mesh.left_out.insert(mesh.left_out.end(), mesh.swept.left_out.begin(), mesh.swept.left_out.end());
+    fill_rest(ready, alone, mesh, context);
     return mesh;
 }
 
@@ -258,13 +333,36 @@ void report_left_out(const Volume& volume, std::vector<std::string>& report)
         report.push_back("closed: " + missing);
 }
 
-FilledParts sweep_pieces(const Volume& volume, const sweep::SweepOptions& options, const RunContext& context)
+std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context)
+{
+    const auto can_sweep = [&](const topology::OpenVolume& piece) {
+        try {
+            surface::check_wall_edges(piece, context);
+            return true;
+        } catch (const NotSweepable&) {
+            return false;
+        }
+    };
+    return closure::partition(sealed, can_sweep, context);
+}
+
+FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,
+                         const sweep::SweepOptions& options, const RunContext& context)
 {
     const Member asked{&volume, nullptr, nullptr, options, true, true};
     const std::string& name = volume.name;
     std::vector<Part> parts;
-    add_parts(parts, asked, name.empty() ? "piece" : name, name.empty() ? "volume" : name, context);
+    add_pieces(parts, asked, name.empty() ? "piece" : name, name.empty() ? "volume" : name,
+               std::move(pieces));
     for (Part& part : parts) part.asked_name = name.empty() ? "the volume" : name;
+    return sweep_parts(parts, {}, true, context);
+}
+
+FilledParts fill_alone(const Member& member, const RunContext& context)
+{
+    std::vector<Part> parts;
+    parts.push_back({&member, "the volume", *member.volume, nullptr});
+    if (parts.front().volume.name.empty()) parts.front().volume.name = "volume";
     return sweep_parts(parts, {}, true, context);
 }
 

@@ -4,6 +4,7 @@
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/progress.h>
+#include <lacuna/fill/detail/members.h>
 #include <lacuna/topology/shared/auto_walls.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/hollows.h>
@@ -78,6 +79,7 @@ void take(closure::Reading found, Volume& volume)
     volume.closure = std::move(found.closure);
     volume.as_read = std::move(found.sealed);
     volume.others = std::move(found.others);
+    volume.no_roles = std::move(found.no_roles);
 }
 
 } // namespace
@@ -92,7 +94,11 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
         volume.volume = open_full_turn(model, faces, request, context);
     } else if (auto found = find_roles(model, faces, request, context)) {
         take(std::move(*found), volume);
-        if (request.override_class) volume.others.reset();
+        volume.roles_found = !request.roles;
+        if (request.override_class) {
+            require_roles(volume);
+            volume.others.reset();
+        }
     } else {
         Roles roles = *request.roles;
         if (request.find_walls) {

@@ -2,11 +2,13 @@
 #include <lacuna/fill.h>
 
 #include <lacuna/closure/shared/branches.h>
+#include <lacuna/closure/shared/partition.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/members.h>
 #include <lacuna/io/shared/deck_middles.h>
+#include <lacuna/surface/shared/default_size.h>
 
 #include <algorithm>
 #include <array>
@@ -90,7 +92,8 @@ Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request
     sweep::SweepOptions options = request.options;
     options.layered = options.layered && request.layered_parts;
     if (!options.layered) options.crew = nullptr;
-    Filled filled{{}, sweep_pieces(volume, options, context)};
+    Filled filled{{},
+                  sweep_pieces(volume, closure::cut_into_pieces(volume.volume, context), options, context)};
     filled.volumes.push_back(volume);
     return filled;
 }
@@ -108,6 +111,63 @@ Volume with_other_sweep(const Volume& volume, std::size_t number)
     return other;
 }
 
+// --- volumes that no single sweep fills -------------------------------------------------------------------
+
+/// The pieces of a sealed volume; itself if it cannot be cut.
+std::vector<closure::StepPiece> pieces_of(const topology::OpenVolume& sealed, const RunContext& context)
+{
+    std::vector<closure::StepPiece> pieces = partition(sealed, context);
+    if (pieces.size() > 1 || !closure::has_ends(sealed) || !closure::has_pieces(sealed, context))
+        return pieces;
+    try {
+        return closure::cut_into_pieces(sealed, context);
+    } catch (const NotSweepable& error) {
+        log_line(context, error.message().text());
+        return pieces;
+    }
+}
+
+/// Mesh a volume that no single sweep fills: in pieces that can be swept. With `Fallback::mixed`, pieces that
+/// cannot be swept are filled with tetrahedra, and if there are no pieces, the whole.
+/// @param why  why it cannot be swept
+/// @return  empty if that fails too.
+std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, const SweepRequest& request,
+                                      const RunContext& context)
+{
+    const bool mixed = request.options.fallback == sweep::Fallback::mixed;
+    sweep::SweepOptions options = request.options;
+    options.layered = false;
+    options.crew = nullptr;
+    // Pieces that are meshed by themselves have sizes of their own, which do not suit their neighbours.
+    if (!options.size) {
+        const double size = surface::default_size(volume.volume).length;
+        options.size = [size](const Vec3&) { return size; };
+        options.gap = std::max(options.gap, sweep::kDefaultGap);
+    }
+    Volume sealed = volume.volume.full_turn ? volume : close(volume, {}, context);
+    std::vector<closure::StepPiece> pieces = pieces_of(sealed.volume, context);
+    const bool swept = pieces.size() > 1 &&
+                       (mixed || std::ranges::all_of(pieces, closure::has_ends, &closure::StepPiece::volume));
+    Filled filled;
+    if (swept) {
+        log_line(context, formatted("cut into {} pieces, because {}", pieces.size(), why.text()));
+        try {
+            filled.mesh = sweep_pieces(sealed, std::move(pieces), options, context);
+            filled.volumes.push_back(std::move(sealed));
+            return filled;
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) {
+            log_line(context, error.message().text());
+        }
+    }
+    if (!mixed) return std::nullopt;
+    if (!sealed.no_roles) sealed.no_roles = why;
+    filled.mesh = fill_alone({&sealed, nullptr, nullptr, options, true, true}, context);
+    filled.volumes.push_back(std::move(sealed));
+    return filled;
+}
+
 std::vector<std::string>& report_of(Filled& filled)
 {
     if (auto* parts = std::get_if<FilledParts>(&filled.mesh)) return parts->swept.report;
@@ -118,19 +178,31 @@ std::vector<std::string>& report_of(Filled& filled)
 
 Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
+    if (volume.no_roles) {
+        if (auto filled = sweep_in_pieces(volume, *volume.no_roles, asked, context))
+            return std::move(*filled);
+        require_roles(volume);
+    }
     SweepRequest request = asked;
     request.options.improving = sweep::with_deadline(request.options.improving);
     std::vector<std::string> failed; // one line for each sweep that failed
     std::exception_ptr first;
+    std::optional<Message> why; // message of `first`
     std::optional<Volume> other;
+    const bool mixed = asked.options.fallback == sweep::Fallback::mixed;
+    if (mixed) request.options.fallback = sweep::Fallback::none;
+    // Roles that the user named are not replaced by those of pieces, unless asked for.
+    const bool may_cut = mixed || volume.roles_found;
     for (std::size_t next = 0;; ++next) {
         const Volume& now = other ? *other : volume;
         const bool pieces = closure::has_pieces(now.volume, context);
-        const auto note_failure = [&](const Error& why) {
-            if (!first && !volume.others) throw;
+        const auto note_failure = [&](const Error& error) {
+            if (!first && !volume.others && !may_cut) throw;
             if (!first) first = std::current_exception();
+            if (!why) why = error.message();
+            if (!volume.others) return;
             failed.push_back(formatted("roles: swept {} it fails: {} [{}]", ends_in_words(now.volume),
-                                       why.what(), why.code()));
+                                       error.what(), error.code()));
             log_line(context, failed.back());
         };
         try {
@@ -146,7 +218,14 @@ Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& 
         } catch (const NotClosed& error) {
             note_failure(error);
         }
-        if (next == volume.others->ways.size()) std::rethrow_exception(first);
+        if (!volume.others || next == volume.others->ways.size()) {
+            std::optional<Filled> filled;
+            if (may_cut) filled = sweep_in_pieces(volume, *why, asked, context);
+            if (!filled) std::rethrow_exception(first);
+            std::vector<std::string>& report = report_of(*filled);
+            report.insert(report.begin(), failed.begin(), failed.end());
+            return std::move(*filled);
+        }
         const bool told = now.told || !pieces;
         other = with_other_sweep(volume, next);
         other->told = told;

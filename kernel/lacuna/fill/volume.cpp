@@ -62,6 +62,7 @@ void reopen(Volume& volume, const RunContext& context)
 
 Volume override_class(Volume volume, topology::VolumeClass value)
 {
+    require_roles(volume);
     if (volume.closure)
         throw InvalidInput(Message("lua.sealed", "override_class: the volume is sealed already")
                                .remedy("override its class before close()"));
@@ -72,8 +73,14 @@ Volume override_class(Volume volume, topology::VolumeClass value)
     return volume;
 }
 
+void require_roles(const Volume& volume)
+{
+    if (volume.no_roles) throw InvalidInput(*volume.no_roles);
+}
+
 Volume match(Volume volume, const std::optional<matching::MatchOptions>& options, const RunContext& context)
 {
+    require_roles(volume);
     if (volume.closure && (options || !volume.match))
         throw InvalidInput(
             Message("lua.sealed", "match: the volume is sealed already").remedy("match it before close()"));
@@ -84,6 +91,7 @@ Volume match(Volume volume, const std::optional<matching::MatchOptions>& options
 
 Volume close(Volume volume, const std::optional<closure::CloseOptions>& options, const RunContext& context)
 {
+    if (options) require_roles(volume);
     if (volume.closure && options && volume.told)
         throw InvalidInput(
             "lua.sealed",
@@ -133,11 +141,17 @@ Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string
 
 std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext& context)
 {
-    std::vector<closure::StepPiece> cut = where.plane
-                                              ? closure::cut_by_plane(volume.volume, *where.plane, context)
-                                          : where.model ? closure::cut_by_face(volume.volume, *where.model,
-                                                                               where.face, context)
-                                                        : closure::cut_into_pieces(volume.volume, context);
+    std::vector<closure::StepPiece> cut;
+    if (where.automatic) {
+        cut = partition(volume.volume.full_turn ? volume.volume : close(volume, {}, context).volume, context);
+    } else if (where.plane) {
+        cut = closure::cut_by_plane(volume.volume, *where.plane, context);
+    } else if (where.model != nullptr) {
+        cut = closure::cut_by_face(volume.volume, *where.model, where.face, context);
+    } else {
+        require_roles(volume);
+        cut = closure::cut_into_pieces(volume.volume, context);
+    }
     if (where.plane || where.model) cut = closure::read_ends(std::move(cut), context).pieces;
     std::vector<Volume> pieces;
     for (closure::StepPiece& piece : cut) {

@@ -26,8 +26,12 @@ struct Volume {
     std::optional<closure::SealedVolume> as_read; ///< default closure, if the roles were found
     /// If the roles were found: the alternative sweeps of the same void.
     std::shared_ptr<const closure::OtherSweeps> others;
-    bool take_guess = false; ///< whether an ambiguous closing is accepted
-    bool told = false;       ///< whether the notes of the closure were logged
+    /// Set if no ends to sweep between were found: why. The volume is sealed then, all its faces are walls,
+    /// and only a fallback can mesh it.
+    std::optional<Message> no_roles;
+    bool roles_found = false; ///< all roles were found, none named
+    bool take_guess = false;  ///< whether an ambiguous closing is accepted
+    bool told = false;        ///< whether the notes of the closure were logged
     /// For a piece cut at steps: 0 runs from source to target; others take the remaining layers.
     int level = 0;
     double turn_from = 0, turn_to = 1; ///< for a piece of a full turn: its range, as fractions of the turn
@@ -50,7 +54,8 @@ struct RoleRequest {
     std::string material;
 };
 
-/// Open a volume from named faces, or find the roles of its faces.
+/// Open a volume from named faces, or find the roles of its faces. A closed volume without ends to sweep
+/// between is an error only for the stages that need them: match(), cut() and a sweep without a fallback.
 /// @throw InvalidInput "lua.walls_without_ends", "lua.class_of_found_roles"; as `topology::open_volume()`,
 ///                     `topology::find_walls()`, `closure::find_reading()` and `require_none_left_out()`.
 Volume open(const topology::Model& model, const RoleRequest& request = {}, const RunContext& context = {});
@@ -71,15 +76,16 @@ Volume match(Volume volume, const std::optional<matching::MatchOptions>& options
 Volume close(Volume volume, const std::optional<closure::CloseOptions>& options = {},
              const RunContext& context = {});
 
-/// Where to cut a volume. With neither member set it is cut at its steps, its branches and its full turn.
+/// Where to cut a volume. With no member set it is cut at its steps, its branches and its full turn.
 struct Cut {
     std::optional<geometry::Plane> plane;
     const topology::Model* model = nullptr; ///< model that `face` belongs to
     FaceId face;
+    bool automatic = false; ///< where pieces that can be swept result; the volume is sealed first
 };
 
 /// Cut a volume into pieces.
-/// @throw NotSweepable  as `closure::cut_by_plane()`, `cut_by_face()` and `cut_into_pieces()`.
+/// @throw NotSweepable  as `closure::cut_by_plane()`, `cut_by_face()`, `cut_into_pieces()` and close().
 std::vector<Volume> cut(const Volume& volume, const Cut& where = {}, const RunContext& context = {});
 
 } // namespace lacuna::fill

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -83,6 +84,8 @@ public:
         check_members();
         check_count();
         find_shared();
+        set_aside();
+        if (members_.empty()) return std::move(result_);
         before_ = members_before(members_, result_.shared);
         plan_ = plan_assembly(members_, result_.shared, context_);
         try {
@@ -116,12 +119,13 @@ private:
     void check_members() const
     {
         if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs at least one volume");
-        if (std::ranges::all_of(members_, [](const AssemblyMember& m) { return m.fixed != nullptr; }))
+        if (std::ranges::all_of(members_,
+                                [](const AssemblyMember& m) { return m.fixed != nullptr && !m.unswept; }))
             throw InvalidInput(
                 "assembly.all_fixed",
                 "all members of the assembly have given meshes; add at least one volume to sweep");
         for (std::size_t m = 0; m < members_.size(); ++m) {
-            if (members_[m].region == "volume")
+            if (members_[m].region == "volume" && members_.size() > 1)
                 throw InvalidInput(
                     Message("assembly.same_name",
                             "a volume of the assembly is named \"volume\", the group name of all cells")
@@ -146,7 +150,7 @@ private:
     {
         ExpectedCells all;
         for (const AssemblyMember& member : members_) {
-            if (member.fixed != nullptr) continue;
+            if (member.fixed != nullptr || member.unswept) continue;
             KnownLinks links(*member.volume);
             const ExpectedCells own = source_size(*member.volume, member.options, links, context_).expected;
             all.all += own.all;
@@ -181,6 +185,38 @@ private:
         }
     }
 
+    /// Take members that are not swept off the list, with the faces that they share.
+    void set_aside()
+    {
+        std::vector<std::size_t> place(members_.size(), members_.size());
+        std::vector<AssemblyMember> swept;
+        std::vector<OpenVolume> volumes;
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            if (members_[m].unswept) {
+                result_.unswept.push_back({m, *members_[m].volume, std::nullopt});
+                continue;
+            }
+            place[m] = swept.size();
+            swept.push_back(members_[m]);
+            if (!imprinted_.empty()) volumes.push_back(std::move(imprinted_[m]));
+        }
+        imprinted_ = std::move(volumes);
+        for (std::size_t m = 0; m < imprinted_.size(); ++m) swept[m].volume = &imprinted_[m];
+        const std::size_t none = members_.size();
+        members_ = std::move(swept);
+        const auto is_aside = [&](const auto& pair) {
+            return place[pair.a] == none || place[pair.b] == none;
+        };
+        std::ranges::copy_if(result_.shared, std::back_inserter(result_.beside), is_aside);
+        std::erase_if(result_.shared, is_aside);
+        std::erase_if(result_.near_misses, is_aside);
+        for (SharedFace& face : result_.shared) face.a = place[face.a], face.b = place[face.b];
+        for (NearMiss& miss : result_.near_misses) {
+            miss.a = place[miss.a], miss.b = place[miss.b];
+            if (miss.edge) miss.edge_of = place[miss.edge_of];
+        }
+    }
+
     /// Split ends along lines that neighbours need. @return  whether any end was split
     bool carry_lines()
     {
@@ -210,9 +246,8 @@ private:
 
     void sweep_again()
     {
-        SweptAssembly again;
-        again.near_misses = std::move(result_.near_misses);
-        result_ = std::move(again);
+        result_.parts.clear();
+        result_.report.clear();
         made_beside_.clear();
         result_.shared = faces_in_common(members_, context_).whole;
         plan_ = plan_assembly(members_, result_.shared, context_);
@@ -453,7 +488,7 @@ private:
             if (name != "volume") mesh.volume_groups.emplace_back("volume");
             if (member.piece_of != nullptr) take_roles(*member.piece_of, mesh.patches);
             if (member.alone) continue;
-            for (mesh::SkinPatch& patch : mesh.patches) add_member_name(name, patch);
+            for (mesh::SkinPatch& patch : mesh.patches) patch.groups = groups_in_assembly(name, patch.groups);
         }
         for (const SharedFace& face : result_.shared) {
             const std::string& whole = members_[face.a].whole;
@@ -476,17 +511,6 @@ private:
         for (mesh::SkinPatch& patch : patches)
             if (const auto found = of_tag.find(patch.face); patch.face != 0 && found != of_tag.end())
                 patch.groups = found->second;
-    }
-
-    /// Put the member's name before the groups of roles.
-    static void add_member_name(const std::string& name, mesh::SkinPatch& patch)
-    {
-        std::vector<std::string> groups;
-        for (const std::string& group : patch.groups) {
-            if (!is_role_group(group)) groups.push_back(group);
-            groups.push_back(name + ":" + group);
-        }
-        patch.groups = std::move(groups);
     }
 
     /// The quads of a part on a face.
@@ -545,11 +569,18 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
     std::vector<std::size_t> place(left.size());
     std::iota(place.begin(), place.end(), std::size_t{0});
     std::map<std::string, MemberFailed> without_wedges; // by region
+    std::map<std::size_t, Message> failures;            // of members that are then not swept, by index
     std::vector<LeftOut> left_out;
     for (;;) {
         try {
             SweptAssembly swept = Assembler(left, context).run();
-            swept.member = std::move(place);
+            for (std::size_t m = 0; m < left.size(); ++m)
+                if (!left[m].unswept) swept.member.push_back(place[m]);
+            for (Unswept& one : swept.unswept) {
+                one.member = place[one.member];
+                if (const auto why = failures.find(one.member); why != failures.end()) one.why = why->second;
+            }
+            for (SharedFace& face : swept.beside) face.a = place[face.a], face.b = place[face.b];
             for (const auto& [region, failed] : without_wedges)
                 swept.report.push_back(
                     formatted("fallback: meshed with wedges, because {}", failed.message().text()));
@@ -559,17 +590,22 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
             swept.left_out = std::move(left_out);
             return swept;
         } catch (const MemberFailed& failed) {
-            AssemblyMember& member = left[failed.member];
+            std::size_t m = 0; // `failed` counts the members that are swept
+            for (std::size_t before = 0; left[m].unswept || before++ < failed.member;) ++m;
+            AssemblyMember& member = left[m];
             const Fallback fallback = member.options.fallback;
             if (fallback == Fallback::wedges && !member.options.wedges) {
                 member.options.wedges = true;
                 without_wedges.emplace(member.region, failed);
             } else if (const auto first = without_wedges.find(member.region); first != without_wedges.end()) {
                 throw MemberFailed(first->second); // more informative than the error with wedges
+            } else if (fallback == Fallback::mixed) {
+                member.unswept = true;
+                failures.emplace(place[m], failed.message());
             } else if (fallback == Fallback::leave_out && left.size() > 1) {
                 left_out.push_back({member.region, failed.message()});
-                left.erase(left.begin() + static_cast<std::ptrdiff_t>(failed.member));
-                place.erase(place.begin() + static_cast<std::ptrdiff_t>(failed.member));
+                left.erase(left.begin() + static_cast<std::ptrdiff_t>(m));
+                place.erase(place.begin() + static_cast<std::ptrdiff_t>(m));
             } else {
                 throw;
             }

@@ -35,7 +35,8 @@ struct AssemblyMember {
     std::string whole = {};
     /// That volume, whose faces define the roles of the piece's faces in groups. Null if unknown.
     const topology::OpenVolume* piece_of = nullptr;
-    bool alone = false; ///< it, or the volume of which it is a piece, is the only one
+    bool alone = false;   ///< it, or the volume of which it is a piece, is the only one
+    bool unswept = false; ///< not swept: the caller fills it beside the others; see `Unswept`
 };
 
 /// A face shared by two members, one on each side.
@@ -77,11 +78,22 @@ struct LeftOut {
     Message message;    ///< message of the error
 };
 
+/// A volume of an assembly that was not swept because it was not to be, or because its sweep failed with
+/// `Fallback::mixed`.
+struct Unswept {
+    std::size_t member = 0;      ///< its index in the list of members
+    topology::OpenVolume volume; ///< split where it shares parts of faces, as the others are
+    std::optional<Message> why;  ///< message of the error; empty: it was not to be swept
+};
+
 /// Hexahedra of several sweeps with common nodes at shared faces.
 struct SweptAssembly {
     std::vector<Swept> parts;        ///< in the members' order, each with its own numbering
     std::vector<std::size_t> member; ///< for each part, its index in the list of members
     std::vector<LeftOut> left_out;   ///< members without a part
+    std::vector<Unswept> unswept;    ///< likewise
+    /// Faces that these share with others and with each other; `a` and `b` index the list of members.
+    std::vector<SharedFace> beside;
     /// Of each part's nodes, the number in the whole mesh, from 0. Parts follow each other; a node that an
     /// earlier part has keeps its number.
     std::vector<std::vector<Index>> number;
@@ -106,7 +118,7 @@ struct SweptAssembly {
 /// Members with the option `layered` may become parts that do not hold their nodes; then `number` is empty.
 /// Fixed members become parts unchanged and first: their neighbours keep their quads on shared faces.
 /// A member that cannot be meshed this way is meshed with wedges or left out, as its `fallback` says, and the
-/// assembly is then computed again without it.
+/// assembly is then computed again without it. With `Fallback::mixed` it is then one that is not swept.
 /// @throw NotSweepable  as `sweep()`, the region named; "assembly.layers"  volumes side by side for which
 ///         other numbers of layers are asked; "assembly.layers_differ", "assembly.layers_rows"  boundary
 ///         layers of several volumes that cannot be on one edge, or for which it has too few sides;

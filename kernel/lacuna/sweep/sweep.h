@@ -4,6 +4,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/mesh/tet_mesh.h>
 #include <lacuna/quads/region.h>
 #include <lacuna/quality/quality.h>
 #include <lacuna/surface/requests.h>
@@ -86,9 +87,10 @@ struct Beside {
 
 /// Action for a volume that cannot be meshed with hexahedra only.
 enum class Fallback {
-    none,     ///< an error
-    wedges,   ///< repeat with `SweepOptions::wedges`
-    leave_out ///< mesh the other volumes of an assembly without it; alone it is an error
+    none,      ///< an error
+    wedges,    ///< repeat with `SweepOptions::wedges`
+    leave_out, ///< mesh the other volumes of an assembly without it; alone it is an error
+    mixed      ///< likewise, for a caller that fills it with tetrahedra: `fill::sweep()`
 };
 
 /// Default number of quads across a narrow place of the source, and of layers. Paving meets a size on
@@ -117,6 +119,7 @@ struct SweepOptions {
     std::vector<surface::BoundaryLayer> boundary_layers;
     std::vector<surface::Interval> intervals; ///< numbers of sides
     quads::PlanarQuadMesher quad_mesher;      ///< the mesher of `Quads::gmsh`
+    mesh::TetMesher tet_mesher;               ///< the mesher of `Fallback::mixed`
     Interior interior = Interior::automatic;
     int order = 1;                   ///< order of the cells: 1 or 2
     SecondOrderOptions second_order; ///< options of order 2

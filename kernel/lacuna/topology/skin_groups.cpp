@@ -88,4 +88,14 @@ bool is_role_group(std::string_view group)
            word.find_first_not_of("0123456789", 5) == std::string::npos;
 }
 
+std::vector<std::string> groups_in_assembly(const std::string& volume, const std::vector<std::string>& groups)
+{
+    std::vector<std::string> all;
+    for (const std::string& group : groups) {
+        if (!is_role_group(group)) all.push_back(group);
+        all.push_back(volume + ":" + group);
+    }
+    return all;
+}
+
 } // namespace lacuna::topology

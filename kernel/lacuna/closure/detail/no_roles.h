@@ -11,11 +11,16 @@
 
 namespace lacuna::closure {
 
-/// Report why no roles were found and what to call instead, after trying planes to cut by.
-/// @throw InvalidInput  always: "topology.torus", "topology.sphere", "topology.cone" (one that includes its
-///        apex), "topology.crossing_bores", otherwise "topology.no_roles". Cancelled.
-[[noreturn]] void refuse_without_roles(const topology::Model& model, const std::vector<FaceId>& faces,
-                                       const RunContext& context);
+/// Whether a closed skin has one handle, as a torus has, and a plane cuts it across in two places: it can be
+/// swept as a full turn.
+bool is_ring(const topology::OpenVolume& volume, const RunContext& context);
+
+/// Why no roles were found and what to call instead, after trying planes to cut by: "topology.sphere",
+/// "topology.cone" (one that includes its apex), "topology.crossing_bores", otherwise
+/// "topology.no_roles".
+/// @throw InvalidInput  faces that cannot be oriented. Cancelled.
+Message why_no_roles(const topology::Model& model, const std::vector<FaceId>& faces,
+                     const RunContext& context);
 
 /// The likeliest readings for a message: "1 (class IV, volume 2.1), 2 (class II, volume 3) and 3 more".
 std::string listed(const std::vector<Reading>& readings, std::ptrdiff_t most = 6);

@@ -31,6 +31,10 @@ namespace lacuna::closure {
 std::vector<StepPiece> cut_by_plane(const topology::OpenVolume& volume, const geometry::Plane& plane,
                                     const RunContext& context = {});
 
+/// As above, only along the regions of the plane whose rims run along some of these edges.
+std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const geometry::Plane& plane,
+                                    const std::vector<EdgeId>& edges, const RunContext& context = {});
+
 /// Cut a volume by a face of a model into pieces that share it.
 ///
 /// A face whose rim runs along edges of the volume, such as a partition modelled with it, is the shared face,

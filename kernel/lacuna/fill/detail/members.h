@@ -9,6 +9,9 @@
 
 namespace lacuna::fill {
 
+/// @throw InvalidInput  if no ends to sweep between were found: why.
+void require_roles(const Volume& volume);
+
 /// Close a volume and check that it has a source and a target.
 /// @param region  name of the region, for messages.
 Volume close_to_sweep(const Volume& volume, const std::string& region, const RunContext& context);
@@ -16,8 +19,15 @@ Volume close_to_sweep(const Volume& volume, const std::string& region, const Run
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name);
 
+/// Cut a sealed volume into pieces that can be swept, as `closure::partition()`.
+std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context);
+
 /// Sweep the pieces of one volume as an assembly.
-FilledParts sweep_pieces(const Volume& volume, const sweep::SweepOptions& options, const RunContext& context);
+FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,
+                         const sweep::SweepOptions& options, const RunContext& context);
+
+/// Fill one sealed volume with tetrahedra. @pre it has `no_roles`, and the fallback is `mixed`.
+FilledParts fill_alone(const Member& member, const RunContext& context);
 
 /// Report the faces of the file that are missing next to the volume and, after closing, the void faces that
 /// replace them: one line for each.

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/shared/partition.h>
+
+#include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/detail/unless_refused.h>
+#include <lacuna/closure/detail/void_sweeps.h>
+#include <lacuna/closure/shared/branches.h>
+#include <lacuna/closure/shared/cut.h>
+#include <lacuna/closure/shared/piece_ends.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/topology/shared/face_plane.h>
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Bounds of the search, so that a part with hundreds of features ends in seconds.
+constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
+/// Of the cuts that leave the shortest concave edges, those whose pieces are searched for ends, which costs
+/// more than the cut.
+constexpr std::size_t kMostRead = 6;
+
+/// The concave edges of a volume.
+struct Concave {
+    std::vector<EdgeId> edges;
+    double length = 0; ///< [model length]
+};
+
+Concave concave_edges(const OpenVolume& volume, const RunContext& context)
+{
+    Concave found;
+    const std::vector<double> turns = concave_turns(volume, context);
+    for (std::size_t e = 0; e < turns.size(); ++e) {
+        if (!(turns[e] > kCreaseAngle)) continue;
+        found.edges.emplace_back(e);
+        found.length += edge_length(volume.model, EdgeId(e));
+    }
+    return found;
+}
+
+/// A piece, and its concave edges if it has no ends.
+struct CutPart {
+    StepPiece piece;
+    Concave concave;
+    bool has_ends = false;
+    bool is_done = false; ///< it has ends, or no cut helps
+};
+
+/// Give a piece ends to sweep between, if it has some.
+bool find_ends(StepPiece& piece, const CanSweep& can_sweep, const RunContext& context)
+{
+    std::vector<StepPiece> one;
+    one.push_back(piece);
+    one = read_ends(std::move(one), context).pieces;
+    if (walls_run_between_ends(one.front().volume) && can_sweep(one.front().volume)) {
+        piece = std::move(one.front());
+        return true;
+    }
+    const auto sweeps = unless_refused([&] { return best_sweeps(piece.volume.model, context); });
+    if (!sweeps) return false;
+    for (const RoleCandidate& sweep : *sweeps) {
+        OpenVolume volume = piece.volume;
+        set_ends(volume, sweep.roles);
+        if (has_pieces(volume, context) || !can_sweep(volume)) continue;
+        piece.volume = std::move(volume);
+        return true;
+    }
+    return false;
+}
+
+/// The pieces of one cut, and what is left to do.
+struct CutTried {
+    std::vector<CutPart> parts;
+    double left = 0; ///< length of concave edges in pieces without ends [model length]
+};
+
+/// Cut a piece by the planes of its flat faces beside concave edges; the cuts that leave the least first.
+std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const RunContext& context)
+{
+    const Model& model = part.piece.volume.model;
+    std::vector<CutTried> cuts;
+    for (const FaceId face : all_faces(model)) {
+        std::vector<EdgeId> edges;
+        for (const EdgeId edge : part.concave.edges)
+            if (std::ranges::any_of(model.uses_of_edge(edge), [&](FaceUse use) { return use.face == face; }))
+                edges.push_back(edge);
+        const auto plane = edges.empty() ? std::nullopt : plane_of(model, face);
+        if (!plane || tried == kMostCuts) continue;
+        ++tried;
+        // Refused: the plane crosses given quads, or leaves the volume in one piece.
+        auto pieces = unless_refused([&] { return cut_at_edges(part.piece.volume, *plane, edges, context); });
+        if (!pieces || pieces->size() < 2) continue;
+        CutTried& cut = cuts.emplace_back();
+        for (StepPiece& piece : *pieces) {
+            Concave concave = concave_edges(piece.volume, context);
+            cut.left += concave.length;
+            cut.parts.push_back({std::move(piece), std::move(concave)});
+        }
+    }
+    std::ranges::stable_sort(cuts, {}, &CutTried::left);
+    return cuts;
+}
+
+/// The best cut of a piece; empty if none reduces the length of concave edges without ends.
+std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const CanSweep& can_sweep,
+                              const RunContext& context)
+{
+    std::vector<CutTried> cuts = try_cuts(part, tried, context);
+    if (cuts.size() > kMostRead) cuts.resize(kMostRead);
+    for (CutTried& cut : cuts) {
+        cut.left = 0;
+        for (CutPart& own : cut.parts) {
+            own.has_ends = own.is_done = find_ends(own.piece, can_sweep, context);
+            if (!own.has_ends) cut.left += own.concave.length;
+        }
+    }
+    const auto better = [](const CutTried& a, const CutTried& b) {
+        const auto without = [](const CutTried& cut) {
+            return std::ranges::count(cut.parts, false, &CutPart::has_ends);
+        };
+        return std::tuple(a.left, without(a), a.parts.size()) <
+               std::tuple(b.left, without(b), b.parts.size());
+    };
+    const auto best = std::ranges::min_element(cuts, better);
+    if (best == cuts.end() || !(best->left < part.concave.length)) return {};
+    return std::move(best->parts);
+}
+
+} // namespace
+
+bool has_ends(const OpenVolume& piece)
+{
+    return !piece.faces(Role::source).empty() && !piece.faces(Role::target).empty();
+}
+
+std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_sweep,
+                                 const RunContext& context)
+{
+    std::vector<CutPart> parts;
+    parts.push_back({{volume}, concave_edges(volume, context)});
+    for (std::size_t tried = 0; tried < kMostCuts && parts.size() < kMostPieces;) {
+        check_cancelled(context);
+        const auto next = std::ranges::max_element(
+            parts, {}, [](const CutPart& part) { return part.is_done ? -1 : part.concave.length; });
+        if (next->is_done) break;
+        std::vector<CutPart> made = best_cut(*next, tried, can_sweep, context);
+        if (made.empty()) {
+            next->is_done = true;
+            continue;
+        }
+        *next = std::move(made.back());
+        made.pop_back();
+        std::ranges::move(made, std::back_inserter(parts));
+    }
+    std::vector<StepPiece> pieces;
+    for (CutPart& part : parts) {
+        if (!part.has_ends) std::ranges::fill(part.piece.volume.role, Role::wall);
+        pieces.push_back(std::move(part.piece));
+    }
+    return pieces;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/fill/detail/tets.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/progress.h>
+#include <lacuna/core/shared/same_corners.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/quality/shared/prove_cells.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/face_shape.h>
+#include <lacuna/topology/shared/skin_groups.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace lacuna::fill {
+
+using namespace topology;
+
+namespace {
+
+// --- meshes that exist ------------------------------------------------------------------------------------
+
+/// Collects the cells of a skin on one face, with nodes of their own.
+class CellsOfFace {
+public:
+    explicit CellsOfFace(FaceId own) : fixed_{own, {}, {}} {}
+
+    /// @param side  of the neighbour's skin, so that it is turned over
+    template <class Place>
+    void add(Quad side, const Place& place)
+    {
+        for (Index& node : side) {
+            const auto [at, fresh] = number_.try_emplace(node, static_cast<Index>(fixed_.nodes.size()));
+            if (fresh) fixed_.nodes.push_back(place(node));
+            node = at->second;
+        }
+        fixed_.quads.push_back(mesh::turned_over(side));
+    }
+    surface::FixedFace take() { return std::move(fixed_); }
+
+private:
+    surface::FixedFace fixed_;
+    std::map<Index, Index> number_;
+};
+
+// --- shape ------------------------------------------------------------------------------------------------
+
+/// Allowed distance of the skin from the sealed skin as a share of a side, as for swept meshes.
+constexpr double kShareOfSide = 0.25;
+/// Volume that the mesh may lose or gain without a note.
+constexpr double kQuietVolume = 0.02;
+
+/// Compare the skin with one face, both ways.
+sweep::FaceFidelity compare_face(const mesh::TetPart& mesh, Index patch, const surface::FaceShape& shape,
+                                 double max_deviation)
+{
+    sweep::FaceFidelity result;
+    const geometry::FacetTree face(shape.points, shape.triangles);
+    std::vector<Triangle> sides;
+    double mean = 0, area = 0;
+    const auto note = [&](const Vec3& p, double distance, double side) {
+        if (distance > result.max_distance) {
+            result.max_distance = distance;
+            result.place = p;
+        }
+        const double allowed = max_deviation > 0 ? max_deviation : kShareOfSide * side;
+        if (distance * std::max(result.allowed, 1e-300) <= result.found * allowed) return;
+        result.found = distance;
+        result.found_at = p;
+        result.allowed = allowed;
+        result.side = result.source_side = side;
+    };
+    for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
+        if (mesh.skin_patch[i] != patch) continue;
+        const Quad& side = mesh.skin[i];
+        const std::size_t corners = mesh::corner_count(side);
+        ++result.quads;
+        sides.push_back({side[0], side[1], side[2]});
+        if (corners == 4) sides.push_back({side[0], side[2], side[3]});
+        Vec3 centre = Vec3::Zero();
+        double longest = 0;
+        std::vector<Vec3> probes;
+        for (std::size_t k = 0; k < corners; ++k) {
+            const Vec3& a = mesh.nodes[index(side[k])];
+            const Vec3& b = mesh.nodes[index(side[(k + 1) % corners])];
+            longest = std::max(longest, (b - a).norm());
+            centre += a / static_cast<double>(corners);
+            probes.push_back(a);
+            probes.push_back((a + b) / 2);
+        }
+        probes.push_back(centre);
+        for (const Vec3& p : probes) {
+            const geometry::FacetTree::Hit hit = face.closest(p);
+            const Vec3 on = hit.point + shape.bulge_at(index(hit.triangle), hit.barycentric);
+            const double distance = std::max(0.0, (p - on).norm() - shape.slack);
+            note(p, distance, longest);
+            const double own = longest * longest;
+            mean += own * distance;
+            area += own;
+        }
+    }
+    if (area > 0) result.mean_distance = mean / area;
+    const geometry::FacetTree skin(mesh.nodes, sides);
+    for (const Vec3& p : shape.points) {
+        const geometry::FacetTree::Hit hit = skin.closest(p);
+        const Triangle& t = sides[index(hit.triangle)];
+        double longest = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            longest = std::max(longest, (mesh.nodes[index(t[k])] - mesh.nodes[index(t[(k + 1) % 3])]).norm());
+        note(p, std::max(0.0, std::sqrt(hit.distance2) - shape.slack), longest);
+    }
+    if (result.found > result.allowed) result.misfit = sweep::Misfit::straight;
+    return result;
+}
+
+/// @param size  of the cells on the skin [model length]
+sweep::Fidelity compare(const OpenVolume& volume, const FilledTets& tets, double size, double max_deviation,
+                        const RunContext& context)
+{
+    const Model& model = volume.model;
+    sweep::Fidelity all;
+    all.volume = tets.quality.volume;
+    double area = 0;
+    for (std::size_t p = 0; p < tets.faces.size(); ++p) {
+        check_cancelled(context);
+        const FaceId face = tets.faces[p];
+        const surface::FaceShape shape = surface::face_shape(model, face, [&](const Vec3&) { return size; });
+        all.sealed_volume += shape.volume_integral(tets.mesh.nodes.front());
+        sweep::FaceFidelity& own = all.faces.emplace_back(
+            compare_face(tets.mesh, static_cast<Index>(p), shape, max_deviation));
+        own.face = face;
+        own.entity = entity_of(model, face);
+        own.tag = model[face].tag;
+        own.made_void = model[face].origin == Origin::made_void;
+        const double extent = face_area(model, face);
+        all.max_distance = std::max(all.max_distance, own.max_distance);
+        all.mean_distance += extent * own.mean_distance;
+        area += extent;
+    }
+    all.sealed_volume = std::abs(all.sealed_volume);
+    if (area > 0) all.mean_distance /= area;
+    return all;
+}
+
+/// @throw NotSweepable  the skin deviates from a face, or the volume from the sealed one
+void require_shape(const sweep::Fidelity& shape, const sweep::SweepOptions& options, FilledTets& tets,
+                   const RunContext& context)
+{
+    if (const auto misfit = sweep::misfit(shape, 0, {options.max_deviation, {}, options.size}))
+        throw NotSweepable(misfit->about(tets.region));
+    const double off = std::abs(shape.volume / shape.sealed_volume - 1);
+    if (off <= kQuietVolume) return;
+    Message message("sweep.volume", "{}: the mesh has {:.2g} % {} volume than the sealed skin", tets.region,
+                    100 * off, shape.volume < shape.sealed_volume ? "less" : "more");
+    message = std::move(message).remedy("use a smaller 'size'");
+    if (!options.size || off > 10 * kQuietVolume) throw NotSweepable(std::move(message));
+    tets.report.push_back(message.text());
+    log_line(context, "note: " + message.text());
+}
+
+// --- cells and skin ---------------------------------------------------------------------------------------
+
+/// The part of the whole mesh, from the cells that filled a skin.
+void take_cells(const ToFill& what, const surface::SkinMesh& skin, mesh::TetMesh made, FilledTets& tets)
+{
+    mesh::TetPart& part = tets.mesh;
+    part.nodes = std::move(made.nodes);
+    part.cells = std::move(made.cells);
+    const auto tets_at = std::ranges::stable_partition(part.cells, mesh::is_pyramid);
+    part.pyramids = static_cast<std::size_t>(tets_at.begin() - part.cells.begin());
+    const std::vector<std::vector<std::string>> groups = skin_groups(*what.volume);
+    std::map<FaceId, Index> patches;
+    const auto patch_of = [&](FaceId face) {
+        const auto [found, fresh] = patches.try_emplace(face, static_cast<Index>(part.patches.size()));
+        if (!fresh) return found->second;
+        const Face& f = what.volume->model[face];
+        mesh::SkinPatch& patch = part.patches.emplace_back();
+        patch.tag = static_cast<int>(part.patches.size());
+        if (f.origin != Origin::made_void) patch.face = f.tag;
+        patch.groups = groups[face.index()];
+        tets.faces.push_back(face);
+        return found->second;
+    };
+    for (std::size_t i = 0; i < skin.skin.quads.size(); ++i) {
+        part.skin.push_back(skin.skin.quads[i]);
+        part.skin_patch.push_back(patch_of(skin.quad_face[i]));
+    }
+    part.skin_quads = part.skin.size();
+    for (std::size_t i = 0; i < skin.skin.triangles.size(); ++i) {
+        const Triangle& t = skin.skin.triangles[i];
+        part.skin.push_back({t[0], t[1], t[2], t[2]});
+        part.skin_patch.push_back(patch_of(skin.triangle_face[i]));
+    }
+    const std::string& name = what.whole.empty() ? what.region : what.whole;
+    part.volume_groups = {name};
+    if (name != "volume") part.volume_groups.emplace_back("volume");
+    if (what.alone) return;
+    for (mesh::SkinPatch& patch : part.patches) patch.groups = groups_in_assembly(name, patch.groups);
+}
+
+Quad key_of(Quad side)
+{
+    if (mesh::is_triangle(side)) side[3] = -1;
+    return rising(side);
+}
+
+/// @throw NotSweepable  the cells are no valid mesh, or their skin is another than the one to be filled
+void prove(FilledTets& tets, const sweep::SweepOptions& options, const RunContext& context)
+{
+    quality::CellsProof proved = quality::prove_cells(tets.mesh.nodes, tets.mesh.cells, context);
+    quality::require(proved);
+    std::set<Quad> skin;
+    for (const Quad& side : proved.skin) skin.insert(key_of(side));
+    const bool same = skin.size() == tets.mesh.skin.size() &&
+                      std::ranges::all_of(tets.mesh.skin,
+                                          [&](const Quad& side) { return skin.contains(key_of(side)); });
+    if (!same)
+        throw NotSweepable("fill.skin_differs", "{}: the cells that fill the skin have another skin",
+                           tets.region);
+    tets.quality = std::move(proved.quality);
+    if (tets.quality.min_scaled_jacobian < options.min_scaled_jacobian)
+        throw NotSweepable(Message("quality.below_limit",
+                                   "{}: the smallest scaled Jacobian is {:.3g}, below the limit of {:.3g}",
+                                   tets.region, found(tets.quality.min_scaled_jacobian),
+                                   needed(options.min_scaled_jacobian))
+                               .remedy("use a smaller 'size'"));
+}
+
+} // namespace
+
+surface::FixedFace cells_on(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, FaceId there,
+                            FaceId own)
+{
+    CellsOfFace cells(own);
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::SkinQuad side = skin_quad(mesh, i);
+        if (faces[index(side.patch)] == there)
+            cells.add(side.nodes, [&](Index n) { return mesh.node(index(n)); });
+    }
+    return cells.take();
+}
+
+surface::FixedFace cells_on(const FilledTets& mesh, FaceId there, FaceId own)
+{
+    CellsOfFace cells(own);
+    for (std::size_t i = 0; i < mesh.mesh.skin.size(); ++i)
+        if (mesh.faces[index(mesh.mesh.skin_patch[i])] == there)
+            cells.add(mesh.mesh.skin[i], [&](Index n) { return mesh.mesh.nodes[index(n)]; });
+    return cells.take();
+}
+
+FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options, const RunContext& context)
+{
+    if (!options.tet_mesher)
+        throw InvalidInput(Message("fill.no_tets", "{}: this host has no mesher for tetrahedra", what.region)
+                               .remedy("set SweepOptions::tet_mesher, to cad::fill_skin for example"));
+    if (options.order > 1)
+        throw InvalidInput(
+            Message("fill.tets_order", "{}: tetrahedra and pyramids are of order 1 only", what.region)
+                .remedy("use order = 1, or leave out the fallback"));
+    FilledTets tets;
+    tets.region = what.region;
+    tets.report.push_back(formatted("fallback: filled with tetrahedra, because {}", what.why.text()));
+    const surface::DefaultSize size = surface::default_size(*what.volume);
+    if (!options.size) tets.report.push_back(formatted("size: {:.3g}, {}", size.length, size.why));
+    report_progress(context, "triangles of the skin");
+    for (const surface::FixedFace& face : what.fixed) tets.shared += face.quads.size();
+    surface::SkinMesh skin = surface::triangulate_skin(what.volume->model, {size.length, options.size},
+                                                       what.fixed, context);
+    report_progress(context, "tetrahedra");
+    mesh::TetMesh made = options.tet_mesher(skin.skin, context);
+    take_cells(what, skin, std::move(made), tets);
+    prove(tets, options, context);
+    report_progress(context, "shape of the skin");
+    tets.fidelity = compare(*what.volume, tets, size.length, options.max_deviation, context);
+    tets.report.push_back(formatted("cells: {} tetrahedra, {} pyramids",
+                                    tets.mesh.cells.size() - tets.mesh.pyramids, tets.mesh.pyramids));
+    tets.report.push_back(sweep::in_words(tets.fidelity));
+    require_shape(tets.fidelity, options, tets, context);
+    log_line(context, formatted("note: {}: {}", what.region, tets.report.front()));
+    return tets;
+}
+
+void number_nodes(FilledParts& mesh)
+{
+    const auto by_place = [](const Vec3& a, const Vec3& b) {
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    };
+    std::map<Vec3, Index, decltype(by_place)> known(by_place);
+    std::set<Quad> sides; // of the skins so far
+    const auto is_known = [&](Quad side, const std::vector<Index>& number) {
+        for (Index& n : side) n = number[index(n)];
+        return !sides.insert(key_of(side)).second;
+    };
+    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
+        const mesh::HexMesh& part = mesh.swept.parts[p].mesh;
+        const std::vector<Index>& number = mesh.swept.number[p];
+        for (std::size_t i = 0; i < part.skin_count(); ++i) {
+            const Quad side = skin_quad(part, i).nodes;
+            for (const Index n : side) known.emplace(part.nodes[index(n)], number[index(n)]);
+            is_known(side, number);
+        }
+    }
+    for (FilledTets& tets : mesh.tets) {
+        std::vector<char> on_skin(tets.mesh.nodes.size(), 0);
+        for (const Quad& side : tets.mesh.skin)
+            for (const Index n : side) on_skin[index(n)] = 1;
+        for (std::size_t n = 0; n < tets.mesh.nodes.size(); ++n) {
+            const auto next = static_cast<Index>(mesh.swept.nodes);
+            const Index own = on_skin[n] != 0 ? known.emplace(tets.mesh.nodes[n], next).first->second : next;
+            if (own == next) ++mesh.swept.nodes;
+            tets.number.push_back(own);
+        }
+        const auto shared = std::ranges::count_if(
+            tets.mesh.skin, [&](const Quad& side) { return is_known(side, tets.number); });
+        if (static_cast<std::size_t>(shared) != tets.shared)
+            throw NotSweepable("fill.not_shared",
+                               "{}: {} of its sides are those of its neighbours, where {} should be",
+                               tets.region, found(shared), needed(tets.shared));
+    }
+}
+
+} // namespace lacuna::fill

@@ -1,0 +1,199 @@
+-- SPDX-License-Identifier: MIT
+-- Volumes that no single sweep fills: cut into pieces that are swept, or filled with tetrahedra.
+local lacuna = require "lacuna"
+local folder = arg[0]:match("^(.*/)") or "./"
+local check = dofile(folder .. "check.lua")
+local params = lacuna.params { scratch = "." }
+
+local function path(name) return params.scratch .. "/" .. name end
+
+--- A model of flat faces, each an array of corners.
+local function solid(faces)
+  local model = lacuna.model()
+  for number, corners in ipairs(faces) do
+    local cells = {}
+    for k = 2, #corners - 1 do cells[k - 1] = { 1, k, k + 1 } end
+    model:add_face { name = "f" .. number, points = corners, cells = cells }
+  end
+  return model
+end
+
+--- The faces of a union of unit cubes at whole places, without those between two of them.
+local function cubes(places)
+  local has, faces = {}, {}
+  local function key(p) return table.concat(p, " ") end
+  for _, p in ipairs(places) do has[key(p)] = true end
+  for _, p in ipairs(places) do
+    for axis = 1, 3 do
+      for side = 0, 1 do
+        local beside = { p[1], p[2], p[3] }
+        beside[axis] = beside[axis] + 2 * side - 1
+        if not has[key(beside)] then
+          local corners = {}
+          for k, at in ipairs { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } do
+            local corner = { p[1], p[2], p[3] }
+            corner[axis] = corner[axis] + side
+            corner[axis % 3 + 1] = corner[axis % 3 + 1] + at[1]
+            corner[(axis + 1) % 3 + 1] = corner[(axis + 1) % 3 + 1] + at[2]
+            corners[side == 1 and k or 5 - k] = corner
+          end
+          faces[#faces + 1] = corners
+        end
+      end
+    end
+  end
+  return faces
+end
+
+local function near(found, wanted, what)
+  check.that(math.abs(found - wanted) <= 1e-9 * math.abs(wanted),
+    ("%s: %.15g, not %.15g"):format(what, found, wanted))
+end
+
+--- Whether a mesh is proved, and has the volume.
+local function check_mesh(mesh, volume)
+  local quality = mesh:quality()
+  check.equal(quality.certified, true)
+  check.equal(quality.tets, mesh.tets)
+  check.equal(quality.pyramids, mesh.pyramids)
+  check.equal(quality.hexes, mesh.hexes)
+  near(quality.volume, volume, "volume of the cells")
+  near(mesh.fidelity.volume, volume, "volume of the mesh")
+  near(mesh.fidelity.sealed_volume, volume, "sealed volume")
+end
+
+-- --- pieces that are swept ---------------------------------------------------------------------------------
+
+-- Arms to six sides: no sweep has two ends, and seven cubes are its pieces.
+local star = { { 0, 0, 0 } }
+for axis = 1, 3 do
+  for side = -1, 1, 2 do
+    local arm = { 0, 0, 0 }
+    arm[axis] = side
+    star[#star + 1] = arm
+  end
+end
+do
+  local volume = solid(cubes(star)):open_volume {}
+  check.equal(volume:is_watertight(), true)
+  local mesh = volume:sweep { size = 0.5 }
+  check_mesh(mesh, 7)
+  check.equal(mesh.tets, 0)
+  check.that(mesh.hexes >= 7 * 8, mesh.hexes .. " hexahedra")
+  local pieces = volume:cut { auto = true }
+  check.that(#pieces > 1, #pieces .. " pieces")
+  check_mesh(lacuna.assembly(pieces):sweep { size = 0.5 }, 7)
+  check.fails(function() volume:cut { auto = true, plane = { { 0, 0, 0 }, { 0, 0, 1 } } } end)
+end
+
+-- A missing flat face is sealed first.
+do
+  local faces = cubes(star)
+  table.remove(faces, 1)
+  check_mesh(solid(faces):open_volume {}:sweep { size = 0.5 }, 7)
+end
+
+-- Cubes that grow at random: whatever their arms, they are meshed, and nearly all of them by hexahedra alone.
+do
+  local random = check.random(11)
+  local function grown(count)
+    local places, has = { { 0, 0, 0 } }, { ["0 0 0"] = true }
+    local function is(p, dx, dy, dz) return has[("%d %d %d"):format(p[1] + dx, p[2] + dy, p[3] + dz)] end
+    --- Whether a cube touches others along edges or at corners alone, where the skin would be no surface.
+    local function pinches(p)
+      for dx = -1, 1 do
+        for dy = -1, 1 do
+          for dz = -1, 1 do
+            local steps = math.abs(dx) + math.abs(dy) + math.abs(dz)
+            local joined = (dx ~= 0 and is(p, dx, 0, 0)) or (dy ~= 0 and is(p, 0, dy, 0)) or
+              (dz ~= 0 and is(p, 0, 0, dz))
+            if steps > 1 and not joined and is(p, dx, dy, dz) then return true end
+          end
+        end
+      end
+    end
+    while #places < count do
+      local from = places[math.ceil(random(0, #places))]
+      local axis, side = math.ceil(random(0, 3)), random(0, 1) < 0.5 and -1 or 1
+      local next = { from[1], from[2], from[3] }
+      next[axis] = next[axis] + side
+      if not has[table.concat(next, " ")] and not pinches(next) then
+        places[#places + 1] = next
+        has[table.concat(next, " ")] = true
+      end
+    end
+    return places
+  end
+  local members, hexahedra = 24, 0
+  for _ = 1, members do
+    local count = math.ceil(random(4, 12))
+    local mesh = solid(cubes(grown(count))):open_volume {}:sweep { size = 0.5, fallback = "mixed" }
+    near(mesh:quality().volume, count, "volume of the cells")
+    check.equal(mesh:quality().certified, true)
+    if mesh.tets == 0 then hexahedra = hexahedra + 1 end
+  end
+  print(("%d of %d by hexahedra alone"):format(hexahedra, members))
+  check.that(hexahedra >= 0.8 * members, hexahedra .. " by hexahedra alone")
+end
+
+-- --- tetrahedra -------------------------------------------------------------------------------------------
+
+local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
+local corner = solid { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } }
+do
+  local volume = corner:open_volume {}
+  check.fails(function() volume:sweep {} end, "topology.no_roles")
+  check.fails(function() volume:sweep { fallback = "wedges" } end, "topology.no_roles")
+  check.fails(function() volume:sweep { fallback = "mixed", order = 2 } end, "fill.tets_order", "order = 1")
+  check.fails(function() volume:sweep_to(path("a.msh"), { fallback = "mixed" }) end)
+  local mesh = volume:sweep { fallback = "mixed", size = 0.2 }
+  check_mesh(mesh, 1 / 6)
+  check.equal(mesh.hexes, 0)
+  check.equal(mesh.pyramids, 0)
+  check.that(mesh.tets > 50, mesh.tets .. " tetrahedra")
+  check.equal(#{ mesh:tet(1) }, 4)
+  check.equal(mesh.order, 1)
+  check.equal(#mesh.regions, 1)
+  check.equal(mesh:groups()[#mesh:groups()].cells, mesh.tets)
+  local bytes = {}
+  for n, threads in ipairs { 1, 4 } do
+    local file = path("threads_" .. threads .. ".msh")
+    volume:sweep { fallback = "mixed", size = 0.2, threads = threads }:write(file)
+    local opened <close> = assert(io.open(file, "rb"))
+    bytes[n] = opened:read("a")
+  end
+  check.that(bytes[1] == bytes[2], "other bytes with four threads")
+end
+
+-- A cube below a roof: the cube is swept, the roof is filled from the quads between them.
+do
+  local base = solid(cubes { { 0, 0, 0 } }):open_volume { name = "base" }
+  local low, top = { { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } }, { 0.5, 0.5, 1.8 }
+  local faces = { { low[4], low[3], low[2], low[1] } }
+  for k = 1, 4 do faces[k + 1] = { low[k], low[k % 4 + 1], top } end
+  local roof = solid(faces):open_volume { name = "roof" }
+  local assembly = lacuna.assembly { base, roof }
+  check.fails(function() assembly:sweep { size = 0.25 } end)
+  local mesh = assembly:sweep { size = 0.25, fallback = "mixed" }
+  check_mesh(mesh, 1 + 0.8 / 3)
+  check.equal(mesh.hexes, 64)
+  check.equal(mesh.pyramids, 16)
+  check.equal(#{ mesh:pyramid(1) }, 5)
+  local regions = table.concat(mesh.regions, " ")
+  check.equal(regions, "base roof")
+  for _, ending in ipairs { "msh", "vtk", "vtu", "inp", "bdf", "unv", "exo" } do
+    local file = path("roof." .. ending)
+    mesh:write(file)
+    local quality = lacuna.check(file)
+    check.equal(quality.certified, true)
+    check.equal(quality.hexes, 64)
+    check.equal(quality.pyramids, 16)
+    check.equal(quality.tets, mesh.tets)
+    check.that(math.abs(quality.volume - (1 + 0.8 / 3)) < 1e-6, ending .. ": volume " .. quality.volume)
+  end
+  check.fails(function() mesh:write(path("parts.msh"), { partitions = 2 }) end, "lua.mixed_write")
+  mesh:picture(path("roof.png"), { cut = { point = { 0.5, 0.5, 0.5 }, normal = { 0, 1, 0 } } })
+  mesh:view(path("roof.html"))
+end
+
+check.done()
