@@ -150,15 +150,21 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
                        (mixed || std::ranges::all_of(pieces, closure::has_ends, &closure::StepPiece::volume));
     Filled filled;
     if (swept) {
-        log_line(context, formatted("cut into {} pieces, because {}", pieces.size(), why.text()));
+        const std::string cut = formatted("cut into {} pieces, because {}", pieces.size(), why.text());
         try {
-            filled.mesh = sweep_pieces(sealed, std::move(pieces), options, context);
+            FilledParts mesh = sweep_pieces(sealed, std::move(pieces), options, context);
+            mesh.swept.report.insert(mesh.swept.report.begin(), cut);
+            log_line(context,
+                     formatted("note: no single sweep fills the volume, so it is cut into pieces; the "
+                               "report says why [{}]",
+                               why.code()));
+            filled.mesh = std::move(mesh);
             filled.volumes.push_back(std::move(sealed));
             return filled;
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) {
-            log_line(context, error.message().text());
+            log_line(context, formatted("{}: {}", cut, error.message().text()));
         }
     }
     if (!mixed) return std::nullopt;
