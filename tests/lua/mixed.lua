@@ -192,6 +192,7 @@ do
     check.that(math.abs(quality.volume - (1 + 0.8 / 3)) < 1e-6, ending .. ": volume " .. quality.volume)
   end
   check.fails(function() mesh:write(path("parts.msh"), { partitions = 2 }) end, "lua.mixed_write")
+  check.fails(function() lacuna.assembly { mesh, base }:sweep {} end, "fill.mixed_member", "mixed")
   mesh:picture(path("roof.png"), { cut = { point = { 0.5, 0.5, 0.5 }, normal = { 0, 1, 0 } } })
   mesh:view(path("roof.html"))
 end

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/detail/kept_mesh.h>
 
-#include <lacuna/core/message.h>
+#include <lacuna/core/error.h>
 
 #include <algorithm>
 #include <utility>
@@ -49,6 +49,10 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh, const RunContext& conte
 
 std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunContext& context)
 {
+    if (!mesh.tets.empty())
+        throw InvalidInput(
+            Message("fill.mixed_member", "a mesh with tetrahedra cannot be a member of an assembly")
+                .remedy("give its volumes instead, with fallback = \"mixed\""));
     std::vector<std::unique_ptr<KeptMesh>> all;
     for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
         const std::string& group = mesh.swept.parts[p].mesh.volume_groups.front();

@@ -290,6 +290,11 @@ void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunCo
         mesh.tets.push_back(fill_with_tets(what, part.asked->options, context));
     }
     if (!mesh.tets.empty()) number_nodes(mesh);
+    for (const FilledTets& tets : mesh.tets)
+        log_line(context,
+                 formatted("note: {} cannot be swept and is filled with {} tetrahedra and {} pyramids; "
+                           "the report says why",
+                           tets.region, tets.mesh.cells.size() - tets.mesh.pyramids, tets.mesh.pyramids));
 }
 
 /// Close the volumes, sweep all parts as one mesh, and fill those that cannot be swept, if their options say

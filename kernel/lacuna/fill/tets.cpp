@@ -282,10 +282,6 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
                                     tets.mesh.cells.size() - tets.mesh.pyramids, tets.mesh.pyramids));
     tets.report.push_back(sweep::in_words(tets.fidelity));
     require_shape(tets.fidelity, options, tets, context);
-    log_line(context, formatted("note: {} cannot be swept and is filled with {} tetrahedra and {} pyramids; "
-                                "the report says why [{}]",
-                                what.region, tets.mesh.cells.size() - tets.mesh.pyramids, tets.mesh.pyramids,
-                                what.why.code()));
     return tets;
 }
 

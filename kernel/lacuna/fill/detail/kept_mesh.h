@@ -24,6 +24,7 @@ struct KeptMesh {
 /// @throw InvalidInput  as `io::skin_of()`.
 std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh, const RunContext& context);
 /// As above for each part, in the order of the parts.
+/// @throw InvalidInput "fill.mixed_member"  the mesh has tetrahedra.
 std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunContext& context);
 
 } // namespace lacuna::fill
