@@ -540,9 +540,10 @@ function AssemblyMesh:hex(i) end
 --- Of every node x, y, z.
 ---@return lacuna.Buffer
 function AssemblyMesh:coordinates() end
---- Of every hexahedron eight node numbers, from 1.
+--- Of every cell of a kind the numbers of its corners, from 1.
+---@param kind? "hex"|"wedge"|"pyramid"|"tet" default "hex"
 ---@return lacuna.Buffer
-function AssemblyMesh:cells() end
+function AssemblyMesh:cells(kind) end
 ---@param i integer
 ---@return integer ... six numbers of nodes
 function AssemblyMesh:wedge(i) end

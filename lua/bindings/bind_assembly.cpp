@@ -171,10 +171,9 @@ int cell(lua_State* L)
     lua_settop(L, 2);
     const auto& state = check<AssemblyMeshState>(L, 1);
     const std::size_t number = check_number(L, kCellCall<Shape>, fill::cell_count(state, Shape));
-    auto& corners = temporary<std::vector<Index>>(L);
-    guard(L, [&] { corners = fill::cell(state, Shape, number); });
+    const mesh::CellNodes corners = fill::cell(state, Shape, number);
     for (const Index corner : corners) lua_pushinteger(L, to_lua(corner));
-    return static_cast<int>(corners.size());
+    return static_cast<int>(corners.count);
 }
 
 template <mesh::CellShape Shape>

@@ -85,18 +85,22 @@ int assembly_coordinates(lua_State* L)
     return 1;
 }
 
+/// buffer = mesh:cells(["hex" | "wedge" | "pyramid" | "tet"]): corners from 1
 int assembly_cells(lua_State* L)
 {
-    lua_settop(L, 1);
+    lua_settop(L, 2);
     const auto& mesh = hold<AssemblyMeshState>(L, 1);
+    const Word<std::size_t> kinds[] = {{"hex", 8}, {"wedge", 6}, {"pyramid", 5}, {"tet", 4}};
+    const std::size_t columns = lua_isnil(L, 2) ? 8 : read_word(L, 2, {"cells", nullptr}, kinds);
     auto& box = new_box<BufferState>(L);
     guard(L, [&] {
-        const WholeCells whole = whole_cells(mesh);
         std::vector<Index> nodes;
-        nodes.reserve(whole.hexes.size() * 8);
-        for (const Hex& hex : whole.hexes)
-            for (const Index node : hex) nodes.push_back(node + 1);
-        box = std::make_shared<BufferState>(of_wholes(std::move(nodes), 8));
+        for (const Hex& hex : whole_cells(mesh).hexes) {
+            const mesh::CellNodes corners = mesh::distinct_corners(hex);
+            if (corners.count != columns) continue;
+            for (const Index node : corners) nodes.push_back(node + 1);
+        }
+        box = std::make_shared<BufferState>(of_wholes(std::move(nodes), columns));
     });
     return 1;
 }

@@ -383,10 +383,13 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
                  const RunContext& context)
 {
     const io::Format& format = io::needed_mesh_format("write", path.text());
-    if (!arguments.with.empty() || arguments.msh.partition.parts > 0)
+    if (!arguments.with.empty() || arguments.partitions_given)
         throw InvalidInput(Message("lua.mixed_write", "write: a mesh with tetrahedra is written without '{}'",
                                    arguments.with.empty() ? "partitions" : "with")
                                .remedy("leave it out"));
+    if (is_pieces(format))
+        throw InvalidInput(Message("lua.mixed_write", "write: a mesh with tetrahedra is written as one file")
+                               .remedy("write a .vtu file"));
     arguments.deck.format = format.deck;
     const io::Deck deck = fill::whole_deck(state, arguments.deck, arguments.msh.interfaces, context);
     io::write_deck(deck, format, path, context, arguments.msh);

@@ -404,7 +404,7 @@ TEST_CASE("a skin that crosses or touches itself is refused with the place, and 
     check_fill(cube, cad::fill_skin(cube));
 }
 
-TEST_CASE("Gmsh's own failure is no end of its process")
+TEST_CASE("the CAD process survives a failure of Gmsh")
 {
     using namespace cad_protocol;
     const ClosedSkin cube = grid_skin({3, 3, 3}, 0);

@@ -4,6 +4,7 @@
 #include "made_files.h"
 #include "support/check_skin.h"
 
+#include <lacuna/surface/shared/default_size.h>
 #include <lacuna/surface/shared/skin_triangles.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -28,7 +29,8 @@ TEST_CASE("real bodies get a closed skin that encloses their volume")
         CAPTURE(file);
         topology::Model model = cad::load({file});
         topology::orient_consistently(model);
-        const surface::SkinMesh mesh = surface::triangulate_skin(model, {model.diagonal / 20, {}});
+        const surface::SkinMesh mesh = surface::triangulate_skin(model,
+                                                                 surface::even_size(model.diagonal / 20));
         test::check_closed(mesh.skin);
         CHECK(test::volume_within(mesh.skin) == doctest::Approx(test::enclosed_volume(model)).epsilon(0.01));
         CHECK(test::smallest_angle(mesh.skin) > 0);

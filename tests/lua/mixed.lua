@@ -165,6 +165,23 @@ do
   check.that(bytes[1] == bytes[2], "other bytes with four threads")
 end
 
+-- A hole inside a cube: the skin has two parts. The body that fills the hole shares its nodes.
+do
+  local a, b, c, d = { 0.3, 0.3, 0.3 }, { 0.6, 0.3, 0.3 }, { 0.3, 0.6, 0.3 }, { 0.3, 0.3, 0.6 }
+  local inner = { { a, c, b }, { a, b, d }, { b, c, d }, { c, a, d } }
+  local faces = cubes { { 0, 0, 0 } }
+  for _, face in ipairs(inner) do faces[#faces + 1] = face end
+  local options = { size = 0.2, fallback = "mixed" }
+  local hollow = solid(faces):open_volume { name = "hollow" }
+  local mesh = hollow:sweep(options)
+  check_mesh(mesh, 1 - 0.027 / 6)
+  check.equal(mesh.hexes, 0)
+  local body = solid(inner):open_volume { name = "body" }
+  local both = lacuna.assembly { hollow, body }:sweep(options)
+  check_mesh(both, 1)
+  check.that(both.nodes < mesh.nodes + body:sweep(options).nodes, "the parts share no nodes")
+end
+
 -- A cube below a roof: the cube is swept, the roof is filled from the quads between them.
 do
   local base = solid(cubes { { 0, 0, 0 } }):open_volume { name = "base" }
@@ -179,6 +196,16 @@ do
   check.equal(mesh.hexes, 64)
   check.equal(mesh.pyramids, 16)
   check.equal(#{ mesh:pyramid(1) }, 5)
+  for kind, cells in pairs { hex = 64, wedge = 0, pyramid = 16, tet = mesh.tets } do
+    local buffer = mesh:cells(kind)
+    check.equal(buffer.rows, cells)
+    for i, first, second, third, fourth in buffer:each() do
+      local own = { mesh[kind](mesh, i) }
+      check.equal(buffer.columns, #own)
+      local same = first == own[1] and second == own[2] and third == own[3] and fourth == own[4]
+      check.that(same, kind .. " " .. i)
+    end
+  end
   local regions = table.concat(mesh.regions, " ")
   check.equal(regions, "base roof")
   for _, ending in ipairs { "msh", "vtk", "vtu", "inp", "bdf", "unv", "exo" } do
@@ -192,6 +219,8 @@ do
     check.that(math.abs(quality.volume - (1 + 0.8 / 3)) < 1e-6, ending .. ": volume " .. quality.volume)
   end
   check.fails(function() mesh:write(path("parts.msh"), { partitions = 2 }) end, "lua.mixed_write")
+  check.fails(function() mesh:write(path("parts.msh"), { partitions = 1 }) end, "lua.mixed_write")
+  check.fails(function() mesh:write(path("parts.pvtu")) end, "lua.mixed_write")
   check.fails(function() lacuna.assembly { mesh, base }:sweep {} end, "fill.mixed_member", "mixed")
   mesh:picture(path("roof.png"), { cut = { point = { 0.5, 0.5, 0.5 }, normal = { 0, 1, 0 } } })
   mesh:view(path("roof.html"))

@@ -88,12 +88,8 @@ io::Deck mixed_deck(int n, int order, double bend, bool pyramids)
     std::map<int, io::DeckBlock> blocks; // by the number of corners
     io::DeckTag tag = 11;
     for (const Hex& cell : cells.cells) {
-        std::vector<Index> own(cell.begin(), cell.end());
-        if (mesh::has_apex(cell)) own.resize(5);
-        if (mesh::is_tet(cell))
-            own.erase(own.begin() + 2);
-        else if (mesh::is_wedge(cell))
-            own = {cell[0], cell[1], cell[2], cell[4], cell[5], cell[6]};
+        const mesh::CellNodes nodes = mesh::distinct_corners(cell);
+        std::vector<Index> own(nodes.begin(), nodes.end());
         const int corners = static_cast<int>(own.size());
         if (corners == 5 && !pyramids) continue;
         io::DeckShape shape = *mesh::find_shape(3, corners, corners);

@@ -4,6 +4,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/load_facets.h>
+#include <lacuna/surface/shared/default_size.h>
 #include <lacuna/surface/shared/skin_triangles.h>
 
 #include <doctest/doctest.h>
@@ -14,6 +15,7 @@
 #include <functional>
 
 using namespace lacuna;
+using surface::even_size;
 using surface::triangulate_skin;
 
 namespace {
@@ -94,7 +96,7 @@ TEST_CASE("the skin of a body is closed and encloses its volume, with triangles 
 {
     for (const Body& body : bodies()) {
         CAPTURE(body.name);
-        const surface::SkinMesh mesh = triangulate_skin(body.model, {body.size, {}});
+        const surface::SkinMesh mesh = triangulate_skin(body.model, even_size(body.size));
         test::check_closed(mesh.skin);
         const double volume = topology::volume_integral(body.model, topology::all_faces(body.model));
         CHECK(test::volume_within(mesh.skin) == doctest::Approx(volume).epsilon(0.01));
@@ -103,7 +105,7 @@ TEST_CASE("the skin of a body is closed and encloses its volume, with triangles 
         CHECK(mesh.skin.quads.empty());
         for (const topology::Vertex& vertex : body.model.vertices)
             CHECK(std::ranges::count(mesh.skin.points, body.model.at(vertex.point)) == 1);
-        const surface::SkinMesh again = triangulate_skin(body.model, {body.size, {}}, {},
+        const surface::SkinMesh again = triangulate_skin(body.model, even_size(body.size), {},
                                                          {3, nullptr, {}, {}});
         CHECK(same(mesh, again));
     }
@@ -112,13 +114,13 @@ TEST_CASE("the skin of a body is closed and encloses its volume, with triangles 
 TEST_CASE("half the size gives about four times as many triangles, and local sizes hold")
 {
     const topology::Model box = oriented({});
-    const auto count = [&](const surface::SkinSize& size) {
+    const auto count = [&](const surface::SizeField& size) {
         return static_cast<double>(triangulate_skin(box, size).skin.triangles.size());
     };
-    const double whole = count({0.2, {}}), half = count({0.1, {}});
+    const double whole = count(even_size(0.2)), half = count(even_size(0.1));
     CHECK(half > 3.3 * whole);
     CHECK(half < 4.7 * whole);
-    const double local = count({0.2, [](const Vec3& p) { return p.z() < 0.2 ? 0.1 : 0.2; }});
+    const double local = count([](const Vec3& p) { return p.z() < 0.2 ? 0.1 : 0.2; });
     CHECK(local > 1.2 * whole);
     CHECK(local < half);
 }
@@ -150,7 +152,7 @@ TEST_CASE("a fixed face keeps its quads, and its neighbours share their nodes")
             for (int j = 0; j < n; ++j)
                 fixed.quads.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
         }
-        const surface::SkinMesh mesh = triangulate_skin(box, {0.3, {}}, std::array{fixed});
+        const surface::SkinMesh mesh = triangulate_skin(box, even_size(0.3), std::array{fixed});
         test::check_closed(mesh.skin);
         CHECK(mesh.skin.quads.size() == static_cast<std::size_t>(n * n));
         CHECK(std::ranges::count(mesh.quad_face, face) == n * n);
@@ -163,9 +165,24 @@ TEST_CASE("a fixed face keeps its quads, and its neighbours share their nodes")
 TEST_CASE("an open skin is refused, and remeshing can be cancelled")
 {
     const topology::Model open = test::prism({.drop = test::without(true, false, false)}).model;
-    CHECK_THROWS_AS(triangulate_skin(open, {0.3, {}}), InvalidInput);
+    CHECK_THROWS_AS(triangulate_skin(open, even_size(0.3)), InvalidInput);
     const std::atomic<bool> cancel{true};
-    CHECK_THROWS_AS(triangulate_skin(oriented({}), {0.05, {}}, {}, {1, &cancel, {}, {}}), Cancelled);
+    CHECK_THROWS_AS(triangulate_skin(oriented({}), even_size(0.05), {}, {1, &cancel, {}, {}}), Cancelled);
+}
+
+TEST_CASE("sizes that are no lengths, or far too small, are refused")
+{
+    const auto refusal = [](double size) {
+        try {
+            triangulate_skin(oriented({}), even_size(size));
+        } catch (const Error& error) {
+            return error.code();
+        }
+        return std::string("none");
+    };
+    for (const double size : {0.0, -1.0, std::nan(""), double(INFINITY)})
+        CHECK(refusal(size) == "sweep.size");
+    for (const double size : {1e-5, 1e-9}) CHECK(refusal(size) == "surface.skin_count");
 }
 
 TEST_CASE("real facets get a closed skin of the same volume")
@@ -179,7 +196,7 @@ TEST_CASE("real facets get a closed skin of the same volume")
         }
         topology::Model model = io::load_facets({folder + file});
         topology::orient_consistently(model);
-        const surface::SkinMesh mesh = triangulate_skin(model, {model.diagonal / 20, {}});
+        const surface::SkinMesh mesh = triangulate_skin(model, even_size(model.diagonal / 20));
         test::check_closed(mesh.skin);
         const double volume = topology::volume_integral(model, topology::all_faces(model));
         CHECK(test::volume_within(mesh.skin) == doctest::Approx(volume).epsilon(0.01));

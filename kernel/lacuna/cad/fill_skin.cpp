@@ -5,6 +5,10 @@
 
 #include <lacuna/cad/detail/pyramid_layer.h>
 #include <lacuna/cad/detail/worker.h>
+#include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/geometry/shared/union_find.h>
 
 #include <algorithm>
@@ -27,10 +31,6 @@ constexpr double kTetShare = 0.6;
 /// A tetrahedron counts as half a point in the limits of the CAD process: 1 kB and 0.25 ms, where a ball of
 /// 1e5 triangles takes 0.6 kB and 0.06 ms.
 constexpr double kPointsPerTet = 0.5;
-/// Sums of volumes agree to this share: the rounding of coordinates on the diagonal of a thin volume.
-constexpr double kSameVolume = 1e-9;
-/// Cells between two looks at whether the host asked to stop.
-constexpr std::size_t kCellsPerLook = 65536;
 
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
@@ -42,13 +42,12 @@ std::string words_for(const ClosedSkin& skin)
     return formatted("a skin of {} triangles and {} quads", skin.triangles.size(), skin.quads.size());
 }
 
-/// The ways through the skin's faces end nowhere: each side is as often in one direction as in the other.
+/// Check that each side is used as often in one direction as in the other.
 void check_closed(const ClosedSkin& skin, const std::vector<SkinSide>& sides)
 {
     const auto open = [&](Index at) {
-        const Vec3& p = skin.points[index(at)];
-        throw InvalidInput("cad.skin_open", "{} is open or twisted near ({:.6g}, {:.6g}, {:.6g})",
-                           words_for(skin), p.x(), p.y(), p.z());
+        throw InvalidInput("cad.skin_open", "{} is open or twisted near {}", words_for(skin),
+                           place_with_digits(skin.points[index(at)], 6));
     };
     std::map<std::pair<Index, Index>, int> balance;
     for (const SkinSide& s : sides) {
@@ -130,13 +129,13 @@ double expected_tets(const std::vector<Vec3>& points, const std::vector<std::vec
     throw NotSweepable(Message("cad.tet_count",
                                "the volume needs {:.3g} tetrahedra; at most {:.3g} are allowed", found(count),
                                needed(kMostTets))
-                           .remedy("make size larger"));
+                           .remedy("use a larger 'size'"));
 }
 
 [[noreturn]] void refuse_mesh(const char* why)
 {
     throw NotSweepable(Message("cad.fill_skin", "Gmsh did not fill the volume with tetrahedra: {}", why)
-                           .remedy("change size"));
+                           .remedy("use another 'size'"));
 }
 
 /// Check that tetrahedra are positive, that each facet of the shells is a face of one of them, and that they
@@ -146,19 +145,15 @@ void check_filled(const std::vector<std::vector<Triangle>>& shells, const FillSk
 {
     const std::vector<Vec3>& points = reply.points;
     std::map<Triangle, int> uses;
-    const auto sorted = [](Triangle t) {
-        std::ranges::sort(t);
-        return t;
-    };
     double wanted = 0, volume = 0;
     for (const std::vector<Triangle>& shell : shells) {
         check_cancelled(context);
         wanted += enclosed(points, shell, points[index(shells[0][0][0])]);
-        for (const Triangle& t : shell) uses[sorted(t)] = 0;
+        for (const Triangle& t : shell) uses[rising(t)] = 0;
     }
     constexpr std::array<Triangle, 4> kFaces{{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
     for (std::size_t i = 0; i < reply.tets.size(); ++i) {
-        if (i % kCellsPerLook == 0) check_cancelled(context);
+        if (i % kBetweenPolls == 0) check_cancelled(context);
         const Quad& t = reply.tets[i];
         const double own = six_volumes(points[index(t[0])], points[index(t[1])], points[index(t[2])],
                                        points[index(t[3])]);
@@ -167,13 +162,13 @@ void check_filled(const std::vector<std::vector<Triangle>>& shells, const FillSk
         for (const Triangle& f : kFaces) {
             const Triangle face{t[index(f[0])], t[index(f[1])], t[index(f[2])]};
             if (std::ranges::any_of(face, [&](Index p) { return index(p) >= given; })) continue;
-            const auto place = uses.find(sorted(face));
+            const auto place = uses.find(rising(face));
             if (place != uses.end()) ++place->second;
         }
     }
     for (const auto& [face, count] : uses)
         if (count != 1) refuse_mesh("a face of the skin is not on exactly one cell");
-    if (!(std::abs(volume - wanted) <= kSameVolume * wanted))
+    if (!(std::abs(volume - wanted) <= kSamePlace * wanted))
         refuse_mesh("the volume is not that of the skin");
 }
 
@@ -191,16 +186,16 @@ FillSkinReply ask_worker(const FillSkinRequest& request, double tets, const std:
         MessageParts parts = error.message().parts();
         if (code == "cad.gmsh") {
             parts.code = "cad.fill_skin";
-            parts.remedy = "change size";
+            parts.remedy = "use another 'size'";
             throw NotSweepable(Message(std::move(parts)));
         }
         if (code == "cad.worker_ended")
-            throw BackendError(
-                Message(code, "Gmsh's tetrahedral mesher crashed on {}", subject).remedy("change size"));
+            throw BackendError(Message(code, "Gmsh's tetrahedral mesher crashed on {}", subject)
+                                   .remedy("use another 'size'"));
         if (code == "cad.time_limit")
-            parts.remedy = "make size larger, or allow more with LACUNA_CAD_SECONDS";
+            parts.remedy = "use a larger 'size', or allow more with LACUNA_CAD_SECONDS";
         if (code == "cad.memory_limit")
-            parts.remedy = "make size larger, or allow more with LACUNA_CAD_MEGABYTES";
+            parts.remedy = "use a larger 'size', or allow more with LACUNA_CAD_MEGABYTES";
         throw BackendError(Message(std::move(parts)));
     }
 }

@@ -2,11 +2,13 @@
 #include <lacuna/cad/detail/pyramid_layer.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 namespace lacuna::cad {
@@ -26,8 +28,6 @@ constexpr double kAboveLeast = 1.5;
 /// How often a pyramid is lowered. Each time its height above the least one is halved; a pyramid that is 32
 /// times too flat has no better shape than none.
 constexpr int kLowerings = 5;
-/// Contact within this share of the diagonal is no crossing: the rounding of coordinates.
-constexpr double kContact = 1e-12;
 
 struct Pyramid {
     Vec3 centre, up;   ///< of the quad; `up` is the unit normal into the volume
@@ -41,10 +41,9 @@ struct Pyramid {
 {
     throw NotSweepable(
         Message("cad.skin_crosses",
-                "faces of the skin cross or touch near ({:.6g}, {:.6g}, {:.6g}), so it cannot be "
-                "filled with tetrahedra",
-                at.x(), at.y(), at.z())
-            .remedy("make size smaller"));
+                "faces of the skin cross or touch near {}, so it cannot be filled with tetrahedra",
+                place_with_digits(at, 6))
+            .remedy("use a smaller 'size'"));
 }
 
 class Layer {
@@ -72,10 +71,9 @@ public:
             if (!(rise > 0)) {
                 throw NotSweepable(
                     Message("cad.skin_quad",
-                            "a quad of the skin near ({:.6g}, {:.6g}, {:.6g}) is not convex, so no "
-                            "pyramid fits on it",
-                            p.centre.x(), p.centre.y(), p.centre.z())
-                        .remedy("make size smaller"));
+                            "a quad of the skin near {} is not convex, so no pyramid fits on it",
+                            place_with_digits(p.centre, 6))
+                        .remedy("use a smaller 'size'"));
             }
             p.least = std::max(p.least, corner.dot(here - p.centre) / rise);
             p.height = std::min(p.height, height_beside(quad, q[k], q[(k + 1) % 4], p));
@@ -104,7 +102,7 @@ private:
         const auto across = [&](const Vec3& v) -> Vec3 { return v - v.dot(along) * along; };
         const Vec3 base = across(p.centre - foot);
         const Vec3 x = base.normalized(), y = x.cross(along); // into the face, and off it into the volume
-        double angle = 2 * std::numbers::pi, share = kShare;
+        double angle = kFullTurn, share = kShare;
         const std::size_t triangles = skin_.triangles.size(), self = triangles + quad;
         auto side = std::lower_bound(sides_.begin(), sides_.end(), std::pair(to, from),
                                      [](const SkinSide& s, const std::pair<Index, Index>& ends) {
@@ -121,14 +119,14 @@ private:
                 into = across(middle(face - triangles) - foot);
             }
             double turn = std::atan2(into.dot(y), into.dot(x));
-            if (turn < 0) turn += 2 * std::numbers::pi;
+            if (turn < 0) turn += kFullTurn;
             if (turn >= angle) continue;
             angle = turn;
             share = face < triangles ? 1.5 * kShare : kShare; // a triangle has no pyramid
         }
         const double steep = share * angle;
         const double rise = p.up.dot(y) * std::cos(steep) - p.up.dot(x) * std::sin(steep);
-        return steep < std::numbers::pi / 2 && rise > 0 ? base.norm() * std::sin(steep) / rise : p.height;
+        return steep < kRightAngle && rise > 0 ? base.norm() * std::sin(steep) / rise : p.height;
     }
 
     const ClosedSkin& skin_;
@@ -144,7 +142,7 @@ std::vector<bool> crossing_faces(const std::vector<Vec3>& points, const std::vec
                                  const RunContext& context)
 {
     const geometry::FacetTree tree(points, facets, context);
-    const double contact = kContact * tree.bounds().diagonal().norm();
+    const double contact = kRoundoff * tree.bounds().diagonal().norm();
     const auto corners = [&](Index facet) {
         const Triangle& t = facets[index(facet)];
         return std::array{points[index(t[0])], points[index(t[1])], points[index(t[2])]};

@@ -3,6 +3,7 @@
 
 #include <lacuna/cad_worker/detail/gmsh_api.h>
 #include <lacuna/cad_worker/session.h>
+#include <lacuna/core/shared/number_text.h>
 
 #include <array>
 #include <cmath>
@@ -74,10 +75,9 @@ FillSkinReply read_tets(const FillSkinRequest& skin, const UnitFrame& frame, int
         const Vec3 p = frame.inside(skin.points[i]);
         if (given.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(i)).second) continue;
         throw NotSweepable(Message("cad.skin_crosses",
-                                   "two nodes of the skin are at ({:.6g}, {:.6g}, {:.6g}), so it cannot be "
-                                   "filled with tetrahedra",
-                                   skin.points[i].x(), skin.points[i].y(), skin.points[i].z())
-                               .remedy("make size smaller"));
+                                   "two nodes of the skin are at {}, so it cannot be filled with tetrahedra",
+                                   place_with_digits(skin.points[i], 6))
+                               .remedy("use a smaller 'size'"));
     }
     std::vector<std::size_t> nodes, elements, corners;
     std::vector<double> at, parameters;
@@ -107,15 +107,7 @@ FillSkinReply fill_skin(const FillSkinRequest& skin)
     Session session("a skin to be filled with tetrahedra");
     session.set("General.NumThreads", 1);
     session.set("Mesh.Algorithm3D", 1); // Delaunay; HXT gives another mesh for another number of threads
-    session.set("Mesh.MeshSizeFromPoints", 0);
-    session.set("Mesh.MeshSizeFromCurvature", 0);
-    session.set("Mesh.MeshSizeFromParametricPoints", 0);
-    session.set("Mesh.MeshSizeExtendFromBoundary", 1);
-    session.set("Mesh.MeshSizeMin", 0);
-    session.set("Mesh.MeshSizeMax", 1e22);
-    session.set("Mesh.MeshSizeFactor", 1);
-    session.set("Mesh.ElementOrder", 1);
-    session.set("Mesh.SubdivisionAlgorithm", 0);
+    session.set_sizes_from_boundary();
     session.set("Mesh.Recombine3DAll", 0);
     session.set("Mesh.MeshOnlyVisible", 0);
     session.set("Mesh.MeshOnlyEmpty", 0);

@@ -115,15 +115,7 @@ RecombineReply recombine(const RecombineRequest& region)
     session.set("Mesh.Algorithm", 6);
     session.set("Mesh.RecombinationAlgorithm", 1); // Blossom
     session.set("Mesh.CrossFieldClosestPoint", 0); // without ANN, the default crashes
-    session.set("Mesh.MeshSizeFromPoints", 0);
-    session.set("Mesh.MeshSizeFromCurvature", 0);
-    session.set("Mesh.MeshSizeFromParametricPoints", 0);
-    session.set("Mesh.MeshSizeExtendFromBoundary", 1);
-    session.set("Mesh.SubdivisionAlgorithm", 0);
-    session.set("Mesh.ElementOrder", 1);
-    session.set("Mesh.MeshSizeMin", 0);
-    session.set("Mesh.MeshSizeMax", 1e22);
-    session.set("Mesh.MeshSizeFactor", 1);
+    session.set_sizes_from_boundary();
     session.set("Mesh.RecombineAll", 0);
     session.set("Mesh.Smoothing", 10);
     GmshModel model(session);

@@ -87,6 +87,19 @@ Session::~Session()
 void Session::set(const std::string& option, double value) { save<double>(option, value); }
 void Session::set(const std::string& option, const std::string& value) { save<std::string>(option, value); }
 
+void Session::set_sizes_from_boundary()
+{
+    set("Mesh.MeshSizeFromPoints", 0);
+    set("Mesh.MeshSizeFromCurvature", 0);
+    set("Mesh.MeshSizeFromParametricPoints", 0);
+    set("Mesh.MeshSizeExtendFromBoundary", 1);
+    set("Mesh.MeshSizeMin", 0);
+    set("Mesh.MeshSizeMax", 1e22);
+    set("Mesh.MeshSizeFactor", 1);
+    set("Mesh.ElementOrder", 1);
+    set("Mesh.SubdivisionAlgorithm", 0);
+}
+
 void Session::fail(const std::string& message) const
 {
     std::string words = message;

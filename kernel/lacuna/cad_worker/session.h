@@ -37,6 +37,8 @@ public:
     /// Set an option until the session ends. Options that this version of Gmsh does not have are ignored.
     void set(const std::string& option, double value);
     void set(const std::string& option, const std::string& value);
+    /// Mesh with cells of order 1 whose sizes are those of the given boundary.
+    void set_sizes_from_boundary();
 
     /// Run calls of Gmsh and translate their different kinds of failure.
     /// @throw BackendError    with the subject and the message of Gmsh.

@@ -2,8 +2,8 @@
 #include <lacuna/closure/detail/turns.h>
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/patches.h>
 
 #include <algorithm>
@@ -20,23 +20,6 @@ namespace {
 std::vector<std::vector<FaceId>> parts_of(const Model& model)
 {
     return connected_parts(model, all_faces(model));
-}
-
-/// By part, whether it is inside another.
-std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
-                              const RunContext& context)
-{
-    std::vector<bool> inner(parts.size(), false);
-    if (parts.size() < 2) return inner;
-    for (std::size_t o = 0; o < parts.size(); ++o) {
-        const geometry::FacetTree tree(model.points, facets_of(model, parts[o]), context);
-        for (std::size_t p = 0; p < parts.size(); ++p) {
-            const Vec3& at = model.at(model[parts[p].front()].triangles.front()[0]);
-            if (p != o && tree.bounds().contains(at) && std::abs(tree.winding_number(at)) > 0.5)
-                inner[p] = !inner[p];
-        }
-    }
-    return inner;
 }
 
 /// Whether facets face away from their centre.

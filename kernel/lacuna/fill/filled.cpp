@@ -213,12 +213,11 @@ std::pair<std::size_t, std::size_t> cells_of(const mesh::TetPart& mesh, mesh::Ce
     return {mesh.pyramids, shape == mesh::CellShape::tet4 ? mesh.cells.size() - mesh.pyramids : 0};
 }
 
-/// Corners of a cell that is stored as a hexahedron with merged corners, each once.
-std::vector<Index> corners_of(const Hex& hex, const std::vector<Index>& number)
+/// The corners of a cell, by their numbers in the whole mesh.
+mesh::CellNodes corners_of(const Hex& hex, const std::vector<Index>& number)
 {
-    std::vector<Index> corners;
-    for (const Index n : hex)
-        if (corners.empty() || corners.back() != number[index(n)]) corners.push_back(number[index(n)]);
+    mesh::CellNodes corners = mesh::distinct_corners(hex);
+    for (std::size_t k = 0; k < corners.count; ++k) corners.node[k] = number[index(corners.node[k])];
     return corners;
 }
 
@@ -232,7 +231,7 @@ std::size_t cell_count(const FilledParts& mesh, mesh::CellShape shape)
     return count;
 }
 
-std::vector<Index> cell(const FilledParts& mesh, mesh::CellShape shape, std::size_t number)
+mesh::CellNodes cell(const FilledParts& mesh, mesh::CellShape shape, std::size_t number)
 {
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
         const mesh::HexMesh& part = mesh.swept.parts[p].mesh;

@@ -109,6 +109,6 @@ std::size_t cell_count(const FilledParts& mesh, mesh::CellShape shape);
 
 /// The corners of a cell, by its number among those of its shape; parts are counted in order.
 /// @pre  number < cell_count(mesh, shape)
-std::vector<Index> cell(const FilledParts& mesh, mesh::CellShape shape, std::size_t number);
+mesh::CellNodes cell(const FilledParts& mesh, mesh::CellShape shape, std::size_t number);
 
 } // namespace lacuna::fill

@@ -240,19 +240,19 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
         }
         const bool mixed = part.asked->options.fallback == sweep::Fallback::mixed;
         const std::string region = part.volume.name.empty() ? number : part.volume.name;
-        bool unswept = false;
         const auto close_part = [&] {
-            unswept = mixed && part.volume.no_roles;
-            if (!mixed) require_roles(part.volume);
-            if (unswept && part.volume.volume.full_turn) return; // it is closed
-            part.volume = mixed ? close(part.volume, {}, context)
-                                : close_to_sweep(part.volume, region, context);
-            unswept = unswept || !closure::has_ends(part.volume.volume);
+            if (!mixed) {
+                require_roles(part.volume);
+                part.volume = close_to_sweep(part.volume, region, context);
+            } else if (!part.volume.volume.full_turn) { // which is closed
+                part.volume = close(part.volume, {}, context);
+            }
         };
         if (part.left_out || !do_or_leave_out(ready.left_out, region, *part.asked, close_part)) continue;
         ready.materials.push_back(part.volume.material);
         ready.members.push_back(member_of(part, region, alone));
-        ready.members.back().unswept = mixed && unswept;
+        ready.members.back().unswept = mixed &&
+                                       (part.volume.no_roles || !closure::has_ends(part.volume.volume));
         ready.parts.push_back(&part);
     }
     return ready;

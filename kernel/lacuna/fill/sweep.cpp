@@ -114,10 +114,12 @@ Volume with_other_sweep(const Volume& volume, std::size_t number)
 // --- volumes that no single sweep fills -------------------------------------------------------------------
 
 /// The pieces of a sealed volume; itself if it cannot be cut.
-std::vector<closure::StepPiece> pieces_of(const topology::OpenVolume& sealed, const RunContext& context)
+/// @param steps  whether pieces may also be cut at steps and branches, where a sweep of all of them failed
+std::vector<closure::StepPiece> pieces_of(const topology::OpenVolume& sealed, bool steps,
+                                          const RunContext& context)
 {
     std::vector<closure::StepPiece> pieces = partition(sealed, context);
-    if (pieces.size() > 1 || !closure::has_ends(sealed) || !closure::has_pieces(sealed, context))
+    if (pieces.size() > 1 || !steps || !closure::has_ends(sealed) || !closure::has_pieces(sealed, context))
         return pieces;
     try {
         return closure::cut_into_pieces(sealed, context);
@@ -140,12 +142,11 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     options.crew = nullptr;
     // Pieces that are meshed by themselves have sizes of their own, which do not suit their neighbours.
     if (!options.size) {
-        const double size = surface::default_size(volume.volume).length;
-        options.size = [size](const Vec3&) { return size; };
+        options.size = surface::even_size(surface::default_size(volume.volume).length);
         options.gap = std::max(options.gap, sweep::kDefaultGap);
     }
     Volume sealed = volume.volume.full_turn ? volume : close(volume, {}, context);
-    std::vector<closure::StepPiece> pieces = pieces_of(sealed.volume, context);
+    std::vector<closure::StepPiece> pieces = pieces_of(sealed.volume, mixed, context);
     const bool swept = pieces.size() > 1 &&
                        (mixed || std::ranges::all_of(pieces, closure::has_ends, &closure::StepPiece::volume));
     Filled filled;

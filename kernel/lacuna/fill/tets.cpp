@@ -3,12 +3,13 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/core/shared/same_corners.h>
-#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/quality/shared/prove_cells.h>
 #include <lacuna/surface/shared/default_size.h>
-#include <lacuna/surface/shared/face_shape.h>
+#include <lacuna/sweep/shared/face_patches.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
@@ -50,103 +51,6 @@ private:
 
 // --- shape ------------------------------------------------------------------------------------------------
 
-/// Allowed distance of the skin from the sealed skin as a share of a side, as for swept meshes.
-constexpr double kShareOfSide = 0.25;
-/// Volume that the mesh may lose or gain without a note.
-constexpr double kQuietVolume = 0.02;
-
-/// Compare the skin with one face, both ways.
-sweep::FaceFidelity compare_face(const mesh::TetPart& mesh, Index patch, const surface::FaceShape& shape,
-                                 double max_deviation)
-{
-    sweep::FaceFidelity result;
-    const geometry::FacetTree face(shape.points, shape.triangles);
-    std::vector<Triangle> sides;
-    double mean = 0, area = 0;
-    const auto note = [&](const Vec3& p, double distance, double side) {
-        if (distance > result.max_distance) {
-            result.max_distance = distance;
-            result.place = p;
-        }
-        const double allowed = max_deviation > 0 ? max_deviation : kShareOfSide * side;
-        if (distance * std::max(result.allowed, 1e-300) <= result.found * allowed) return;
-        result.found = distance;
-        result.found_at = p;
-        result.allowed = allowed;
-        result.side = result.source_side = side;
-    };
-    for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
-        if (mesh.skin_patch[i] != patch) continue;
-        const Quad& side = mesh.skin[i];
-        const std::size_t corners = mesh::corner_count(side);
-        ++result.quads;
-        sides.push_back({side[0], side[1], side[2]});
-        if (corners == 4) sides.push_back({side[0], side[2], side[3]});
-        Vec3 centre = Vec3::Zero();
-        double longest = 0;
-        std::vector<Vec3> probes;
-        for (std::size_t k = 0; k < corners; ++k) {
-            const Vec3& a = mesh.nodes[index(side[k])];
-            const Vec3& b = mesh.nodes[index(side[(k + 1) % corners])];
-            longest = std::max(longest, (b - a).norm());
-            centre += a / static_cast<double>(corners);
-            probes.push_back(a);
-            probes.push_back((a + b) / 2);
-        }
-        probes.push_back(centre);
-        for (const Vec3& p : probes) {
-            const geometry::FacetTree::Hit hit = face.closest(p);
-            const Vec3 on = hit.point + shape.bulge_at(index(hit.triangle), hit.barycentric);
-            const double distance = std::max(0.0, (p - on).norm() - shape.slack);
-            note(p, distance, longest);
-            const double own = longest * longest;
-            mean += own * distance;
-            area += own;
-        }
-    }
-    if (area > 0) result.mean_distance = mean / area;
-    const geometry::FacetTree skin(mesh.nodes, sides);
-    for (const Vec3& p : shape.points) {
-        const geometry::FacetTree::Hit hit = skin.closest(p);
-        const Triangle& t = sides[index(hit.triangle)];
-        double longest = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            longest = std::max(longest, (mesh.nodes[index(t[k])] - mesh.nodes[index(t[(k + 1) % 3])]).norm());
-        note(p, std::max(0.0, std::sqrt(hit.distance2) - shape.slack), longest);
-    }
-    if (result.found > result.allowed) result.misfit = sweep::Misfit::straight;
-    return result;
-}
-
-/// @param size  of the cells on the skin [model length]
-sweep::Fidelity compare(const OpenVolume& volume, const FilledTets& tets, double size, double max_deviation,
-                        const RunContext& context)
-{
-    const Model& model = volume.model;
-    sweep::Fidelity all;
-    all.volume = tets.quality.volume;
-    double area = 0;
-    for (std::size_t p = 0; p < tets.faces.size(); ++p) {
-        check_cancelled(context);
-        const FaceId face = tets.faces[p];
-        const surface::FaceShape shape = surface::face_shape(model, face, [&](const Vec3&) { return size; });
-        all.sealed_volume += shape.volume_integral(tets.mesh.nodes.front());
-        sweep::FaceFidelity& own = all.faces.emplace_back(
-            compare_face(tets.mesh, static_cast<Index>(p), shape, max_deviation));
-        own.face = face;
-        own.entity = entity_of(model, face);
-        own.tag = model[face].tag;
-        own.made_void = model[face].origin == Origin::made_void;
-        const double extent = face_area(model, face);
-        all.max_distance = std::max(all.max_distance, own.max_distance);
-        all.mean_distance += extent * own.mean_distance;
-        area += extent;
-    }
-    all.sealed_volume = std::abs(all.sealed_volume);
-    if (area > 0) all.mean_distance /= area;
-    return all;
-}
-
 /// @throw NotSweepable  the skin deviates from a face, or the volume from the sealed one
 void require_shape(const sweep::Fidelity& shape, const sweep::SweepOptions& options, FilledTets& tets,
                    const RunContext& context)
@@ -154,13 +58,31 @@ void require_shape(const sweep::Fidelity& shape, const sweep::SweepOptions& opti
     if (const auto misfit = sweep::misfit(shape, 0, {options.max_deviation, {}, options.size}))
         throw NotSweepable(misfit->about(tets.region));
     const double off = std::abs(shape.volume / shape.sealed_volume - 1);
-    if (off <= kQuietVolume) return;
+    if (off <= kVolumeNoted) return;
     Message message("sweep.volume", "{}: the mesh has {:.2g} % {} volume than the sealed skin", tets.region,
                     100 * off, shape.volume < shape.sealed_volume ? "less" : "more");
     message = std::move(message).remedy("use a smaller 'size'");
-    if (!options.size || off > 10 * kQuietVolume) throw NotSweepable(std::move(message));
+    if (!options.size || off > 10 * kVolumeNoted) throw NotSweepable(std::move(message));
     tets.report.push_back(message.text());
     log_line(context, "note: " + message.text());
+}
+
+/// Name the options given for sweeps that tetrahedra do not follow.
+void tell_idle_options(const sweep::SweepOptions& options, FilledTets& tets, const RunContext& context)
+{
+    const std::pair<bool, const char*> given[] = {
+        {options.layers.count > 0 || !options.layers.heights.empty(), "layers"},
+        {!options.boundary_layers.empty(), "boundary_layers"},
+        {!options.intervals.empty(), "intervals"},
+        {options.rows > 0, "rows"},
+        {options.quads != sweep::Quads::automatic, "quads"}};
+    std::vector<std::string> idle;
+    for (const auto& [is_given, name] : given)
+        if (is_given) idle.emplace_back(name);
+    if (idle.empty()) return;
+    tets.report.push_back(formatted("tetrahedra do not follow {}",
+                                    full_list(idle, [](const std::string& name) { return name; })));
+    log_line(context, formatted("note: {}: {}", tets.region, tets.report.back()));
 }
 
 // --- cells and skin ---------------------------------------------------------------------------------------
@@ -173,40 +95,23 @@ void take_cells(const ToFill& what, const surface::SkinMesh& skin, mesh::TetMesh
     part.cells = std::move(made.cells);
     const auto tets_at = std::ranges::stable_partition(part.cells, mesh::is_pyramid);
     part.pyramids = static_cast<std::size_t>(tets_at.begin() - part.cells.begin());
-    const std::vector<std::vector<std::string>> groups = skin_groups(*what.volume);
-    std::map<FaceId, Index> patches;
-    const auto patch_of = [&](FaceId face) {
-        const auto [found, fresh] = patches.try_emplace(face, static_cast<Index>(part.patches.size()));
-        if (!fresh) return found->second;
-        const Face& f = what.volume->model[face];
-        mesh::SkinPatch& patch = part.patches.emplace_back();
-        patch.tag = static_cast<int>(part.patches.size());
-        if (f.origin != Origin::made_void) patch.face = f.tag;
-        patch.groups = groups[face.index()];
-        tets.faces.push_back(face);
-        return found->second;
-    };
+    sweep::FacePatches patches(*what.volume, part.patches);
     for (std::size_t i = 0; i < skin.skin.quads.size(); ++i) {
         part.skin.push_back(skin.skin.quads[i]);
-        part.skin_patch.push_back(patch_of(skin.quad_face[i]));
+        part.skin_patch.push_back(patches.of(skin.quad_face[i]));
     }
     part.skin_quads = part.skin.size();
     for (std::size_t i = 0; i < skin.skin.triangles.size(); ++i) {
         const Triangle& t = skin.skin.triangles[i];
         part.skin.push_back({t[0], t[1], t[2], t[2]});
-        part.skin_patch.push_back(patch_of(skin.triangle_face[i]));
+        part.skin_patch.push_back(patches.of(skin.triangle_face[i]));
     }
+    tets.faces = patches.faces();
     const std::string& name = what.whole.empty() ? what.region : what.whole;
     part.volume_groups = {name};
     if (name != "volume") part.volume_groups.emplace_back("volume");
     if (what.alone) return;
     for (mesh::SkinPatch& patch : part.patches) patch.groups = groups_in_assembly(name, patch.groups);
-}
-
-Quad key_of(Quad side)
-{
-    if (mesh::is_triangle(side)) side[3] = -1;
-    return rising(side);
 }
 
 /// @throw NotSweepable  the cells are no valid mesh, or their skin is another than the one to be filled
@@ -215,10 +120,10 @@ void prove(FilledTets& tets, const sweep::SweepOptions& options, const RunContex
     quality::CellsProof proved = quality::prove_cells(tets.mesh.nodes, tets.mesh.cells, context);
     quality::require(proved);
     std::set<Quad> skin;
-    for (const Quad& side : proved.skin) skin.insert(key_of(side));
+    for (const Quad& side : proved.skin) skin.insert(face_key(side));
     const bool same = skin.size() == tets.mesh.skin.size() &&
                       std::ranges::all_of(tets.mesh.skin,
-                                          [&](const Quad& side) { return skin.contains(key_of(side)); });
+                                          [&](const Quad& side) { return skin.contains(face_key(side)); });
     if (!same)
         throw NotSweepable("fill.skin_differs", "{}: the cells that fill the skin have another skin",
                            tets.region);
@@ -266,18 +171,22 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
     FilledTets tets;
     tets.region = what.region;
     tets.report.push_back(formatted("fallback: filled with tetrahedra, because {}", what.why.text()));
-    const surface::DefaultSize size = surface::default_size(*what.volume);
+    OpenVolume volume = *what.volume;
+    orient_skin(volume.model, context);
+    const surface::DefaultSize size = surface::default_size(volume);
     if (!options.size) tets.report.push_back(formatted("size: {:.3g}, {}", size.length, size.why));
+    tell_idle_options(options, tets, context);
     report_progress(context, "triangles of the skin");
     for (const surface::FixedFace& face : what.fixed) tets.shared += face.quads.size();
-    surface::SkinMesh skin = surface::triangulate_skin(what.volume->model, {size.length, options.size},
-                                                       what.fixed, context);
+    surface::SkinMesh skin = surface::triangulate_skin(
+        volume.model, options.size ? options.size : surface::even_size(size.length), what.fixed, context);
     report_progress(context, "tetrahedra");
     mesh::TetMesh made = options.tet_mesher(skin.skin, context);
     take_cells(what, skin, std::move(made), tets);
     prove(tets, options, context);
     report_progress(context, "shape of the skin");
-    tets.fidelity = compare(*what.volume, tets, size.length, options.max_deviation, context);
+    tets.fidelity = sweep::compare(volume, tets.mesh, tets.faces, tets.quality.volume,
+                                   {options.max_deviation}, context);
     tets.report.push_back(formatted("cells: {} tetrahedra, {} pyramids",
                                     tets.mesh.cells.size() - tets.mesh.pyramids, tets.mesh.pyramids));
     tets.report.push_back(sweep::in_words(tets.fidelity));
@@ -294,7 +203,7 @@ void number_nodes(FilledParts& mesh)
     std::set<Quad> sides; // of the skins so far
     const auto is_known = [&](Quad side, const std::vector<Index>& number) {
         for (Index& n : side) n = number[index(n)];
-        return !sides.insert(key_of(side)).second;
+        return !sides.insert(face_key(side)).second;
     };
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
         const mesh::HexMesh& part = mesh.swept.parts[p].mesh;

@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/triangulate.h>
+#include <lacuna/mesh/tet_mesh.h>
 
 #include <algorithm>
 #include <limits>
@@ -29,8 +30,9 @@ void take_out_pyramids(Deck& deck)
     for (DeckBlock& block : deck.blocks) {
         if (block.shape != DeckShape::hex8) continue;
         const auto is_pyramid = [&](std::size_t e) {
-            const auto n = block.element(e);
-            return n[4] == n[5] && n[4] == n[6] && n[4] == n[7] && n[2] != n[3];
+            Hex hex;
+            std::ranges::copy(block.element(e), hex.begin());
+            return mesh::is_pyramid(hex);
         };
         DeckBlock own{.shape = DeckShape::pyramid5, .type = block.type};
         for (std::size_t e = 0; e < block.count(); ++e) {

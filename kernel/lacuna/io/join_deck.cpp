@@ -15,13 +15,6 @@
 namespace lacuna::io {
 namespace {
 
-/// A face by its corners; a triangle of the mesh, which repeats its last corner, by three.
-Quad key_of(Quad face)
-{
-    if (mesh::is_triangle(face)) face[3] = -1;
-    return rising(face);
-}
-
 class Joiner {
 public:
     Joiner(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh)
@@ -92,7 +85,7 @@ private:
         std::unordered_map<Segment, char, CornerHash<2>> sides;
         for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
             const Quad quad = skin_quad(mesh_, i).nodes;
-            faces.emplace(key_of(quad), static_cast<std::uint32_t>(i));
+            faces.emplace(face_key(quad), static_cast<std::uint32_t>(i));
             for (std::size_t k = 0; k < 4; ++k) sides.emplace(rising(Segment{quad[k], quad[(k + 1) % 4]}), 0);
         }
         touching_.assign(deck_.regions.size(), 0);

@@ -122,9 +122,7 @@ struct TetParts {
     [[nodiscard]] static std::size_t side(std::size_t i) { return i; }
     [[nodiscard]] mesh::CellNodes cell_nodes(std::size_t c) const
     {
-        const Hex& hex = mesh.cells[c];
-        return mesh::is_tet(hex) ? mesh::CellNodes{{hex[0], hex[1], hex[2], hex[4]}, 4}
-                                 : mesh::CellNodes{{hex[0], hex[1], hex[2], hex[3], hex[4]}, 5};
+        return mesh::distinct_corners(mesh.cells[c]);
     }
     [[nodiscard]] mesh::CellNodes skin_nodes(std::size_t i) const
     {
@@ -135,23 +133,23 @@ struct TetParts {
     [[nodiscard]] Index patch(std::size_t i) const { return mesh.skin_patch[i]; }
     [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<int>> behind_skin() const
     {
-        std::unordered_map<Quad, std::pair<std::uint32_t, int>, CornerHash<4>> faces;
+        std::unordered_map<Quad, std::size_t, CornerHash<4>> sides;
+        for (std::size_t i = 0; i < mesh.skin.size(); ++i) sides.emplace(face_key(mesh.skin[i]), i);
+        std::pair<std::vector<std::uint32_t>, std::vector<int>> behind{
+            std::vector<std::uint32_t>(mesh.skin.size()), std::vector<int>(mesh.skin.size())};
         for (const OfShape& of : cells())
             for (std::size_t c = of.begin; c < of.end; ++c) {
                 const mesh::CellNodes nodes = cell_nodes(c);
                 int number = 0;
                 for (Quad face : face_corners(of.shape)) {
                     for (Index& corner : face) corner = corner < 0 ? -1 : nodes.node[index(corner)];
-                    faces[rising(face)] = {static_cast<std::uint32_t>(c), ++number};
+                    ++number;
+                    const auto side = sides.find(rising(face));
+                    if (side == sides.end()) continue;
+                    behind.first[side->second] = static_cast<std::uint32_t>(c);
+                    behind.second[side->second] = number;
                 }
             }
-        std::pair<std::vector<std::uint32_t>, std::vector<int>> behind;
-        for (Quad side : mesh.skin) {
-            if (mesh::is_triangle(side)) side[3] = -1;
-            const auto& [cell, number] = faces.at(rising(side));
-            behind.first.push_back(cell);
-            behind.second.push_back(number);
-        }
         return behind;
     }
     [[nodiscard]] std::size_t nodes() const { return mesh.nodes.size(); }
@@ -486,7 +484,7 @@ private:
         if (added_.skin_tags == nullptr) return false;
         Quad quad = parts_.skin_quad(i);
         for (Index& node : quad) node = point(node);
-        const auto [found, fresh] = added_.skin_tags->try_emplace(rising(quad), skin_tag(i));
+        const auto [found, fresh] = added_.skin_tags->try_emplace(face_key(quad), skin_tag(i));
         if (!fresh) skin_of_.emplace(i, found->second);
         return !fresh;
     }
@@ -660,9 +658,7 @@ std::vector<std::vector<char>> inner_sides(const std::vector<std::vector<Quad>>&
     for (std::size_t p = 0; p < skins.size(); ++p) {
         inner.emplace_back(skins[p].size(), 0);
         for (std::size_t i = 0; i < skins[p].size(); ++i) {
-            Quad side = skins[p][i];
-            if (mesh::is_triangle(side)) side[3] = -1;
-            all.push_back({rising(side), p, i});
+            all.push_back({face_key(skins[p][i]), p, i});
         }
     }
     std::ranges::sort(all, {}, &Place::nodes);

@@ -170,15 +170,15 @@ private:
         };
         each_with_same_corners(view_.points, each, [&](std::span<const NumberedCell> alike) {
             const auto is_cell = [&](const NumberedCell& of) { return of.number < found_.size(); };
-            const auto cells = static_cast<std::size_t>(std::ranges::count_if(alike, is_cell));
-            if (cells == 0) return;
+            const auto beside = static_cast<std::size_t>(std::ranges::count_if(alike, is_cell));
+            if (beside == 0) return;
             const auto face = static_cast<Index>(alike[0].number);
             const Index owner = found_[index(face)].cell; // faces were collected cell by cell
-            if (cells > 2)
+            if (beside > 2)
                 throw InvalidInput("io.not_conformal",
                                    "a face of {} belongs to {} cells, but at most {} can share a face",
-                                   numbered("cell", owner + 1), found(cells), needed("two"));
-            if (cells == 2) return inner.push_back({owner, found_[alike[1].number].cell, face});
+                                   numbered("cell", owner + 1), found(beside), needed("two"));
+            if (beside == 2) return inner.push_back({owner, found_[alike[1].number].cell, face});
             Index entity = -1;
             for (const NumberedCell& of : alike.subspan(1)) {
                 const Index own = skin[of.number - found_.size()].second;

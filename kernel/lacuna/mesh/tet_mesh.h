@@ -33,6 +33,15 @@ constexpr Hex merged_corners(int corners)
     }
 }
 
+/// The corners of a cell that is stored with merged corners, each once, in the order of `CellShape`.
+constexpr CellNodes distinct_corners(const Hex& hex)
+{
+    CellNodes corners;
+    for (const Index n : hex)
+        if (corners.count == 0 || corners.node[corners.count - 1] != n) corners.node[corners.count++] = n;
+    return corners;
+}
+
 /// A closed surface of triangles and quads, oriented outward.
 struct ClosedSkin {
     std::vector<Vec3> points; ///< [model length]

@@ -327,18 +327,16 @@ Vec3 collapsed_place(CellKind kind, std::span<const Vec3, 20> nodes, const std::
 double scaled_at_corners(CellKind kind, std::span<const Vec3, 20> nodes)
 {
     const std::span<const std::uint8_t> corners = corners_of(kind);
+    const Hex places = mesh::merged_corners(static_cast<int>(corners.size()));
     // The corner of the cell that a corner of the hexahedron is merged with.
-    const auto merged = [&](std::size_t c) {
-        while (std::ranges::find(corners, c) == corners.end()) --c;
-        return c;
-    };
+    const auto merged = [&](int c) { return std::size_t(corners[index(places[index(c)])]); };
     double least = 1;
     for (const auto& [at, next] : neighbours_in(kind)) {
         std::array<Vec3, 3> tangents;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto edge = std::ranges::find_if(
                 mesh::kHexEdges, [&, from = at, to = next[k]](const auto& e) {
-                    const std::size_t a = merged(index(e[0])), b = merged(index(e[1]));
+                    const std::size_t a = merged(e[0]), b = merged(e[1]);
                     return (a == from && b == to) || (a == to && b == from);
                 });
             const auto middle = 8 + static_cast<std::size_t>(edge - mesh::kHexEdges.begin());

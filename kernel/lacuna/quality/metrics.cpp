@@ -96,8 +96,9 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 /// Store the metrics of such a cell in a lane.
 void put_other(std::span<const Metric> metrics, CellKind kind, const CellCorners& corners, double* values)
 {
+    const OtherValues own = evaluate_other(kind, corners);
     for (std::size_t m = 0; m < metrics.size(); ++m)
-        values[m * kMetricLanes] = other_metric(metrics[m], kind, corners).value_or(kNoValue);
+        values[m * kMetricLanes] = other_metric(metrics[m], own).value_or(kNoValue);
 }
 
 /// Call `body(chunk, first cell, filled lanes, values)` for every batch of every chunk, chunks in parallel.

@@ -52,9 +52,8 @@ OtherValues evaluate_other(CellKind kind, const CellCorners& corners)
     return values;
 }
 
-std::optional<double> other_metric(Metric metric, CellKind kind, const CellCorners& corners)
+std::optional<double> other_metric(Metric metric, const OtherValues& values)
 {
-    const OtherValues values = evaluate_other(kind, corners);
     if (metric == Metric::scaled_jacobian) return values.scaled;
     if (metric == Metric::volume) return values.volume;
     if (metric == Metric::jacobian) return values.jacobian;

@@ -7,7 +7,6 @@
 #include <lacuna/quality/detail/other_cells.h>
 
 #include <algorithm>
-#include <tuple>
 
 namespace lacuna::quality {
 namespace {
@@ -173,26 +172,18 @@ private:
     }
 
     /// Check that every edge of the skin joins two of its sides, in opposite directions.
-    Found check_edges()
+    Found check_edges() const
     {
-        std::vector<std::tuple<Index, Index, bool>> uses; // lower node, higher node, rising
-        uses.reserve(4 * skin_.size());
-        for (const Quad& side : skin_)
-            for (std::size_t k = 0; k < 4; ++k) {
-                const Index a = side[k], b = side[(k + 1) % 4];
-                if (a != b) uses.emplace_back(std::min(a, b), std::max(a, b), a < b);
-            }
-        std::ranges::sort(uses);
-        for (std::size_t i = 0, j = 0; i < uses.size(); i = j) {
-            count_step();
-            const auto [low, high, rising] = uses[i];
-            while (j < uses.size() && std::get<0>(uses[j]) == low && std::get<1>(uses[j]) == high) ++j;
-            if (j - i != 2 || rising == std::get<2>(uses[j - 1]))
-                return Finding(Fault::open_skin,
-                               "the edge of the skin from {} to {} is used by {} sides; expected {}",
-                               name_of(nodes_, low), name_of(nodes_, high), found(j - i), needed("two"));
-        }
-        return std::nullopt;
+        const std::vector<Index> opposite = mesh::opposite_sides(skin_, static_cast<Index>(nodes_.size()));
+        const auto bad = std::ranges::find_if(
+            opposite, [](Index side) { return side == mesh::kRimSide || side == mesh::kBadSide; });
+        if (bad == opposite.end()) return std::nullopt;
+        const auto at = static_cast<std::size_t>(bad - opposite.begin());
+        const Quad& side = skin_[at / 4];
+        return Finding(
+            Fault::open_skin, "the edge of the skin from {} to {} is used by {}; expected two sides",
+            name_of(nodes_, side[at % 4]), name_of(nodes_, side[(at + 1) % 4]),
+            found(*bad == mesh::kRimSide ? "one side" : "more than two sides, or by two in one direction"));
     }
 
     std::span<const Vec3> nodes_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/shared/default_size.h>
 
-#include <lacuna/core/message.h>
+#include <lacuna/core/error.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/topology/shared/give_mesh.h>
 
 #include <algorithm>
@@ -58,6 +59,24 @@ DefaultSize default_size(const OpenVolume& volume)
     else if (finer > 0)
         why += ", at least a twentieth of the diagonal of their box on each edge";
     return {length / sides, why};
+}
+
+SizeField even_size(double length)
+{
+    return [length](const Vec3&) { return length; };
+}
+
+SizeField checked_size(const SizeField& field, const std::string& option)
+{
+    return [field, option](const Vec3& p) {
+        const double h = field(p);
+        if (!(h > 0) || !std::isfinite(h)) {
+            throw InvalidInput("sweep.size",
+                               "sweep: option '{}' must be a positive number everywhere; at {} it is {}",
+                               option, place_with_digits(p, 2), found(h));
+        }
+        return h;
+    };
 }
 
 } // namespace lacuna::surface

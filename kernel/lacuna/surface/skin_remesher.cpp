@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/skin_remesher.h>
 
+#include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 
@@ -33,17 +34,14 @@ constexpr double kFlat = 1e-4;
 /// Triangles of a round of splitting, as a multiple of the number by area and size. Badly shaped ones need
 /// more than that number, but at most twice as many; the bound ends splits next to facets that fold.
 constexpr double kMostOfEstimate = 4;
+/// More triangles than this are refused, as the volume behind them would have more than 1e7 tetrahedra.
+constexpr double kMostTriangles = 1e7;
 /// Minimum distance of a new node from the corners opposite to its side, in multiples of the size.
 constexpr double kClose = 0.25;
 /// Minimum relative gain of a flip, above the rounding of two equal diagonals.
 constexpr double kGain = 1e-6;
 
 } // namespace
-
-void SkinRemesher::pause()
-{
-    if (++steps_ % 256 == 0) check_cancelled(context_);
-}
 
 double SkinRemesher::ratio(Index s) const
 {
@@ -63,7 +61,7 @@ void SkinRemesher::set_normals(Index node)
     const Index line = mesh_.nodes[index(node)].line;
     if (line >= 0 && !lines_[index(line)].edge.valid()) return; // both sides of a crease are one face
     FaceId known;
-    Vec3 normal;
+    Vec3 normal = Vec3::Zero();
     mesh_.each_out(node, [&](Index s) {
         const FaceId face = mesh_.owner(s).face;
         if (mesh_.owner(s).kept) return;
@@ -117,11 +115,16 @@ void SkinRemesher::split_long()
     double estimate = 0; // of the number of triangles
     for (std::size_t i = 0; i < mesh_.sides.size(); i += 3) {
         const auto s = static_cast<Index>(i);
-        if (!is_live(s)) continue;
+        if (!mesh_.lives(s)) continue;
         const Vec3 &a = mesh_.at(mesh_.from(s)), &b = mesh_.at(mesh_.to(s)), &c = mesh_.at(mesh_.apex(s));
         const double size = size_((a + b + c) / 3);
         estimate += 1 + (b - a).cross(c - a).norm() / (size * size);
     }
+    if (!(estimate <= kMostTriangles))
+        throw NotSweepable(Message("surface.skin_count",
+                                   "the skin needs {:.2g} triangles; at most {:.2g} are allowed",
+                                   found(estimate), needed(kMostTriangles))
+                               .remedy("use a larger 'size'"));
     const double most = static_cast<double>(mesh_.sides.size()) + 3 * kMostOfEstimate * estimate;
     std::priority_queue<std::pair<double, Index>> queue;
     const auto add = [&](Index s) {
@@ -130,10 +133,10 @@ void SkinRemesher::split_long()
     };
     for (std::size_t i = 0; i < mesh_.sides.size(); ++i) {
         const auto s = static_cast<Index>(i);
-        if (is_live(s) && s < mesh_.twin(s)) add(s);
+        if (mesh_.lives(s) && s < mesh_.twin(s)) add(s);
     }
     while (!queue.empty() && static_cast<double>(mesh_.sides.size()) < most) {
-        pause();
+        check_cancelled(context_);
         const auto [before, s] = queue.top();
         queue.pop();
         const double now = ratio(s);
@@ -178,13 +181,13 @@ void SkinRemesher::collapse_short()
     std::vector<std::pair<double, Index>> shorts;
     for (std::size_t i = 0; i < mesh_.sides.size(); ++i) {
         const auto s = static_cast<Index>(i);
-        if (!is_live(s) || mesh_.twin(s) < s) continue;
+        if (!mesh_.lives(s) || mesh_.twin(s) < s) continue;
         if (const double r = ratio(s); r < kShort) shorts.emplace_back(r, s);
     }
     std::ranges::sort(shorts);
     for (const auto& [before, s] : shorts) {
-        pause();
-        if (!is_live(s) || ratio(s) >= kShort) continue;
+        check_cancelled(context_);
+        if (!mesh_.lives(s) || ratio(s) >= kShort) continue;
         if (!try_collapse(s, kPoorAngle)) try_collapse(mesh_.twin(s), kPoorAngle);
     }
 }
@@ -213,8 +216,8 @@ std::vector<Index> SkinRemesher::flip_from(std::vector<Index> open)
     while (!open.empty()) {
         const Index s = open.back();
         open.pop_back();
-        if (!is_live(s) || !is_better_flipped(s)) continue;
-        pause();
+        if (!mesh_.lives(s) || !is_better_flipped(s)) continue;
+        check_cancelled(context_);
         mesh_.flip(s);
         flipped.push_back(s);
         const Index g = mesh_.twin(s);
@@ -231,7 +234,7 @@ void SkinRemesher::flip_all()
     std::vector<Index> open;
     for (std::size_t i = mesh_.sides.size(); i-- > 0;) {
         const auto s = static_cast<Index>(i);
-        if (is_live(s) && s < mesh_.twin(s)) open.push_back(s);
+        if (mesh_.lives(s) && s < mesh_.twin(s)) open.push_back(s);
     }
     flip_from(std::move(open));
 }
@@ -289,7 +292,7 @@ void SkinRemesher::smooth(double least)
         const LinkedTriangles::Node& node = mesh_.nodes[i];
         const auto n = static_cast<Index>(i);
         if (node.fixed || node.out < 0) continue;
-        pause();
+        check_cancelled(context_);
         if (node.line >= 0)
             move_along_line(n, least);
         else
@@ -369,14 +372,14 @@ void SkinRemesher::improve(bool moves)
         std::vector<std::pair<double, Index>> poor;
         for (std::size_t i = 0; i < mesh_.sides.size(); i += 3) {
             const auto s = static_cast<Index>(i);
-            if (!is_live(s) || mesh_.owner(s).kept) continue;
+            if (!mesh_.lives(s) || mesh_.owner(s).kept) continue;
             if (const double q = mesh_.quality(s); q < kGoodAngle) poor.emplace_back(q, s);
         }
         std::ranges::sort(poor);
         bool any = false;
         for (const auto& [before, s] : poor) {
-            pause();
-            if (is_live(s) && mesh_.quality(s) < kGoodAngle) any = improve(s, moves) || any;
+            check_cancelled(context_);
+            if (mesh_.lives(s) && mesh_.quality(s) < kGoodAngle) any = improve(s, moves) || any;
         }
         flip_all();
         if (!any) break;

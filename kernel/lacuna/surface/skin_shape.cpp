@@ -76,26 +76,28 @@ std::vector<std::vector<Index>> chains_of(std::map<Index, std::set<Index>> graph
 
 } // namespace
 
+bool keeps_cells(const Face& face) { return face.keeps_nodes || !face.given_quads.empty(); }
+
 std::vector<std::array<Vec3, 3>> corner_normals(std::span<const Vec3> points,
                                                 std::span<const Triangle> triangles)
 {
     constexpr double kNear = 0.7; // 45 degrees: halfway between straight and a right angle
     std::vector<Vec3> area(triangles.size());
     std::vector<char> flat(triangles.size());
-    std::vector<std::vector<std::size_t>> around(points.size());
+    std::unordered_map<Index, std::vector<std::size_t>> around; // the triangles at each point
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
         const Vec3& a = points[index(t[0])];
         const Vec3 ab = points[index(t[1])] - a, ac = points[index(t[2])] - a;
         area[i] = ab.cross(ac);
         flat[i] = area[i].norm() <= kFileAccuracy * std::max(ab.squaredNorm(), ac.squaredNorm()) ? 1 : 0;
-        for (const Index p : t) around[index(p)].push_back(i);
+        for (const Index p : t) around[p].push_back(i);
     }
     std::vector<std::array<Vec3, 3>> normals(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         for (std::size_t k = 0; k < 3; ++k) {
             Vec3 all = Vec3::Zero(), near = Vec3::Zero();
-            for (const std::size_t j : around[index(triangles[i][k])]) {
+            for (const std::size_t j : around[triangles[i][k]]) {
                 all += area[j];
                 if (flat[i] == 0 && area[j].dot(area[i]) > kNear * area[j].norm() * area[i].norm())
                     near += area[j];

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <ranges>
 #include <utility>
 
 namespace lacuna::surface {
@@ -47,17 +48,20 @@ double size_on(const PointCurvature& at, int per_turn)
 int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeField& size)
 {
     const double allowed = kSameVolume / 2 * std::abs(volume_integral(model, all_faces(model)));
-    for (int count = kLeastPerTurn; count < kMostPerTurn; ++count) {
-        double lost = 0;
-        for (const std::vector<PointCurvature>& face : curvatures) {
-            for (const PointCurvature& at : face) {
-                const double side = std::min(size(at.point), size_on(at, count));
-                lost += at.area * at.sum * side * side / 12;
-            }
+    std::vector<std::pair<const PointCurvature*, double>> points; // with the requested size
+    for (const std::vector<PointCurvature>& face : curvatures)
+        for (const PointCurvature& at : face) points.emplace_back(&at, size(at.point));
+    const auto lost = [&](int count) { // falls with the count
+        double sum = 0;
+        for (const auto& [at, most] : points) {
+            const double side = std::min(most, size_on(*at, count));
+            sum += at->area * at->sum * side * side / 12;
         }
-        if (lost <= allowed) return count;
-    }
-    return kMostPerTurn;
+        return sum;
+    };
+    const auto counts = std::views::iota(kLeastPerTurn, kMostPerTurn);
+    const auto first = std::ranges::partition_point(counts, [&](int count) { return lost(count) > allowed; });
+    return first == counts.end() ? kMostPerTurn : *first;
 }
 
 /// Sizes on curved faces along the sides of their facets, which may be longer than the sizes at their ends.
@@ -95,11 +99,14 @@ void add_gaps(const Model& model, const Curvatures& curvatures, const SizeField&
     const geometry::FacetTree tree(model.points, facets, context);
     Index number = 0;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
+        if (curvatures[f].empty()) {
+            number += static_cast<Index>(model.faces[f].triangles.size());
+            continue;
+        }
         const std::vector<Index> points = corner_points(model.faces[f]);
         for (const Triangle& t : model.faces[f].triangles) {
-            if (number % 256 == 0) check_cancelled(context);
+            check_cancelled(context);
             const Index own = number++;
-            if (curvatures[f].empty()) continue;
             double curvature = 0;
             for (const Index p : t) {
                 const auto place = std::ranges::lower_bound(points, p) - points.begin();
@@ -129,17 +136,16 @@ SizeField skin_sizes(const Model& model, std::span<const SkinLine> lines, std::v
     Curvatures curvatures;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         check_cancelled(context);
-        const bool kept = model.faces[f].keeps_nodes || !model.faces[f].given_quads.empty();
-        curvatures.push_back(kept ? std::vector<PointCurvature>{}
-                                  : facet_curvature(model, FaceId(f), kCreaseAngle * kDegree));
+        curvatures.push_back(keeps_cells(model.faces[f])
+                                 ? std::vector<PointCurvature>{}
+                                 : facet_curvature(model, FaceId(f), kCreaseAngle * kDegree));
     }
     const int per_turn = sides_per_turn(model, curvatures, size);
     std::vector<PointSize> sizes;
     for (std::size_t f = 0; f < curvatures.size(); ++f) {
         add_curved(model.faces[f], curvatures[f], per_turn, size, sizes);
         check_cancelled(context);
-
-        if (!model.faces[f].keeps_nodes)
+        if (!keeps_cells(model.faces[f]))
             add_width_sizes(model, FaceId(f), size, {per_turn, 1}, kLeastShare, sizes);
     }
     add_gaps(model, curvatures, size, sizes, context);
@@ -161,7 +167,8 @@ SizeField skin_sizes(const Model& model, std::span<const SkinLine> lines, std::v
         }
     }
 
-    // Given sides may be longer than requested; the sizes shrink away from them.
+    // Given sides may be longer than requested; the sizes shrink away from them. With negative sizes, the
+    // minimum that `GradedPoints` gives is the maximum of size - kGrading · distance.
     std::vector<PointSize> coarse;
     for (const PointSize& side : given) {
         sizes.push_back(side);

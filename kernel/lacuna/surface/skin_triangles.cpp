@@ -9,6 +9,7 @@
 #include <lacuna/surface/detail/skin_remesher.h>
 #include <lacuna/surface/detail/skin_shape.h>
 #include <lacuna/surface/detail/skin_size.h>
+#include <lacuna/surface/shared/default_size.h>
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/give_mesh.h>
 
@@ -24,8 +25,6 @@ namespace lacuna::surface {
 using namespace topology;
 
 namespace {
-
-bool keeps_cells(const Face& face) { return face.keeps_nodes || !face.given_quads.empty(); }
 
 /// Points that stay: vertices, given nodes, ends and corners of lines.
 std::vector<char> fixed_points(const Model& model, std::span<const SkinLine> lines)
@@ -97,24 +96,23 @@ LinkedTriangles linked(const Model& model, std::span<const SkinLine> lines, cons
                                .remedy("close the volume first"));
     }
     for (std::size_t i = 0; i < mesh.sides.size(); ++i) mesh.sides[i].normal = normals[i / 3][i % 3];
-    std::unordered_map<std::uint64_t, std::array<double, 2>> place; // by the points in the line's direction
-    std::unordered_map<std::uint64_t, Index> line_at;
+    // By the points of a side: its line, and the place of the first point on it.
+    std::unordered_map<std::uint64_t, std::pair<Index, double>> on_line;
     for (std::size_t l = 0; l < lines.size(); ++l) {
         const SkinLine& line = lines[l];
         for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
             const Index a = line.points[i], b = line.points[i + 1];
-            place[directed_key(a, b)] = {line.arc[i], line.arc[i + 1]};
-            place[directed_key(b, a)] = {line.arc[i + 1], line.arc[i]};
-            line_at[edge_key(a, b)] = static_cast<Index>(l);
+            on_line[directed_key(a, b)] = {static_cast<Index>(l), line.arc[i]};
+            on_line[directed_key(b, a)] = {static_cast<Index>(l), line.arc[i + 1]};
         }
     }
     for (std::size_t i = 0; i < mesh.sides.size(); ++i) {
         const auto s = static_cast<Index>(i);
         const Index a = mesh.nodes[index(mesh.from(s))].point, b = mesh.nodes[index(mesh.to(s))].point;
-        const auto found = line_at.find(edge_key(a, b));
-        if (found == line_at.end()) continue;
-        mesh.sides[i].line = found->second;
-        mesh.sides[i].s = place.at(directed_key(a, b))[0];
+        const auto found = on_line.find(directed_key(a, b));
+        if (found == on_line.end()) continue;
+        mesh.sides[i].line = found->second.first;
+        mesh.sides[i].s = found->second.second;
     }
     return mesh;
 }
@@ -161,7 +159,7 @@ SkinMesh skin_of(const Model& model, const LinkedTriangles& mesh)
     return result;
 }
 
-/// @throw BackendError  a triangle is turned away from its face, or two triangles cross.
+/// @throw NotSweepable  a triangle is turned away from its face, or two triangles cross.
 void check_skin(const Model& model, const LinkedTriangles& mesh, const RunContext& context)
 {
     std::vector<Vec3> points;
@@ -173,9 +171,9 @@ void check_skin(const Model& model, const LinkedTriangles& mesh, const RunContex
         if (!mesh.lives(s)) continue;
         const FaceId face = mesh.owner(s).face;
         if (!mesh.owner(s).kept && !(mesh.quality(s) > 0)) {
-            throw BackendError(
+            throw NotSweepable(
                 Message("surface.skin_folds", "triangles on {} fold at this size", entity_of(model, face))
-                    .remedy("use a smaller size"));
+                    .remedy("use a smaller 'size'"));
         }
         triangles.push_back({mesh.from(s), mesh.from(s + 1), mesh.from(s + 2)});
         faces.push_back(face);
@@ -196,21 +194,21 @@ void check_skin(const Model& model, const LinkedTriangles& mesh, const RunContex
         },
         0, context);
     if (!first) return;
-    throw BackendError(Message("surface.skin_crosses", "triangles of {} and {} cross at this size",
+    throw NotSweepable(Message("surface.skin_crosses", "triangles of {} and {} cross at this size",
                                entity_of(model, faces[index(first->first)]),
                                entity_of(model, faces[index(first->second)]))
-                           .remedy("use a smaller size"));
+                           .remedy("use a smaller 'size'"));
 }
 
 } // namespace
 
-SkinMesh triangulate_skin(const Model& given, const SkinSize& size, std::span<const FixedFace> fixed,
+SkinMesh triangulate_skin(const Model& given, const SizeField& size, std::span<const FixedFace> fixed,
                           const RunContext& context)
 {
     OpenVolume volume{given, std::vector<Role>(given.faces.size(), Role::wall), {}};
     for (const FixedFace& face : fixed) give_mesh(volume, face.face, face.nodes, face.quads);
     const Model& model = volume.model;
-    const SizeField asked = size.at ? size.at : [h = size.size](const Vec3&) { return h; };
+    const SizeField asked = checked_size(size, "size");
     std::vector<SkinLine> lines = skin_lines(model);
     const SizeField local = skin_sizes(model, lines, given_sides(model, lines), asked, context);
     for (SkinLine& line : lines) line.sample(model, local);

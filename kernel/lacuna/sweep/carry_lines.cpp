@@ -309,7 +309,7 @@ private:
             }))
             return false;
         surface::SizeField size = members_[m].options.size;
-        if (!size) size = [length = surface::default_size(volume).length](const Vec3&) { return length; };
+        if (!size) size = surface::even_size(surface::default_size(volume).length);
         const std::vector<surface::KnownLine> known = known_lines(m, end);
         surface::Imprint imprint = surface::imprint_target(
             volume, surface::linking_surfaces(volume, surface::Turning::each, known_pairs(m, end, volume)),

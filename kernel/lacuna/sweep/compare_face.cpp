@@ -101,7 +101,7 @@ QuadFacets facets_of(const std::array<Vec3, 4>& c)
 /// One face and the quads on it.
 class Comparison {
 public:
-    Comparison(const mesh::HexMesh& mesh, const Skin& skin, const SkinOfFace& quads, surface::FaceShape shape,
+    Comparison(const mesh::HexMesh* mesh, const Skin& skin, const SkinOfFace& quads, surface::FaceShape shape,
                double sign, const DeviationLimit& limit, const RunContext& context)
         : mesh_(mesh),
           skin_(skin),
@@ -502,7 +502,6 @@ private:
         constexpr double kOnFace =
             0.25; // of the distance found; a higher value reports more deviations as curvature. Not measured
         const Quad& quad = quads_[worst_];
-        const Index row = mesh_.nodes_per_layer;
         std::size_t facet = 0;
         double most = 0;
         for (std::size_t k = 0; k < 4; ++k) {
@@ -511,10 +510,12 @@ private:
             const double sag = distance_to_face((a + b) / 2, facet);
             if (sag <= most) continue;
             most = sag;
-            result_.side = (b - a).norm();
+            result_.side = result_.source_side = (b - a).norm();
+            if (mesh_ == nullptr) continue;
             // The side of the mesh's quad; at order 2 the one that this side is half of, or parallel to.
-            const std::size_t own = mesh_.order() == 1 ? k : (worst_ + 3 * (k % 2)) % 4;
-            const Quad whole = mesh::skin_quad(mesh_, item_[worst_]).nodes;
+            const Index row = mesh_->nodes_per_layer;
+            const std::size_t own = mesh_->order() == 1 ? k : (worst_ + 3 * (k % 2)) % 4;
+            const Quad whole = mesh::skin_quad(*mesh_, item_[worst_]).nodes;
             const Index from = whole[own], to = whole[(own + 1) % 4];
             result_.source_side = (node(to % row) - node(from % row)).norm();
             result_.along_layers = from / row != to / row;
@@ -522,7 +523,7 @@ private:
         if (2 * most >= result_.found) result_.misfit = Misfit::straight;
     }
 
-    const mesh::HexMesh& mesh_;
+    const mesh::HexMesh* mesh_;
     const Skin& skin_;
     const std::vector<Quad>& quads_;
     const std::vector<std::size_t>& item_;
@@ -538,6 +539,12 @@ private:
     FaceFidelity result_;
     std::size_t worst_ = 0;
 };
+
+void set_mean_sides(Skin& skin)
+{
+    for (SkinOfFace& face : skin.faces)
+        for (const double side : face.side) face.mean_side += side / static_cast<double>(face.side.size());
+}
 
 } // namespace
 
@@ -608,13 +615,32 @@ Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std
         face.side.push_back(quads[i].side);
         face.item.push_back(i / parts);
     }
-    for (SkinOfFace& face : skin.faces) {
-        for (const double side : face.side) face.mean_side += side / static_cast<double>(face.side.size());
-    }
+    set_mean_sides(skin);
     return skin;
 }
 
-FaceFidelity compare_face(const mesh::HexMesh& mesh, const Skin& skin, const SkinOfFace& quads,
+Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::size_t face_count)
+{
+    Skin skin;
+    skin.points = mesh.nodes;
+    skin.faces.resize(face_count);
+    for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
+    for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
+        const Quad& side = mesh.skin[i];
+        SkinOfFace& face = skin.faces[faces[index(mesh.skin_patch[i])].index()];
+        double longest = 0;
+        for (std::size_t k = 0; k < 4; ++k)
+            longest = std::max(longest,
+                               (mesh.nodes[index(side[(k + 1) % 4])] - mesh.nodes[index(side[k])]).norm());
+        face.quads.push_back(side);
+        face.side.push_back(longest);
+        face.item.push_back(i);
+    }
+    set_mean_sides(skin);
+    return skin;
+}
+
+FaceFidelity compare_face(const mesh::HexMesh* mesh, const Skin& skin, const SkinOfFace& quads,
                           surface::FaceShape shape, double sign, const DeviationLimit& limit,
                           const RunContext& context)
 {

@@ -113,15 +113,17 @@ Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
 
 } // namespace
 
-Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+namespace {
+
+/// Compare a skin with the sealed one. @param mesh  as of compare_face()
+Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, const Skin& skin,
                  const std::set<FaceId>& kept, double volume_of_mesh, const FidelityOptions& options,
-                 const RunContext& context, const mesh::LayeredNodes* layers)
+                 const RunContext& context)
 {
     const Model& model = volume.model;
     Fidelity result;
     result.volume = volume_of_mesh;
-    const Skin skin = skin_of({mesh, layers}, faces, model.faces.size(), context);
-    const Vec3 origin = mesh.nodes.front();
+    const Vec3 origin = skin.points.front();
     std::vector<surface::FaceShape> shapes;
     for (const SkinOfFace& patch : skin.faces) {
         check_cancelled(context);
@@ -150,7 +152,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
         FaceFidelity& face = compared[patch.face.index()];
         if (patch.quads.empty())
             face = left_out(model, skin, patch.face, limit_of(model, patch.face, options));
-        if (mesh.order() > 1) { // of four quads each
+        if (mesh != nullptr && mesh->order() > 1) { // of four quads each
             face.quads /= 4;
             face.side *= 2;
         }
@@ -165,6 +167,23 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
     }
     if (area > 0) result.mean_distance /= area;
     return result;
+}
+
+} // namespace
+
+Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                 const std::set<FaceId>& kept, double volume_of_mesh, const FidelityOptions& options,
+                 const RunContext& context, const mesh::LayeredNodes* layers)
+{
+    return compare(volume, &mesh, skin_of({mesh, layers}, faces, volume.model.faces.size(), context), kept,
+                   volume_of_mesh, options, context);
+}
+
+Fidelity compare(const OpenVolume& volume, const mesh::TetPart& mesh, const std::vector<FaceId>& faces,
+                 double volume_of_mesh, const FidelityOptions& options, const RunContext& context)
+{
+    return compare(volume, nullptr, skin_of(mesh, faces, volume.model.faces.size()), {}, volume_of_mesh,
+                   options, context);
 }
 
 std::optional<Message> misfit(const Fidelity& fidelity, int layers, const FidelityOptions& options)

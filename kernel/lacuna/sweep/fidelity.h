@@ -5,6 +5,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/mesh/tet_mesh.h>
 #include <lacuna/surface/size_field.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -85,6 +86,11 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
                  const std::vector<FaceId>& faces, const std::set<FaceId>& kept, double volume_of_mesh,
                  const FidelityOptions& options = {}, const RunContext& context = {},
                  const mesh::LayeredNodes* layers = nullptr);
+
+/// As above, for tetrahedra and pyramids.
+Fidelity compare(const topology::OpenVolume& volume, const mesh::TetPart& mesh,
+                 const std::vector<FaceId>& faces, double volume_of_mesh, const FidelityOptions& options = {},
+                 const RunContext& context = {});
 
 /// Describe the face that exceeds the allowed distance most: its name, the place, the distance found and
 /// allowed, and for straight sides on a bend the size, or the number of layers, that reduces their sag to the

@@ -204,7 +204,11 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
 NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFace& faces,
                 const InCommon& common, double area, double tolerance)
 {
-    NearMiss miss{faces.a, faces.b, faces.face_a, faces.face_b};
+    NearMiss miss;
+    miss.a = faces.a;
+    miss.b = faces.b;
+    miss.face_a = faces.face_a;
+    miss.face_b = faces.face_b;
     miss.tag_a = a.volume->model[faces.face_a].tag;
     miss.tag_b = b.volume->model[faces.face_b].tag;
     miss.least = miss.width = common.apart;

@@ -1,37 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/skin_patches.h>
 
+#include <lacuna/sweep/shared/face_patches.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
 #include <map>
-#include <string>
 #include <utility>
 
 namespace lacuna::sweep {
 
 using namespace topology;
 
+FacePatches::FacePatches(const OpenVolume& volume, std::vector<mesh::SkinPatch>& patches)
+    : model_(volume.model), patches_(patches), groups_(skin_groups(volume))
+{
+}
+
+Index FacePatches::of(FaceId face)
+{
+    const auto [found, fresh] = known_.try_emplace(face, static_cast<Index>(faces_.size()));
+    if (!fresh) return found->second;
+    faces_.push_back(face);
+    const Face& own = model_[face];
+    mesh::SkinPatch& patch = patches_.emplace_back();
+    patch.tag = static_cast<int>(patches_.size());
+    if (own.origin != Origin::made_void) patch.face = own.tag;
+    patch.groups = groups_[face.index()];
+    return found->second;
+}
+
 std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceMesh& source,
                                 const EndFaces& ends, const std::vector<surface::WallMesh>& walls,
                                 mesh::HexMesh& mesh)
 {
-    const std::vector<std::vector<std::string>> groups = skin_groups(volume); // for each face
-    std::vector<FaceId> faces;                                                // for each patch
-    std::map<FaceId, Index> patches;
-    const auto patch_of = [&](FaceId face) {
-        const auto [found, fresh] = patches.try_emplace(face, static_cast<Index>(faces.size()));
-        if (!fresh) return found->second;
-        faces.push_back(face);
-        const Face& f = volume.model[face];
-        mesh::SkinPatch& patch = mesh.patches.emplace_back();
-        patch.tag = static_cast<int>(mesh.patches.size());
-        if (f.origin != Origin::made_void) patch.face = f.tag;
-        patch.groups = groups[face.index()];
-        return found->second;
-    };
-    for (const FaceId face : ends.source) mesh.source_patch.push_back(patch_of(face));
-    for (const FaceId face : ends.target) mesh.target_patch.push_back(patch_of(face));
+    FacePatches patches(volume, mesh.patches);
+    for (const FaceId face : ends.source) mesh.source_patch.push_back(patches.of(face));
+    for (const FaceId face : ends.target) mesh.target_patch.push_back(patches.of(face));
 
     // A linking surface's sides run with its direction or against it; each rim side is found by its two
     // nodes.
@@ -53,10 +58,10 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
     for (int layer = 0; layer < mesh.layers; ++layer) {
         for (const RimPosition& place : along_rim) {
             const std::size_t n = source.links[place.link].source_at.size();
-            mesh.wall_patch.push_back(patch_of(walls[place.link].face[index(layer) * n + place.side]));
+            mesh.wall_patch.push_back(patches.of(walls[place.link].face[index(layer) * n + place.side]));
         }
     }
-    return faces;
+    return patches.faces();
 }
 
 } // namespace lacuna::sweep

@@ -6,6 +6,7 @@
 #include <lacuna/quads/shared/odd_region.h>
 #include <lacuna/quads/shared/pave.h>
 #include <lacuna/quads/shared/submap.h>
+#include <lacuna/surface/shared/default_size.h>
 #include <lacuna/surface/shared/quads_asked.h>
 #include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/detail/volume_share.h>
@@ -153,19 +154,6 @@ quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow)
     };
 }
 
-surface::SizeField checked_size(const surface::SizeField& field, const std::string& option)
-{
-    return [field, option](const Vec3& p) {
-        const double h = field(p);
-        if (!(h > 0) || !std::isfinite(h)) {
-            throw InvalidInput("sweep.size",
-                               "sweep: option '{}' must be a positive number everywhere; at {} it is {}",
-                               option, place_in_short(p), found(h));
-        }
-        return h;
-    };
-}
-
 SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context)
 {
@@ -174,12 +162,12 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
     SourceSize size;
     size.layers = links.plan.layers;
     if (options.size) {
-        size.asked = checked_size(options.size, "size");
+        size.asked = surface::checked_size(options.size, "size");
     } else {
         size.by_default = surface::default_size(volume);
         const double part = links.plan.part;
         if (part < 1) size.by_default->why += formatted(", of that {:.2g} for the bends of the ends", part);
-        size.asked = even_size(size.by_default->length *= part);
+        size.asked = surface::even_size(size.by_default->length *= part);
     }
     const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;
     const bool gap_by_default = size.by_default && options.gap == 0;
@@ -223,7 +211,7 @@ void check_cells(const ExpectedCells& expected, const RunContext& context)
 surface::SizeFields size_fields(const surface::SizeField& size, const SweepOptions& options)
 {
     if (options.rows == 0) return {size};
-    return {size, options.row_height ? checked_size(options.row_height, "row_height") : size};
+    return {size, options.row_height ? surface::checked_size(options.row_height, "row_height") : size};
 }
 
 } // namespace lacuna::sweep

@@ -214,8 +214,8 @@ Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunConte
     }
     KnownLinks links(volume);
     SweepOptions options = with_layer_intervals(volume, asked, links, context);
-    const surface::SizeField size = options.size ? checked_size(options.size, "size")
-                                                 : even_size(surface::default_size(volume).length);
+    const surface::SizeField size = options.size ? surface::checked_size(options.size, "size")
+                                                 : surface::even_size(surface::default_size(volume).length);
     links.plan = plan_volume(volume, links.of(volume, context), options, size, context);
     options.curvature = links.plan.per_turn;
     // For an assembly, the caller checks the number of cells of all volumes together.

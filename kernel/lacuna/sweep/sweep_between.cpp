@@ -364,12 +364,10 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         still.merge(settled.faces);
         lay_onto_neighbours(std::move(settled.nodes), result, good, options, context);
     }
-    quality::Proof proof = good
-                               ? quality::prove(mesh::LayeredMesh{mesh, *result.layers},
-                                                std::move(good->found.quality),
-                                                std::move(good->found.misplaced), options.min_scaled_jacobian)
-                               : prove_or_improve(result, volume.model, faces, still, std::move(kept.held),
-                                                  options, context);
+    quality::Proof proof =
+        good ? quality::prove(mesh::LayeredMesh{mesh, *result.layers}, std::move(good->found.quality),
+                              std::move(good->found.misplaced), options.min_scaled_jacobian)
+             : prove_or_improve(result, volume.model, faces, still, std::move(kept.held), options, context);
     const quality::Quality& quality = proof.quality;
     result.min_scaled_jacobian = quality.min_scaled_jacobian;
     const std::string wedges = quality.wedges > 0 ? formatted(" hexahedra and {} wedges", quality.wedges)

@@ -417,11 +417,6 @@ bool may_divide_rims(const OpenVolume& volume, const SweepOptions& options)
            std::ranges::all_of(volume.model.faces, [](const Face& face) { return face.given_quads.empty(); });
 }
 
-surface::SizeField even_size(double length)
-{
-    return [length](const Vec3&) { return length; };
-}
-
 double volume_lost(const Fidelity& fidelity) { return 1 - fidelity.volume / fidelity.sealed_volume; }
 
 VolumePlan plan_volume(const OpenVolume& volume, std::span<const surface::LinkingSurface> links,

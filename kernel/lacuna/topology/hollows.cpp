@@ -32,6 +32,13 @@ std::vector<std::vector<FaceId>> closed_shells(const Model& model)
     return shells;
 }
 
+/// The centre of a face's first facet.
+Vec3 facet_centre(const Model& model, FaceId face)
+{
+    const Triangle& t = model[face].triangles.front();
+    return (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
+}
+
 /// Whether a shell is an interface of two mesh regions, with no space on either side.
 bool is_between_regions(const Model& model, const std::vector<FaceId>& shell)
 {
@@ -45,23 +52,12 @@ std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
                                                    const std::vector<std::vector<FaceId>>& shells,
                                                    const RunContext& context)
 {
-    if (shells.size() < 2) return {};
-    std::vector<geometry::FacetTree> trees;
-    for (const std::vector<FaceId>& shell : shells)
-        trees.emplace_back(model.points, facets_of(model, shell), context);
+    const std::vector<bool> inner = inner_parts(model, shells, context);
     std::vector<std::vector<FaceId>> turned;
-    for (std::size_t inner = 0; inner < shells.size(); ++inner) {
-        check_cancelled(context);
-        const Vec3& point = model.at(model[shells[inner].front()].triangles.front()[0]);
-        constexpr double kInside = 0.5; // between the winding numbers 0 and 1
-        int depth = 0;
-        for (std::size_t outer = 0; outer < shells.size(); ++outer)
-            if (outer != inner && trees[outer].bounds().contains(trees[inner].bounds()) &&
-                trees[outer].winding_number(point) > kInside)
-                ++depth;
-        if (depth % 2 == 0 || is_between_regions(model, shells[inner])) continue;
-        flip_faces(model, shells[inner]);
-        turned.push_back(shells[inner]);
+    for (std::size_t s = 0; s < shells.size(); ++s) {
+        if (!inner[s] || is_between_regions(model, shells[s])) continue;
+        flip_faces(model, shells[s]);
+        turned.push_back(shells[s]);
     }
     return turned;
 }
@@ -121,6 +117,33 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
 }
 
 } // namespace
+
+std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
+                              const RunContext& context)
+{
+    constexpr double kInside = 0.5; // between the winding numbers 0 and 1
+    std::vector<bool> inner(parts.size(), false);
+    if (parts.size() < 2) return inner;
+    for (std::size_t o = 0; o < parts.size(); ++o) {
+        check_cancelled(context);
+        const geometry::FacetTree tree(model.points, facets_of(model, parts[o]), context);
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            if (p == o) continue;
+            const Vec3 at = facet_centre(model, parts[p].front()); // a corner may be one of the other part
+            if (tree.bounds().contains(at) && std::abs(tree.winding_number(at)) > kInside)
+                inner[p] = !inner[p];
+        }
+    }
+    return inner;
+}
+
+void orient_skin(Model& model, const RunContext& context)
+{
+    const std::vector<std::vector<FaceId>> parts = connected_parts(model, all_faces(model));
+    const std::vector<bool> inner = inner_parts(model, parts, context);
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        if ((volume_integral(model, parts[p]) > 0) == inner[p]) flip_faces(model, parts[p]);
+}
 
 std::vector<Hollow> hollows(const Model& given, const RunContext& context)
 {
@@ -210,8 +233,7 @@ std::vector<FaceId> bodies_inside(const Model& model, const Model& volume, const
         if (std::ranges::any_of(shell, is_own) || is_between_regions(model, shell)) continue;
         if (!tree) tree.emplace(volume.points, facets_of(volume, all_faces(volume)), context);
         const auto inside = std::ranges::find_if(shell, [&](FaceId face) {
-            const Triangle& t = model[face].triangles.front();
-            const Vec3 p = (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
+            const Vec3 p = facet_centre(model, face);
             return tree->bounds().contains(p) && std::abs(tree->winding_number(p)) > kInside;
         });
         if (inside != shell.end()) found.push_back(*inside);

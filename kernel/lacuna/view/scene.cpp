@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 
 namespace lacuna::view {
 
@@ -267,42 +268,37 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
 
 namespace {
 
-/// The corners of a face of a cell that may be stored with repeated corners; fewer than three: no face.
-std::vector<Index> face_nodes(const Hex& hex, const Quad& face)
+/// The corners of a face of a cell that may be stored with merged corners, a triangle as {a, b, c, c}; empty:
+/// the face is an edge or a point.
+std::optional<Quad> face_nodes(const Hex& hex, const Quad& face)
 {
-    std::vector<Index> nodes;
+    Quad nodes{};
+    std::size_t count = 0;
     for (std::size_t k = 0; k < 4; ++k) {
         const Index node = hex[index(face[k])];
-        if (node != hex[index(face[(k + 1) % 4])]) nodes.push_back(node);
+        if (node != hex[index(face[(k + 1) % 4])]) nodes[count++] = node;
     }
+    if (count < 3) return std::nullopt;
+    if (count == 3) nodes[3] = nodes[2];
     return nodes;
-}
-
-Quad key_of(std::span<const Index> corners)
-{
-    Quad key{-1, -1, -1, -1};
-    std::ranges::copy(corners, key.begin());
-    return rising(key);
 }
 
 /// Add the sides of the visible cells of a region that no other visible cell shares.
 void add_sides(Scene& scene, const ListedCells& region, const Colours& colours, const PictureOptions& options)
 {
     std::map<Quad, Index> patch; // of the sides of the skin
-    for (std::size_t i = 0; i < region.sides.size(); ++i) {
-        const Quad& side = region.sides[i];
-        patch[key_of(std::span(side).first(mesh::corner_count(side)))] = region.side_patch[i];
-    }
-    std::map<Quad, std::pair<std::size_t, std::vector<Index>>> open; // cell and corners of sides used once
+    for (std::size_t i = 0; i < region.sides.size(); ++i)
+        patch[face_key(region.sides[i])] = region.side_patch[i];
+    std::map<Quad, std::pair<std::size_t, Quad>> open; // cell and corners of sides used once
     for (std::size_t c = 0; c < region.cells.size(); ++c) {
         Vec3 centre = Vec3::Zero();
         for (const Index n : region.cells[c]) centre += region.nodes[index(n)] / 8;
         if (options.cut && (centre - options.cut->point).dot(options.cut->normal) > 0) continue;
         for (const Quad& face : mesh::kHexFaces) {
-            std::vector<Index> nodes = face_nodes(region.cells[c], face);
-            if (nodes.size() < 3) continue;
-            const Quad key = key_of(nodes);
-            if (!open.try_emplace(key, c, std::move(nodes)).second) open.erase(key);
+            const std::optional<Quad> nodes = face_nodes(region.cells[c], face);
+            if (!nodes) continue;
+            const auto [known, fresh] = open.try_emplace(face_key(*nodes), c, *nodes);
+            if (!fresh) open.erase(known);
         }
     }
     for (const auto& [key, side] : open) {
@@ -310,8 +306,8 @@ void add_sides(Scene& scene, const ListedCells& region, const Colours& colours, 
         const auto found = patch.find(key);
         const Index own = found != patch.end() ? found->second : -1;
         DrawnSide drawn;
-        drawn.count = corners.size();
-        for (std::size_t k = 0; k < corners.size(); ++k) drawn.corner[k] = region.nodes[index(corners[k])];
+        drawn.count = mesh::corner_count(corners);
+        for (std::size_t k = 0; k < drawn.count; ++k) drawn.corner[k] = region.nodes[index(corners[k])];
         drawn.colour = colours.of(cell, 0, own);
         drawn.hatched = colours.hatched(own);
         scene.sides.push_back(drawn);
@@ -334,8 +330,7 @@ Scene scene_of(const DeckCells& deck, const PictureOptions& options, const RunCo
     std::size_t cells = 0;
     for (const ListedCells& region : deck.regions) {
         cells += region.cells.size();
-        for (const double value : region.quality)
-            if (value < least) least = value;
+        for (const double value : region.quality) least = std::min(least, value);
     }
     colours.low = quality_low(least);
     for (const ListedCells& region : deck.regions) {

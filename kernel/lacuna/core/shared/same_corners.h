@@ -21,6 +21,13 @@ std::array<Index, N> rising(std::array<Index, N> corners)
     return corners;
 }
 
+/// A quad, or a triangle {a, b, c, c}, by its corners in increasing order; -1 for the missing one.
+inline Quad face_key(Quad face)
+{
+    if (face[2] == face[3]) face[3] = -1;
+    return rising(face);
+}
+
 /// A cell in a group with the same lowest corner.
 struct NumberedCell {
     std::array<Index, 3> others; ///< the other corners, rising; -1 for missing ones

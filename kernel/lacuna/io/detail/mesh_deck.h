@@ -38,9 +38,9 @@ struct AddedMesh {
     /// cells' shapes; this gets their position.
     /// @pre  the deck contains only such meshes, of which later ones have the first node of the whole
     BulkPlace* bulk = nullptr;
-    bool is_new = false; ///< without `bulk`: the deck was read from no file and has the points already
     /// In that case, the number of each node in the whole mesh, from 0; null: its own number.
     const mesh::NodeNumbers* numbers = nullptr;
+    bool is_new = false; ///< without `bulk`: the deck was read from no file and has the points already
     /// Whether each quad of the skin is left out of the elements; empty: none is.
     std::vector<char> inner{};
     /// Material of the elements next to the mesh, and the name of their region; empty: unknown.

@@ -53,7 +53,7 @@ struct OtherValues {
 OtherValues evaluate_other(CellKind kind, const CellCorners& corners);
 
 /// The metric, if it is defined for cells that are no hexahedra: scaled Jacobian, Jacobian and volume.
-std::optional<double> other_metric(Metric metric, CellKind kind, const CellCorners& corners);
+std::optional<double> other_metric(Metric metric, const OtherValues& values);
 
 /// A corner, and its neighbours along three edges, right-handed.
 struct CornerNeighbours {

@@ -25,7 +25,6 @@ public:
 private:
     [[nodiscard]] double ratio(Index s) const;
     [[nodiscard]] double worst_around(Index node, const Vec3& place) const;
-    [[nodiscard]] bool is_live(Index s) const { return mesh_.lives(s); }
 
     void split_long();
     Index try_split(Index s);
@@ -46,14 +45,12 @@ private:
     bool improve(Index side, bool moves);
     void make_exact(const topology::Model& model);
     void set_normals(Index node);
-    void pause();
 
     LinkedTriangles& mesh_;
     std::span<const SkinLine> lines_;
     std::span<const FaceShapeTree> shapes_;
     const SizeField& size_;
     const RunContext& context_;
-    unsigned steps_ = 0;
 };
 
 } // namespace lacuna::surface

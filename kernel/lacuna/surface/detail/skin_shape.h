@@ -11,6 +11,9 @@
 
 namespace lacuna::surface {
 
+/// Whether a face has a given mesh.
+bool keeps_cells(const topology::Face& face);
+
 /// Unit normals of a face at the corners of its facets: the mean of the facets at the point whose normals are
 /// near that of the facet, so that tips and creases keep theirs. Facets without area have the mean of all.
 std::vector<std::array<Vec3, 3>> corner_normals(std::span<const Vec3> points,
@@ -29,8 +32,6 @@ public:
     [[nodiscard]] Place closest(const Vec3& p) const;
     /// Move points to the exact surface; nothing happens without one.
     void make_exact(std::span<Vec3> points, const RunContext& context) const;
-    /// Whether closest points of points in the face are these points.
-    [[nodiscard]] bool is_plane() const { return plane_; }
 
 private:
     FineFacets facets_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/surface/size_field.h>
 #include <lacuna/topology/open_volume.h>
 
 #include <string>
@@ -18,5 +19,12 @@ struct DefaultSize {
 /// rims' box are replaced by sides of that length.
 /// @note  O(points on the rims).
 DefaultSize default_size(const topology::OpenVolume& volume);
+
+/// A field of constant value.
+SizeField even_size(double length);
+
+/// A field that refuses values that are not positive lengths, before any division by them.
+/// @throw InvalidInput "sweep.size"  by the field, names the option.
+SizeField checked_size(const SizeField& field, const std::string& option);
 
 } // namespace lacuna::surface

@@ -18,12 +18,6 @@ struct FixedFace {
     std::vector<Quad> quads; ///< in `nodes`; a triangle repeats its last corner
 };
 
-/// Target length of the triangles' sides.
-struct SkinSize {
-    double size = 0; ///< > 0 [model length]
-    SizeField at{};  ///< sizes by place, instead of `size`; may be empty
-};
-
 /// A meshed skin, and the face of each of its cells.
 struct SkinMesh {
     mesh::ClosedSkin skin;
@@ -44,13 +38,15 @@ struct SkinMesh {
 /// requested size. Sizes grow by `kGrading` away from these places and from the nodes of fixed faces.
 ///
 /// Facets of a face that turn by more than `kCreaseAngle` keep the crease between them.
+/// @param size  target length of the triangles' sides [model length]
 /// @pre   the faces of the model are oriented outward.
 /// @post  vertices and given nodes are kept bit for bit.
-/// @throw InvalidInput "surface.skin_open"  an edge is not used twice; names it. Those of
-///        `topology::give_mesh()` for the fixed faces. BackendError "surface.skin_folds" or
+/// @throw InvalidInput "surface.skin_open"  an edge is not used twice; names it. "sweep.size"  a size is not
+///        a positive length. Those of `topology::give_mesh()` for the fixed faces. NotSweepable
+///        "surface.skin_count"  more than 1e7 triangles are needed. "surface.skin_folds",
 ///        "surface.skin_crosses"  triangles fold or cross at this size; names the faces. Cancelled
 /// @note  Deterministic for any number of threads. O(n log n) in facets and triangles.
-SkinMesh triangulate_skin(const topology::Model& model, const SkinSize& size,
+SkinMesh triangulate_skin(const topology::Model& model, const SizeField& size,
                           std::span<const FixedFace> fixed = {}, const RunContext& context = {});
 
 } // namespace lacuna::surface

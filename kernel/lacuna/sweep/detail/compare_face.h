@@ -4,6 +4,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/mesh/hex_mesh.h>
 #include <lacuna/mesh/layered_nodes.h>
+#include <lacuna/mesh/tet_mesh.h>
 #include <lacuna/surface/shared/face_shape.h>
 #include <lacuna/sweep/fidelity.h>
 
@@ -42,12 +43,16 @@ struct DeviationLimit {
     bool folds = true;
 };
 
+/// The same for tetrahedra and pyramids, whose skin has triangles too.
+Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::size_t face_count);
+
 /// Compare a face with its quads.
+/// @param mesh  tells whether a deviating side runs from layer to layer; null: there are no layers.
 /// @param sign  -1 if the faces of the model look inward, else 1.
 /// @throw Cancelled
 /// @note  Deterministic for any thread count. Near linear in quads and facets if they are close to each
 ///        other.
-FaceFidelity compare_face(const mesh::HexMesh& mesh, const Skin& skin, const SkinOfFace& quads,
+FaceFidelity compare_face(const mesh::HexMesh* mesh, const Skin& skin, const SkinOfFace& quads,
                           surface::FaceShape shape, double sign, const DeviationLimit& limit,
                           const RunContext& context);
 

@@ -21,10 +21,6 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
 /// The same for regions that may have an odd number of sides.
 quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
 
-/// A field that refuses values that are not positive lengths, before any division by them.
-/// @throw InvalidInput  by the field, names the option.
-surface::SizeField checked_size(const surface::SizeField& field, const std::string& option);
-
 /// The requested or default size, reduced by the shape, and reduced everywhere if the volume plan requires
 /// it.
 /// @throw InvalidInput  a size that is not a positive length; too many cells to number. @throw Cancelled

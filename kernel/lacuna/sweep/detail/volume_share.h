@@ -24,9 +24,6 @@ bool sizes_by_default(const SweepOptions& options);
 /// no neighbour has nodes on the rims.
 bool may_divide_rims(const topology::OpenVolume& volume, const SweepOptions& options);
 
-/// A size field of constant value.
-surface::SizeField even_size(double length);
-
 /// The relative volume that a mesh loses against the sealed volume.
 double volume_lost(const Fidelity& fidelity);
 

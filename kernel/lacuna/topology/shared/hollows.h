@@ -9,6 +9,14 @@
 
 namespace lacuna::topology {
 
+/// Whether each part of a skin lies inside an odd number of the others. @note O(facets · parts)
+std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
+                              const RunContext& context = {});
+
+/// Orient a closed skin away from the volume: parts around voids in it face these.
+/// @pre  the faces of each part are oriented consistently.
+void orient_skin(Model& model, const RunContext& context = {});
+
 /// Faces of a solid around a hollow.
 struct Hollow {
     std::vector<FaceId> faces; ///< ascending

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// Makes a patch of the skin for each face that has cells, with the user's groups.
+class FacePatches {
+public:
+    FacePatches(const topology::OpenVolume& volume, std::vector<mesh::SkinPatch>& patches);
+
+    /// The patch of a face.
+    Index of(FaceId face);
+    /// The face of each patch.
+    [[nodiscard]] const std::vector<FaceId>& faces() const { return faces_; }
+
+private:
+    const topology::Model& model_;
+    std::vector<mesh::SkinPatch>& patches_;
+    std::vector<std::vector<std::string>> groups_; ///< for each face
+    std::vector<FaceId> faces_;
+    std::map<FaceId, Index> known_;
+};
+
+} // namespace lacuna::sweep
