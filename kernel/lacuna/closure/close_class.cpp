@@ -10,6 +10,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -233,7 +234,7 @@ Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass v
         close_class_five(volume, tools, closure);
         break;
     }
-    if (enclosed_volume(volume) < 0) flip_faces(volume.model, all_faces(volume.model));
+    orient_skin(volume.model, tools.context);
     return closure;
 }
 

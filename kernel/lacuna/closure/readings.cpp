@@ -8,6 +8,7 @@
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/segment.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -90,6 +91,7 @@ Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const Ru
     if (filled && !filled->channel) {
         reading.volume = std::move(filled->volume);
         reading.closure = std::move(filled->closure);
+        orient_skin(reading.volume.model, context);
         reading.enclosed = enclosed_volume(reading.volume);
     }
     double area = 0;

@@ -161,7 +161,8 @@ void add_pieces(std::vector<Part>& parts, const Member& asked, const std::string
     }
 }
 
-/// Add a volume, or the pieces that it has to be cut into. @param name, whole  as above
+/// Add a volume, or the pieces that it has to be cut into; without such pieces it can only be filled with
+/// tetrahedra. @param name, whole  as above
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
                const std::string& whole, const RunContext& context)
 {
@@ -170,7 +171,13 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
         parts.push_back({&asked, name, volume, nullptr});
         return;
     }
-    add_pieces(parts, asked, name, whole, closure::cut_into_pieces(volume.volume, context));
+    try {
+        add_pieces(parts, asked, name, whole, closure::cut_into_pieces(volume.volume, context));
+    } catch (const NotSweepable& error) {
+        if (asked.options.fallback != sweep::Fallback::mixed) throw;
+        parts.push_back({&asked, name, volume, nullptr});
+        parts.back().volume.no_roles = error.message();
+    }
 }
 
 /// Run `what` on a volume of an assembly. If it fails and the volume may be left out, record that.

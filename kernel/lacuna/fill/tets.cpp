@@ -9,7 +9,6 @@
 #include <lacuna/quality/shared/prove_cells.h>
 #include <lacuna/surface/shared/default_size.h>
 #include <lacuna/sweep/shared/face_patches.h>
-#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/skin_groups.h>
 
 #include <algorithm>
@@ -171,8 +170,7 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
     FilledTets tets;
     tets.region = what.region;
     tets.report.push_back(formatted("fallback: filled with tetrahedra, because {}", what.why.text()));
-    OpenVolume volume = *what.volume;
-    orient_skin(volume.model, context);
+    const OpenVolume& volume = *what.volume;
     const surface::DefaultSize size = surface::default_size(volume);
     if (!options.size) tets.report.push_back(formatted("size: {:.3g}, {}", size.length, size.why));
     tell_idle_options(options, tets, context);
