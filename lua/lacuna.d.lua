@@ -375,7 +375,7 @@ function Volume:sweep_to(path, options) end
 function Volume:write_facets(path, options) end
 --- The sealed volume as one CAD solid: given CAD faces exact, void faces as planes or fitted surfaces.
 ---@param path string .step, .stp or .brep
----@param options? { tolerance: number, deviation: number, cad_seconds: number, cad_megabytes: number } gaps sewn up [model length]; how far the solid's volume may be from the facets' (default 0.05)
+---@param options? { tolerance?: number, deviation?: number, cad_seconds?: number, cad_megabytes?: number } gaps sewn up [model length]; how far the solid's volume may be from the facets' (default 0.05)
 ---@return { volume: number, faces: integer, planes: integer, fitted: integer, tolerance: number }
 function Volume:write_cad(path, options) end
 
@@ -511,10 +511,18 @@ function Assembly:sweep_to(path, options) end
 ---@class lacuna.AssemblyReport: lacuna.Report
 ---@field near_misses lacuna.NearMiss[]
 
+--- Sums over the volumes of an assembly, and each volume's.
+---@class lacuna.AssemblyFidelity
+---@field volume number of the cells [model length³]
+---@field sealed_volume number [model length³]
+---@field max_distance number [model length]
+---@field mean_distance number [model length]
+---@field regions table<string, lacuna.Fidelity>
+
 --- The mesh of an assembly, a region each.
 ---@class lacuna.AssemblyMesh
 ---@field left_out lacuna.LeftOut[] volumes and pieces that `fallback = "leave_out"` left out
----@field fidelity { volume: number, sealed_volume: number, max_distance: number, mean_distance: number, regions: table<string, lacuna.Fidelity> }
+---@field fidelity lacuna.AssemblyFidelity
 ---@field nodes integer
 ---@field hexes integer
 ---@field wedges integer

@@ -263,6 +263,12 @@ lacuna_status lacuna_set_numbers(lacuna_interpreter* interpreter, const char* pa
     return guarded(interpreter, [&](lacuna::Interpreter& own) { own.set_numbers(path, numbers, count); });
 }
 
+lacuna_status lacuna_set_function(lacuna_interpreter* interpreter, const char* path, lacuna_function function,
+                                  void* user)
+{
+    return guarded(interpreter, [&](lacuna::Interpreter& own) { own.set_function(path, function, user); });
+}
+
 lacuna_status lacuna_get_type(lacuna_interpreter* interpreter, const char* path, lacuna_type* type)
 {
     return guarded(interpreter, [&](lacuna::Interpreter& own) {

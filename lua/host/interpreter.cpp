@@ -163,6 +163,7 @@ struct Interpreter::State {
     static int handle_message(lua_State* L);
     static int open(lua_State* L);
     static int print(lua_State* L);
+    static int call_host(lua_State* L);
 
     /// Run a callback. An exception is stored, and stops the run.
     template <class Body>
@@ -303,6 +304,28 @@ int Interpreter::State::print(lua_State* L)
     self.call_back([&] { self.options.print({text, length}); });
     if (self.thrown) luaL_error(L, "interrupted");
     return 0;
+}
+
+/// Calls a function of the host. Upvalues: where it and its `user` are, its path.
+int Interpreter::State::call_host(lua_State* L)
+{
+    constexpr int kMost = 16; // numbers in and out; a function of place takes three
+    double arguments[kMost] = {}, results[kMost] = {};
+    const int count = lua_gettop(L);
+    const char* const path = lua_tostring(L, lua_upvalueindex(3));
+    if (count > kMost) lua::fail(L, "%s: a function of the host takes %d numbers at most", path, kMost);
+    for (int i = 0; i < count; ++i) arguments[i] = luaL_checknumber(L, i + 1);
+    const auto function = reinterpret_cast<HostFunction>(lua_touserdata(L, lua_upvalueindex(1)));
+    void* const user = lua_touserdata(L, lua_upvalueindex(2));
+    int made = -1;
+    State& self = of(L);
+    self.call_back(
+        [&] { made = function(user, arguments, static_cast<std::size_t>(count), results, kMost); });
+    if (self.thrown) luaL_error(L, "interrupted");
+    if (made < 0 || made > kMost)
+        lua::fail_as(L, "lua.host_function", "the host's function '%s' failed", path);
+    for (int i = 0; i < made; ++i) lua_pushnumber(L, results[i]);
+    return made;
 }
 
 Interpreter::State::State(InterpreterOptions asked) : options(std::move(asked))
@@ -544,6 +567,20 @@ void Interpreter::set_numbers(const std::string& path, const double* numbers, st
             lua_pushnumber(L, numbers[i]);
             lua_rawseti(L, -2, static_cast<lua_Integer>(i) + 1);
         }
+        lua_settable(L, -3);
+    });
+}
+
+void Interpreter::set_function(const std::string& path, HostFunction function, void* user)
+{
+    State& self = *state_;
+    const State::Visit visit(self);
+    self.protect([&](lua_State* L) {
+        push_path(L, path.c_str(), true);
+        lua_pushlightuserdata(L, reinterpret_cast<void*>(function));
+        lua_pushlightuserdata(L, user);
+        lua_pushstring(L, path.c_str());
+        lua_pushcclosure(L, State::call_host, 3);
         lua_settable(L, -3);
     });
 }

@@ -62,6 +62,11 @@ typedef struct lacuna_options {
     int threads;               /* default number of threads of a sweep; 0: all cores */
 } lacuna_options;
 
+/* A function of the host that recipes call with `count` numbers, 16 at most: a size function, for example.
+ * Returns how many of the `room` for results it has set. Below 0: it failed, an error of the recipe. */
+typedef int (*lacuna_function)(void* user, const double* arguments, size_t count, double* results,
+                               size_t room);
+
 typedef struct lacuna_buffer {
     const void* data; /* rows × columns numbers, row by row */
     size_t rows, columns;
@@ -105,6 +110,9 @@ LACUNA_API lacuna_status lacuna_set_string(lacuna_interpreter* interpreter, cons
                                            const char* text, size_t length);
 LACUNA_API lacuna_status lacuna_set_numbers(lacuna_interpreter* interpreter, const char* path,
                                             const double* numbers, size_t count);
+/* The function is called on the thread that runs the recipe. */
+LACUNA_API lacuna_status lacuna_set_function(lacuna_interpreter* interpreter, const char* path,
+                                             lacuna_function function, void* user);
 
 /* Fail if the value has another type; an integer is a number too. */
 LACUNA_API lacuna_status lacuna_get_type(lacuna_interpreter* interpreter, const char* path,

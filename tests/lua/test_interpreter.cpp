@@ -303,6 +303,39 @@ TEST_CASE("from C: values, buffers, errors and their entities, and no exception 
     lacuna_close(refused);
 }
 
+TEST_CASE("from C: a recipe calls a function of the host, whose failure is an error of the recipe")
+{
+    lacuna_interpreter* const handle = lacuna_open(nullptr);
+    REQUIRE(handle);
+    int calls = 0;
+    const auto size = [](void* user, const double* place, size_t count, double* results, size_t room) {
+        ++*static_cast<int*>(user);
+        if (count != 3 || room < 2) return -1;
+        results[0] = 0.25 + 0.001 * place[2];
+        results[1] = place[0];
+        return 2;
+    };
+    CHECK(lacuna_run_string(handle, "job = {}", 8, nullptr) == LACUNA_OK);
+    CHECK(lacuna_set_function(handle, "job.size", size, &calls) == LACUNA_OK);
+    const auto status = [&](const std::string& text) {
+        return lacuna_run_string(handle, text.data(), text.size(), nullptr);
+    };
+    CHECK(status("a, b, c = job.size(7, 8, 1000)\nassert(a == 1.25 and b == 7 and c == nil)") == LACUNA_OK);
+    CHECK(calls == 1);
+    CHECK(
+        status(kBox + std::string("assert(void:sweep { layers = 1, size = job.size }.hexes > mesh.hexes)")) ==
+        LACUNA_OK);
+    CHECK(calls > 1);
+    CHECK(status("job.size(1)") == LACUNA_FAILED);
+    CHECK(std::string(lacuna_error_code(handle)) == "lua.host_function");
+    CHECK(std::string(lacuna_error_message(handle)) == "the host's function 'job.size' failed");
+    CHECK(status("job.size('a', 2, 3)") == LACUNA_FAILED);
+    CHECK(status("job.size(table.unpack({}, 1, 17))") == LACUNA_FAILED);
+    CHECK(status("return pcall(job.size, 1)") == LACUNA_OK);
+    CHECK(lacuna_set_function(handle, "nowhere.size", size, &calls) == LACUNA_FAILED);
+    lacuna_close(handle);
+}
+
 TEST_CASE("interpreters come and go, eight at once, and leave no memory behind")
 {
     // LACUNA_INTERPRETERS=10000 is the long way; the first hundred fill the allocator's own stores.

@@ -57,6 +57,11 @@ public:
     std::string traceback;
 };
 
+/// A function of the host for recipes: takes `count` numbers, sets at most `room` results, returns how many.
+/// Below 0: it failed, an error of the recipe. An exception stops the run, which rethrows it.
+using HostFunction = int (*)(void* user, const double* arguments, std::size_t count, double* results,
+                             std::size_t room);
+
 /// A view of numbers of a recipe, as returned by `mesh:coordinates()` and `mesh:cells()`.
 struct BufferView {
     enum class Type { float64, int32 };
@@ -100,6 +105,7 @@ public:
     /// @throw ScriptError  the path leads through a value without fields, or (get_…, buffer) to no value.
     void set(const std::string& path, const Value& value);
     void set_numbers(const std::string& path, const double* numbers, std::size_t count); ///< as an array
+    void set_function(const std::string& path, HostFunction function, void* user);
     Value get(const std::string& path);
     /// The type of a value: "nil", "number", "table"… or a class of Lacuna: "Mesh", "Buffer".
     std::string type_of(const std::string& path);

@@ -1,0 +1,1058 @@
+# SPDX-License-Identifier: MIT
+# Made by python/generate.py from lua/lacuna.d.lua.
+"""Classes and functions, as lacuna.d.lua has them."""
+from ._objects import AnyMesh, Object, Shown, Table, call, classes, loaded, options_of, shaped
+
+__all__ = [
+        "ModelInfo", "FaceInfo", "Cavity", "Classification", "Match", "Closure", "FreeEdge", "LeftOut",
+        "Fidelity", "FaceFidelity", "AssemblyFidelity", "WorstCell", "MetricSummary", "Model", "Face",
+        "Volume", "Mesh", "Assembly", "AssemblyMesh", "Quality", "load", "model", "assembly", "check",
+        "convert", "view",
+]
+
+
+class ModelInfo(Table):
+    """source: str
+    diagonal: float; [model length]
+    tolerance: float; [model length]
+    parts: int; sets of faces that hang together
+    closed_parts: int; those without free edges
+    faces: list[FaceInfo]
+    free_edges: list[Table]
+    gaps: list[Table]; with the tolerance that sews each
+    cavities: list[Cavity]
+    """
+
+    __slots__ = ()
+    _shapes = {'faces': ('list', ('of', 'FaceInfo')), 'cavities': ('list', ('of', 'Cavity'))}
+
+
+class FaceInfo(Table):
+    """tag: int; the one Gmsh shows for the same file
+    name: str
+    kind: str
+    area: float; [model length²]
+    normal: list[float]; mean unit normal; zero all round a tube
+    centroid: list[float]
+    loops: int
+    edges: int
+    has_mesh: bool
+    radius: float; of the cylinder or sphere that its facets lie on [model length]
+    axis: list[float]; of that cylinder
+    box: list[list[float]]; its lowest and highest coordinates
+    neighbours: list[int]; tags of faces that share an edge with it
+    fits: "cylinder" | "sphere" | "cone"; what its facets lie on
+    centre: list[float]; of that cylinder or sphere
+    apex: list[float]; tip of that cone, whose axis leads from it
+    half_angle: float; between axis and surface of that cone [degrees]
+    least_radius: float; of the face on that cone [model length]
+    largest_radius: float; of the face on that cone [model length]
+    free_edges: int; how many
+    part: int; of the sets of faces that hang together
+    cavity: int; a number in `cavities`
+    use: str; a kind of cavity, "outer skin" or "open shell"
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class Cavity(Table):
+    """kind: "pocket" | "bore" | "slot" | "inner void"
+    faces: list[int]; tags, for open_volume(faces=…)
+    class_: Class
+    volume: float; once it is sealed [model length³]
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class Classification(Table):
+    """class_: Class
+    free_loops: int
+    wall_free_source: list[int]; tags of vertices on no wall
+    wall_free_target: list[int]
+    reasons: list[str]
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class Match(Table):
+    """loops: list[Table]
+    vertices: list[list[int]]; tags: source, target
+    method: str
+    confidence: float; 0 to 1
+    notes: list[str]
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class Closure(Table):
+    """void_edges: int; how many were made
+    void_faces: int
+    void_edge_tags: list[int]
+    void_face_tags: list[int]
+    watertight: bool
+    algorithms: list[str]; of the paper, in the order used
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class FreeEdge(Table):
+    """tag: int
+    from_: int; tag of a vertex
+    to: int
+    length: float; [model length]
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class LeftOut(Table):
+    """region: str
+    code: str; the error's
+    message: str
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class Fidelity(Table):
+    """The mesh's skin against the sealed skin.
+
+    volume: float; of the cells [model length³]
+    sealed_volume: float; [model length³]
+    max_distance: float; [model length]
+    mean_distance: float; [model length]
+    faces: dict[int | str, FaceFidelity]; by tag, void faces by "void:<n>"
+    """
+
+    __slots__ = ()
+    _shapes = {'faces': ('map', ('of', 'FaceFidelity'))}
+
+
+class FaceFidelity(Table):
+    """quads: int; of the skin that lie on it
+    max_distance: float; [model length]; of a face without quads its width
+    mean_distance: float; [model length]
+    place: list[float]; where skin and face are furthest apart
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class AssemblyFidelity(Table):
+    """Sums over the volumes of an assembly, and each volume's.
+
+    volume: float; of the cells [model length³]
+    sealed_volume: float; [model length³]
+    max_distance: float; [model length]
+    mean_distance: float; [model length]
+    regions: dict[str, Fidelity]
+    """
+
+    __slots__ = ()
+    _shapes = {'regions': ('map', ('of', 'Fidelity'))}
+
+
+class WorstCell(Table):
+    """cell: int
+    layer: int
+    centre: list[float]
+    scaled_jacobian: float
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class MetricSummary(Table):
+    """name: MetricName
+    cells: int; cells for which it is defined
+    min: float
+    mean: float
+    max: float
+    deviation: float
+    acceptable: list[float]; after Cubit; None where it depends on the job
+    outside: int; cells outside the acceptable range
+    outside_share: float; of all cells, 0 to 1
+    worst: Table
+    """
+
+    __slots__ = ()
+    _shapes = {}
+
+
+class Model(Shown):
+    __slots__ = ()
+    _at_once = False
+
+    @property
+    def tolerance(self):
+        """[model length]"""
+        return self._field("tolerance")
+
+    @property
+    def diagonal(self):
+        """[model length]"""
+        return self._field("diagonal")
+
+    def faces(self, selector=None, /, **keywords):
+        """tags: int | list[int]
+        name: str; a physical group, a part (`pid:7`), an element set
+        kind: "plane" | "cylinder" | "cone" | "sphere" | "torus" | "bspline" | "surface" | "discrete"
+        facing: Vector; the mean normal within 30 degrees of it
+        normal_within: float; instead of the 30 degrees of `facing`
+        near: Vector; the one closest face
+        within: float; all faces that close to `near` instead [model length]
+        box: list[Vector]; two corners of a box that all of the face lies in
+        touching: Face | int | str; a face it shares an edge with
+        region: str; the solid, part or set it bounds
+        free: bool; whether it bounds one region alone
+        radius: list[float]; smallest and largest, of parts of cylinders and spheres [model length]
+        area: list[float]; smallest and largest [model length²]
+        """
+        return self._method("faces", options_of(selector, keywords))
+
+    def face(self, which=None, /, **keywords):
+        """Exactly one; none or several is an error that lists the candidates.
+
+        tags: int | list[int]
+        name: str; a physical group, a part (`pid:7`), an element set
+        kind: "plane" | "cylinder" | "cone" | "sphere" | "torus" | "bspline" | "surface" | "discrete"
+        facing: Vector; the mean normal within 30 degrees of it
+        normal_within: float; instead of the 30 degrees of `facing`
+        near: Vector; the one closest face
+        within: float; all faces that close to `near` instead [model length]
+        box: list[Vector]; two corners of a box that all of the face lies in
+        touching: Face | int | str; a face it shares an edge with
+        region: str; the solid, part or set it bounds
+        free: bool; whether it bounds one region alone
+        radius: list[float]; smallest and largest, of parts of cylinders and spheres [model length]
+        area: list[float]; smallest and largest [model length²]
+        """
+        return self._method("face", options_of(which, keywords) if keywords else which)
+
+    def face_from(self, near, **keywords):
+        """A face grown from the facet closest to a place, taken out of the faces it goes over.
+
+        near: Vector; the facet closest to it is where the face begins [model length]
+        angle: float; the face goes on over sides that turn by no more [degrees]; default 20
+        region: str; only over faces that bound it
+        free: bool; only over faces that bound one region alone, or two
+        """
+        return self._method("face_from", options_of(None, keywords, near=near))
+
+    def add_face(self, points, cells, **keywords):
+        """name: str
+        points: list[Vector]
+        cells: list[list[int]]; triangles and quads: numbers of points from 1
+        keep_mesh: bool; quads are a mesh to be kept, not mere facets; default False
+        """
+        return self._method("add_face", options_of(None, keywords, points=points, cells=cells))
+
+    def open_volume(self, roles=None, /, **keywords):
+        """source: FaceRefs
+        target: FaceRefs
+        walls: FaceRefs | "auto"; "auto": the source's cavity in a solid, else all that hangs on its rim
+        faces: FaceRefs; instead of roles: these faces make the volume, and their roles are found
+        reading: int; with roles to be found: which of the voids that were found, from 1
+        full_turn: bool; the walls are a ring, swept round its whole turn; no ends; default False
+        class_: Class; override
+        name: str; what the cells are called: their group, set or property in files; default "volume"
+        material: str | int; of the cells, in decks; default: as the elements beside them
+        """
+        return self._method("open_volume", options_of(roles, keywords))
+
+    def describe(self):
+        """Faces, free edges, gaps and cavities, in words."""
+        return self._method("describe")
+
+    def info(self):
+        """The same as a table."""
+        return shaped(self._method("info"), ('of', 'ModelInfo'))
+
+    def cavities(self):
+        """Pockets, bores and inner voids of closed skins."""
+        return shaped(self._method("cavities"), ('list', ('of', 'Cavity')))
+
+    def view(self, path, options=None, /, **keywords):
+        """A page for a browser: the faces, labelled, to be clicked for the roles of a recipe.
+
+        path: .html
+        title: str; default: what the input is called
+        """
+        self._method("view", path, options_of(options, keywords))
+
+    def picture(self, path, options=None, /, **keywords):
+        """path: .png
+        width: int; default 1200 [pixels]
+        height: int; default 900 [pixels]
+        facets: bool; sides of the facets are drawn; default False
+        legend: bool; a title, and what the colours mean; default True
+        title: str; default what is shown, counted
+        view: Vector | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
+            the eye; default "iso"
+        """
+        self._method("picture", path, options_of(options, keywords))
+
+
+class Face(Object):
+    __slots__ = ()
+
+    @property
+    def tag(self):
+        """the one Gmsh shows for the same file"""
+        return self._field("tag")
+
+    @property
+    def name(self):
+        return self._field("name")
+
+    @property
+    def kind(self):
+        return self._field("kind")
+
+    @property
+    def area(self):
+        """[model length²]"""
+        return self._field("area")
+
+    @property
+    def normal(self):
+        """mean unit normal; zero all round a tube"""
+        return self._field("normal")
+
+    @property
+    def centroid(self):
+        return self._field("centroid")
+
+    @property
+    def loops(self):
+        return self._field("loops")
+
+    @property
+    def edges(self):
+        return self._field("edges")
+
+    @property
+    def has_mesh(self):
+        return self._field("has_mesh")
+
+    @property
+    def radius(self):
+        """of the cylinder or sphere that its facets lie on [model length]"""
+        return self._field("radius")
+
+    @property
+    def axis(self):
+        """of that cylinder"""
+        return self._field("axis")
+
+    @property
+    def box(self):
+        """its lowest and highest coordinates"""
+        return self._field("box")
+
+    @property
+    def neighbours(self):
+        """tags of faces that share an edge with it"""
+        return self._field("neighbours")
+
+
+class Volume(Shown):
+    __slots__ = ()
+
+    @property
+    def class_(self):
+        """as the volume was given"""
+        return self._field("class")
+
+    def classify(self):
+        return shaped(self._method("classify"), ('of', 'Classification'))
+
+    def override_class(self, class_):
+        return self._method("override_class", class_)
+
+    def match(self, options=None, /, **keywords):
+        """vertices: list[list[int]]; tags: source, target
+        loops: list[list[int]]; numbers: source, target
+        flip: list[int]; source loops whose direction on the target is turned round
+        method: "aligned" | "nearest"; default "aligned"
+        """
+        return shaped(self._method("match", options_of(options, keywords)), ('of', 'Match'))
+
+    def close(self, options=None, /, **keywords):
+        """edge_shape: "auto" | "straight" | "follow" | "smooth"; how a void edge runs; default "auto"
+        void_edges: list[list[int | list[Vector]]]; given by hand: vertex tags from and to, points between
+        cap: "auto" | "flat" | "parallel"; shape of a missing end; default "auto"
+        holes: "cover" | "through"; holes of a given end that have no walls; without it an error where the
+            other end is missing
+        """
+        return shaped(self._method("close", options_of(options, keywords)), ('of', 'Closure'))
+
+    def is_watertight(self):
+        return self._method("is_watertight")
+
+    def free_edges(self):
+        return shaped(self._method("free_edges"), ('list', ('of', 'FreeEdge')))
+
+    def tree(self):
+        return self._method("tree")
+
+    def describe(self):
+        return self._method("describe")
+
+    def view(self, path, options=None, /, **keywords):
+        """A page for a browser: roles, void faces, free edges and vertices on no wall.
+
+        path: .html
+        title: str; default: what the input is called
+        """
+        self._method("view", path, options_of(options, keywords))
+
+    def picture(self, path, options=None, /, **keywords):
+        """path: .png
+        width: int; default 1200 [pixels]
+        height: int; default 900 [pixels]
+        facets: bool; sides of the facets are drawn; default False
+        legend: bool; a title, and what the colours mean; default True
+        title: str; default what is shown, counted
+        view: Vector | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
+            the eye; default "iso"
+        """
+        self._method("picture", path, options_of(options, keywords))
+
+    def cut(self, options=None, /, **keywords):
+        """By a plane or a face: the pieces, which share what was cut. Without options: the pieces of a volume
+        with branches, or one of whose ends lies at several heights; itself where it has neither.
+
+        plane: list[Vector]; point and normal
+        face: FaceRef; a Face of any model, or one of the volume's own
+        auto: bool; where pieces result that can be swept
+        """
+        return self._method("cut", options_of(options, keywords))
+
+    def model(self):
+        """The volume's faces, void ones included."""
+        return self._method("model")
+
+    def sweep(self, options=None, /, **keywords):
+        """Closes first where the recipe did not. A volume with steps is cut into pieces and meshed as an
+        assembly.
+
+        layers: int | list[float] | dict; a count, rising heights in (0, 1] or a spacing; default as the
+            walls' own meshes have rows, else about as high as the quads are wide
+        size: float | Callable[[float, float, float], float]; edge length on the source; default: the rim's
+            spacing
+        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
+        gap: int; quads asked for across a narrow place of the source; default: none, 3 where there is no size
+        max_deviation: float; how far the skin may be from the sealed skin [model length]; default: a quarter
+            of a quad's side
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
+            face was meshed
+        fallback: "wedges" | "leave_out" | "mixed"; what becomes of a volume that cannot be hexahedra alone;
+            default: an error
+        wedges: bool; triangles that an end came with stay, with wedges on them; default False: quads among
+            triangles are an error
+        rows: int; rows of quads from every loop of the source that stay as they are laid; default: what the
+            paver finds good
+        row_height: float | Callable[[float, float, float], float]; of those rows (one at least); default: the
+            size
+        boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
+        intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
+        order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+        serendipity: bool; with order 2: hex20 instead of hex27; default False
+        min_scaled_jacobian: float; below it the mesh is refused; default 0
+        improve: bool | dict; default True; iterations of each descent, 60
+        interior: "auto" | "affine" | "residual" | "normals"; how layers are placed; all but "auto" for
+            comparison
+        threads: int; default: all cores
+
+        A dict for `layers` has:
+        count: int
+        bias: float; last over first layer height (geometric), middle over end (bell), end over middle
+            (both_ends)
+        mode: "geometric" | "bell" | "both_ends"; default "geometric"
+
+        A dict for `boundary_layers` has:
+        walls: FaceRefs; walls and ends; "walls": all walls, "void:<n>": a void face
+        first: float; thickness of the cells at the face, square to it [model length]
+        growth: float; thickness of each row over the one before; default 1
+        count: int; rows; default 1
+
+        One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
+        edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+        """
+        return self._method("sweep", options_of(options, keywords))
+
+    def sweep_to(self, path, options=None, /, **keywords):
+        """Sweep and write a layer at a time, in memory that the number of layers hardly matters to: the bytes
+        of sweep(...).write(path). The report has nodes, hexes, wedges, layers, min_scaled_jacobian, streamed,
+        processes (with mpirun) and seconds by stage.
+
+        path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo or .e
+        layers: int | list[float] | dict; a count, rising heights in (0, 1] or a spacing; default as the
+            walls' own meshes have rows, else about as high as the quads are wide
+        size: float | Callable[[float, float, float], float]; edge length on the source; default: the rim's
+            spacing
+        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
+        gap: int; quads asked for across a narrow place of the source; default: none, 3 where there is no size
+        max_deviation: float; how far the skin may be from the sealed skin [model length]; default: a quarter
+            of a quad's side
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
+            face was meshed
+        fallback: "wedges" | "leave_out" | "mixed"; what becomes of a volume that cannot be hexahedra alone;
+            default: an error
+        wedges: bool; triangles that an end came with stay, with wedges on them; default False: quads among
+            triangles are an error
+        rows: int; rows of quads from every loop of the source that stay as they are laid; default: what the
+            paver finds good
+        row_height: float | Callable[[float, float, float], float]; of those rows (one at least); default: the
+            size
+        boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
+        intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
+        order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+        serendipity: bool; with order 2: hex20 instead of hex27; default False
+        min_scaled_jacobian: float; below it the mesh is refused; default 0
+        improve: bool | dict; default True; iterations of each descent, 60
+        interior: "auto" | "affine" | "residual" | "normals"; how layers are placed; all but "auto" for
+            comparison
+        threads: int; default: all cores
+        write: dict; how the file is written; default as mesh.write
+
+        A dict for `layers` has:
+        count: int
+        bias: float; last over first layer height (geometric), middle over end (bell), end over middle
+            (both_ends)
+        mode: "geometric" | "bell" | "both_ends"; default "geometric"
+
+        A dict for `boundary_layers` has:
+        walls: FaceRefs; walls and ends; "walls": all walls, "void:<n>": a void face
+        first: float; thickness of the cells at the face, square to it [model length]
+        growth: float; thickness of each row over the one before; default 1
+        count: int; rows; default 1
+
+        One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
+        edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+        """
+        return self._method("sweep_to", path, options_of(options, keywords))
+
+    def write_facets(self, path, options=None, /, **keywords):
+        """The facets of the sealed volume, watertight and outward.
+
+        path: .stl, .msh or .obj
+        binary: bool
+        groups: "one" | "all"
+        """
+        self._method("write_facets", path, options_of(options, keywords))
+
+    def write_cad(self, path, options=None, /, **keywords):
+        """The sealed volume as one CAD solid: given CAD faces exact, void faces as planes or fitted surfaces.
+
+        path: .step, .stp or .brep
+        tolerance: float
+        deviation: float
+        cad_seconds: float
+        cad_megabytes: float
+        """
+        return self._method("write_cad", path, options_of(options, keywords))
+
+
+class Mesh(AnyMesh):
+    __slots__ = ()
+
+    @property
+    def left_out(self):
+        """none"""
+        return shaped(self._field("left_out"), ('list', ('of', 'LeftOut')))
+
+    @property
+    def fidelity(self):
+        return shaped(self._field("fidelity"), ('of', 'Fidelity'))
+
+    @property
+    def nodes(self):
+        return self._field("nodes")
+
+    @property
+    def hexes(self):
+        return self._field("hexes")
+
+    @property
+    def wedges(self):
+        return self._field("wedges")
+
+    @property
+    def pyramids(self):
+        return self._field("pyramids")
+
+    @property
+    def tets(self):
+        return self._field("tets")
+
+    @property
+    def layers(self):
+        return self._field("layers")
+
+    @property
+    def order(self):
+        return self._field("order")
+
+    @property
+    def regions(self):
+        """the one volume's name"""
+        return self._field("regions")
+
+    @property
+    def report(self):
+        return self._field("report")
+
+    def quality(self):
+        return self._method("quality")
+
+    def groups(self):
+        return self._method("groups")
+
+    def node(self, i):
+        return self._method("node", i)
+
+    def wedge(self, i):
+        """Returns ... six numbers of nodes"""
+        return self._method("wedge", i)
+
+    def hex(self, i):
+        """Eight node numbers, Gmsh order."""
+        return self._method("hex", i)
+
+    def coordinates(self):
+        """Of every node x, y, z, as they lie in memory."""
+        return self._array("coordinates")
+
+    def cells(self, kind=None):
+        """Of every cell the numbers of its nodes, from 1; of order 2 the middle nodes too, in VTK's order.
+
+        kind: default "hex"
+        """
+        return self._array("cells", kind)
+
+    def write(self, path, options=None, /, **keywords):
+        """path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, or a folder called polyMesh
+        version: float
+        binary: bool
+        quality: bool | MetricName | list[MetricName]; metrics that go along for every cell, as $ElementData
+            or cell arrays; True: the scaled Jacobian; default True, but False for version 2.2
+        with_: Model | list[Model]; loaded from finite element meshes, that the mesh is joined to; the
+            volume's first
+        without: str | int | list[str | int]; regions, properties, sets or parts of these models that are left
+            out
+        renumber: bool; numbers and names that several decks have in common become others; default False
+        first_node: int; of decks and with a model; default above all that are taken
+        first_cell: int; likewise
+        element: str; Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
+        groups: "one" | "all"; of .msh: whether cells are in one physical group or in all of theirs, which
+            overlap; default "one"
+        gmsh_options: bool; of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and
+            groups; default False
+        interfaces: bool; of an assembly: quads between its volumes are elements too; default False
+        partitions: int | "processes"; of .pvtu and .msh: parts; of .pvtu default as many as processes
+        ghosts: int; rows of other parts' cells that are marked as each part's ghosts; default 0
+        """
+        self._method("write", path, options_of(options, keywords))
+
+    def view(self, path, options=None, /, **keywords):
+        """A page for a browser: the mesh, to be turned, cut and coloured.
+
+        path: .html
+        title: str; default: what the input is called
+        """
+        self._method("view", path, options_of(options, keywords))
+
+    def picture(self, path, options=None, /, **keywords):
+        """Drawn without a display.
+
+        path: .png
+        width: int; default 1200 [pixels]
+        height: int; default 900 [pixels]
+        view: Vector | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
+            the eye; default "iso"
+        colour: "quality" | "layer" | "groups" | "region" | "origin"; default "quality"
+        cut: dict; cells whose centre lies behind the plane are shown whole
+        layers: list[int]; first and last that is shown; default all
+        edges: bool; sides of cells; default True
+        legend: bool; a title, and what the colours mean; default True
+        title: str; default the name of the mesh and its counts
+        """
+        self._method("picture", path, options_of(options, keywords))
+
+
+class Assembly(Object):
+    """Several volumes to be meshed as one."""
+
+    __slots__ = ()
+
+    def sweep(self, options=None, /, **keywords):
+        """Options for all volumes; a dict `{volume: options}` before them lays those of one over them.
+
+        layers: int | list[float] | dict; a count, rising heights in (0, 1] or a spacing; default as the
+            walls' own meshes have rows, else about as high as the quads are wide
+        size: float | Callable[[float, float, float], float]; edge length on the source; default: the rim's
+            spacing
+        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
+        gap: int; quads asked for across a narrow place of the source; default: none, 3 where there is no size
+        max_deviation: float; how far the skin may be from the sealed skin [model length]; default: a quarter
+            of a quad's side
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
+            face was meshed
+        fallback: "wedges" | "leave_out" | "mixed"; what becomes of a volume that cannot be hexahedra alone;
+            default: an error
+        wedges: bool; triangles that an end came with stay, with wedges on them; default False: quads among
+            triangles are an error
+        rows: int; rows of quads from every loop of the source that stay as they are laid; default: what the
+            paver finds good
+        row_height: float | Callable[[float, float, float], float]; of those rows (one at least); default: the
+            size
+        boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
+        intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
+        order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+        serendipity: bool; with order 2: hex20 instead of hex27; default False
+        min_scaled_jacobian: float; below it the mesh is refused; default 0
+        improve: bool | dict; default True; iterations of each descent, 60
+        interior: "auto" | "affine" | "residual" | "normals"; how layers are placed; all but "auto" for
+            comparison
+        threads: int; default: all cores
+
+        A dict for `layers` has:
+        count: int
+        bias: float; last over first layer height (geometric), middle over end (bell), end over middle
+            (both_ends)
+        mode: "geometric" | "bell" | "both_ends"; default "geometric"
+
+        A dict for `boundary_layers` has:
+        walls: FaceRefs; walls and ends; "walls": all walls, "void:<n>": a void face
+        first: float; thickness of the cells at the face, square to it [model length]
+        growth: float; thickness of each row over the one before; default 1
+        count: int; rows; default 1
+
+        One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
+        edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+        """
+        return self._method("sweep", options_of(options, keywords))
+
+    def sweep_to(self, path, options=None, /, **keywords):
+        """Sweep and write a layer at a time, as Volume.sweep_to: the bytes of sweep(...).write(path).
+
+        layers: int | list[float] | dict; a count, rising heights in (0, 1] or a spacing; default as the
+            walls' own meshes have rows, else about as high as the quads are wide
+        size: float | Callable[[float, float, float], float]; edge length on the source; default: the rim's
+            spacing
+        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
+        gap: int; quads asked for across a narrow place of the source; default: none, 3 where there is no size
+        max_deviation: float; how far the skin may be from the sealed skin [model length]; default: a quarter
+            of a quad's side
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
+            face was meshed
+        fallback: "wedges" | "leave_out" | "mixed"; what becomes of a volume that cannot be hexahedra alone;
+            default: an error
+        wedges: bool; triangles that an end came with stay, with wedges on them; default False: quads among
+            triangles are an error
+        rows: int; rows of quads from every loop of the source that stay as they are laid; default: what the
+            paver finds good
+        row_height: float | Callable[[float, float, float], float]; of those rows (one at least); default: the
+            size
+        boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
+        intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
+        order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+        serendipity: bool; with order 2: hex20 instead of hex27; default False
+        min_scaled_jacobian: float; below it the mesh is refused; default 0
+        improve: bool | dict; default True; iterations of each descent, 60
+        interior: "auto" | "affine" | "residual" | "normals"; how layers are placed; all but "auto" for
+            comparison
+        threads: int; default: all cores
+        write: dict; how the file is written; default as mesh.write
+
+        A dict for `layers` has:
+        count: int
+        bias: float; last over first layer height (geometric), middle over end (bell), end over middle
+            (both_ends)
+        mode: "geometric" | "bell" | "both_ends"; default "geometric"
+
+        A dict for `boundary_layers` has:
+        walls: FaceRefs; walls and ends; "walls": all walls, "void:<n>": a void face
+        first: float; thickness of the cells at the face, square to it [model length]
+        growth: float; thickness of each row over the one before; default 1
+        count: int; rows; default 1
+
+        One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
+        edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+        """
+        return self._method("sweep_to", path, options_of(options, keywords))
+
+
+class AssemblyMesh(AnyMesh):
+    """The mesh of an assembly, a region each."""
+
+    __slots__ = ()
+
+    @property
+    def left_out(self):
+        """volumes and pieces that `fallback = "leave_out"` left out"""
+        return shaped(self._field("left_out"), ('list', ('of', 'LeftOut')))
+
+    @property
+    def fidelity(self):
+        return shaped(self._field("fidelity"), ('of', 'AssemblyFidelity'))
+
+    @property
+    def nodes(self):
+        return self._field("nodes")
+
+    @property
+    def hexes(self):
+        return self._field("hexes")
+
+    @property
+    def wedges(self):
+        return self._field("wedges")
+
+    @property
+    def pyramids(self):
+        return self._field("pyramids")
+
+    @property
+    def tets(self):
+        return self._field("tets")
+
+    @property
+    def order(self):
+        return self._field("order")
+
+    @property
+    def layers(self):
+        """by region"""
+        return self._field("layers")
+
+    @property
+    def regions(self):
+        return self._field("regions")
+
+    @property
+    def report(self):
+        return self._field("report")
+
+    def quality(self):
+        return self._method("quality")
+
+    def groups(self):
+        return self._method("groups")
+
+    def node(self, i):
+        return self._method("node", i)
+
+    def hex(self, i):
+        return self._method("hex", i)
+
+    def coordinates(self):
+        """Of every node x, y, z."""
+        return self._array("coordinates")
+
+    def cells(self, kind=None):
+        """Of every cell of a kind the numbers of its corners, from 1.
+
+        kind: default "hex"
+        """
+        return self._array("cells", kind)
+
+    def wedge(self, i):
+        """Returns ... six numbers of nodes"""
+        return self._method("wedge", i)
+
+    def pyramid(self, i):
+        return self._method("pyramid", i)
+
+    def tet(self, i):
+        return self._method("tet", i)
+
+    def write(self, path, options=None, /, **keywords):
+        """version: float
+        binary: bool
+        quality: bool | MetricName | list[MetricName]; metrics that go along for every cell, as $ElementData
+            or cell arrays; True: the scaled Jacobian; default True, but False for version 2.2
+        with_: Model | list[Model]; loaded from finite element meshes, that the mesh is joined to; the
+            volume's first
+        without: str | int | list[str | int]; regions, properties, sets or parts of these models that are left
+            out
+        renumber: bool; numbers and names that several decks have in common become others; default False
+        first_node: int; of decks and with a model; default above all that are taken
+        first_cell: int; likewise
+        element: str; Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
+        groups: "one" | "all"; of .msh: whether cells are in one physical group or in all of theirs, which
+            overlap; default "one"
+        gmsh_options: bool; of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and
+            groups; default False
+        interfaces: bool; of an assembly: quads between its volumes are elements too; default False
+        partitions: int | "processes"; of .pvtu and .msh: parts; of .pvtu default as many as processes
+        ghosts: int; rows of other parts' cells that are marked as each part's ghosts; default 0
+        """
+        self._method("write", path, options_of(options, keywords))
+
+    def view(self, path, options=None, /, **keywords):
+        """A page for a browser, regions told apart.
+
+        path: .html
+        title: str; default: what the input is called
+        """
+        self._method("view", path, options_of(options, keywords))
+
+    def picture(self, path, options=None, /, **keywords):
+        """path: .png
+        width: int; default 1200 [pixels]
+        height: int; default 900 [pixels]
+        view: Vector | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
+            the eye; default "iso"
+        colour: "quality" | "layer" | "groups" | "region" | "origin"; default "quality"
+        cut: dict; cells whose centre lies behind the plane are shown whole
+        layers: list[int]; first and last that is shown; default all
+        edges: bool; sides of cells; default True
+        legend: bool; a title, and what the colours mean; default True
+        title: str; default the name of the mesh and its counts
+        """
+        self._method("picture", path, options_of(options, keywords))
+
+
+class Quality(Object):
+    """Prints as a table, with a histogram and a line a metric."""
+
+    __slots__ = ()
+    _at_once = False
+
+    @property
+    def hexes(self):
+        return self._field("hexes")
+
+    @property
+    def wedges(self):
+        return self._field("wedges")
+
+    @property
+    def pyramids(self):
+        return self._field("pyramids")
+
+    @property
+    def tets(self):
+        return self._field("tets")
+
+    @property
+    def least(self):
+        """smallest scaled Jacobian of each kind of cell that occurs"""
+        return self._field("least")
+
+    @property
+    def min_scaled_jacobian(self):
+        return self._field("min_scaled_jacobian")
+
+    @property
+    def mean_scaled_jacobian(self):
+        return self._field("mean_scaled_jacobian")
+
+    @property
+    def inverted(self):
+        """cells with a corner that is not positive"""
+        return self._field("inverted")
+
+    @property
+    def uncertified(self):
+        """cells whose Jacobian was not shown positive everywhere"""
+        return self._field("uncertified")
+
+    @property
+    def certified(self):
+        """every cell is"""
+        return self._field("certified")
+
+    @property
+    def worst(self):
+        """at most ten, worst first; of a swept mesh one of each column"""
+        return shaped(self._field("worst"), ('list', ('of', 'WorstCell')))
+
+    @property
+    def histogram(self):
+        """of the scaled Jacobian, twenty bins over [-1, 1]"""
+        return self._field("histogram")
+
+    @property
+    def metrics(self):
+        """in order and by name; measured when first asked for"""
+        return shaped(self._field("metrics"), ('rows', ('of', 'MetricSummary')))
+
+    @property
+    def volume(self):
+        """[model length³]"""
+        return self._field("volume")
+
+
+def load(path, options=None, /, **keywords):
+    """tolerance: float; gaps below it are sewn [model length]; default 1e-6 × the diagonal
+    feature_angle: float; where facets are cut into faces [degrees]; default 40
+    keep_mesh: bool; given quads and nodes stay as they are; default True
+    scale: float; every coordinate times this; default 1
+    cad_seconds: float; processor time the CAD process may take over it; in the sandbox it only lowers
+    cad_megabytes: float; address space the CAD process may take; in the sandbox it only lowers
+    without: str | int | list[str | int]; regions, properties, sets or parts of meshes that are left out
+    """
+    return loaded(path, options_of(options, keywords))
+
+
+def model(options=None, /, **keywords):
+    """tolerance: float; points closer than this are one [model length]; default 1e-6 × the diagonal
+    """
+    return call("module", "model", options_of(options, keywords))
+
+
+def assembly(volumes):
+    """Volumes that share faces, to be meshed as one. Meshes among them stay as they are."""
+    return call("module", "assembly", volumes)
+
+
+def check(path):
+    """Quality of the hexahedra of a mesh or deck in any format that is read."""
+    return call("module", "check", path)
+
+
+def convert(from_, to, options=None, /, **keywords):
+    """A mesh or deck in any format that is read, in the format of the other's ending.
+
+    to: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e
+    version: float; of .msh; default 4.1
+    binary: bool; of .msh and .vtk; default True
+    groups: "one" | "all"; of .msh; default "one"
+    """
+    return call("module", "convert", from_, to, options_of(options, keywords))
+
+
+def view(file, path, options=None, /, **keywords):
+    """A page of a file for a browser: the cells of a mesh or deck that has solids, else faces.
+
+    file: in any format that is read
+    path: .html
+    title: str; default: what the input is called
+    show: "auto" | "faces" | "cells"; default "auto": cells of meshes that have solids, else faces
+    """
+    return call("module", "view", file, path, options_of(options, keywords))
+
+
+classes.update(ModelInfo=ModelInfo, FaceInfo=FaceInfo, Cavity=Cavity, Classification=Classification,
+               Match=Match, Closure=Closure, FreeEdge=FreeEdge, LeftOut=LeftOut, Fidelity=Fidelity,
+               FaceFidelity=FaceFidelity, AssemblyFidelity=AssemblyFidelity, WorstCell=WorstCell,
+               MetricSummary=MetricSummary, Model=Model, Face=Face, Volume=Volume, Mesh=Mesh,
+               Assembly=Assembly, AssemblyMesh=AssemblyMesh, Quality=Quality)

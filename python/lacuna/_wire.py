@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""Values of Python as bytes and back. The twin of this file is bridge.lua."""
+from __future__ import annotations
+
+import os
+import struct
+from collections.abc import Iterable, Mapping
+
+_INTEGER = struct.Struct("<cq")
+_NUMBER = struct.Struct("<cd")
+_COUNTS = struct.Struct("<qq")
+_WHOLE = struct.Struct("<q")
+_REAL = struct.Struct("<d")
+
+
+class Table(dict):
+    """What a call returns: a dict whose keys are attributes too. A key that is a word of Python has `_`
+    behind its name: `edge.from_`."""
+
+    __slots__ = ()
+
+    def __getattr__(self, name):
+        try:
+            return self[name[:-1] if name.endswith("_") else name]
+        except KeyError:
+            raise AttributeError(f"no field {name!r}; there are: {', '.join(map(str, self))}") from None
+
+
+class Report(list):
+    """Lines that say what was done; prints as lines. `seconds` and the like are attributes."""
+
+    def __str__(self):
+        return "\n".join(map(str, self))
+
+
+class Request:
+    """The bytes of one call, and what they refer to."""
+
+    def __init__(self, object_class):
+        self.parts = []
+        self.callables = []
+        self.interpreter = None  # that of the objects among the arguments
+        self._object_class = object_class
+
+    def put(self, value):
+        parts = self.parts
+        if value is None:
+            parts.append(b"N")
+        elif value is True:
+            parts.append(b"T")
+        elif value is False:
+            parts.append(b"F")
+        elif isinstance(value, str):
+            self._put_bytes(value.encode("utf-8", "surrogateescape"))
+        elif isinstance(value, float):
+            parts.append(_NUMBER.pack(b"d", value))
+        elif isinstance(value, int):
+            parts.append(_INTEGER.pack(b"i", value))
+        elif isinstance(value, self._object_class):
+            self._put_object(value)
+        elif isinstance(value, Mapping):
+            parts.append(_INTEGER.pack(b"{", len(value)))
+            for key, item in value.items():
+                self.put(key)
+                self.put(item)
+        elif isinstance(value, (list, tuple)):
+            parts.append(_INTEGER.pack(b"[", len(value)))
+            for item in value:
+                self.put(item)
+        elif isinstance(value, os.PathLike):
+            self._put_bytes(os.fsencode(value))
+        elif isinstance(value, bytes):
+            self._put_bytes(value)
+        elif hasattr(value, "__array_interface__") and getattr(value, "ndim", 0) > 0:
+            self._put_array(value)
+        elif callable(value):
+            parts.append(_INTEGER.pack(b"f", len(self.callables)))
+            self.callables.append(value)
+        elif hasattr(value, "__index__"):
+            parts.append(_INTEGER.pack(b"i", value.__index__()))
+        elif hasattr(value, "__float__"):
+            parts.append(_NUMBER.pack(b"d", float(value)))
+        elif isinstance(value, Iterable):
+            self.put(list(value))
+        else:
+            raise TypeError(f"Lacuna takes no {type(value).__name__}")
+
+    def _put_bytes(self, data):
+        self.parts.append(_INTEGER.pack(b"s", len(data)))
+        self.parts.append(data)
+
+    def _put_object(self, value):
+        if self.interpreter not in (None, value._interpreter):
+            raise ValueError("these objects were made in different threads, and one call cannot take both")
+        self.interpreter = value._interpreter
+        self.parts.append(_INTEGER.pack(b"o", value._number))
+
+    def _put_array(self, array):
+        """A block of numbers; other arrays as lists."""
+        kind = {"f": (b"<d", "<f8"), "i": (b"<i8", "<i8"), "u": (b"<i8", "<i8")}.get(array.dtype.kind)
+        if kind is None or array.ndim > 2 or 0 in array.shape:
+            self.put(array.tolist())
+            return
+        rows, columns = array.shape[0], array.shape[1] if array.ndim == 2 else 0
+        self.parts.append(b"a" + bytes([len(kind[0])]) + kind[0] + _COUNTS.pack(rows, columns))
+        self.parts.append(array.astype(kind[1], copy=False).tobytes())
+
+    def bytes(self, values):
+        """A count, and the values."""
+        for value in values:
+            self.put(value)
+        return _WHOLE.pack(len(values)) + b"".join(self.parts)
+
+
+class Answer:
+    """Reads the values of an answer. `make_object(class, number)` makes what stands for an object."""
+
+    def __init__(self, data, make_object):
+        self._data = data
+        self._at = 0
+        self._make_object = make_object
+
+    def take(self, count):
+        begin = self._at
+        self._at = begin + count
+        return self._data[begin:self._at]
+
+    def whole(self):
+        value, = _WHOLE.unpack_from(self._data, self._at)
+        self._at += 8
+        return value
+
+    def text(self):
+        return self.take(self.whole()).decode("utf-8", "surrogateescape")
+
+    def value(self):
+        tag = self.take(1)
+        if tag == b"d":
+            value, = _REAL.unpack_from(self._data, self._at)
+            self._at += 8
+            return value
+        if tag == b"i":
+            return self.whole()
+        if tag == b"s":
+            return self.text()
+        if tag == b"o":
+            number = self.whole()
+            return self._make_object(self.text(), number)
+        if tag in (b"t", b"R"):
+            return self._table(tag)
+        return {b"N": None, b"T": True, b"F": False}[tag]
+
+    def _table(self, tag):
+        count, others = self.whole(), self.whole()
+        items = [self.value() for _ in range(count)]
+        named = {}
+        for _ in range(others):
+            key = self.value()
+            named[key] = self.value()
+        if tag == b"R":
+            report = Report(items)
+            report.__dict__.update(named)
+            return report
+        if not named:
+            return items
+        table = Table(enumerate(items, 1))
+        table.update(sorted(named.items(), key=lambda item: (isinstance(item[0], str), item[0])))
+        return table

@@ -1,0 +1,405 @@
+# SPDX-License-Identifier: MIT
+"""The package as a program in Python meets it: values, errors, callbacks, signals, threads, memory."""
+import gc
+import os
+import pathlib
+import pickle
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+try:
+    import numpy
+except ImportError:
+    print("left out: numpy is not installed")
+    sys.exit(77)
+
+import lacuna
+
+
+def resident():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def prism(**options):
+    options = {"sides": 4, "drop": "walls", **options}
+    return lacuna.synthetic.prism(**options).open_volume(source="source", target="target")
+
+
+class Values(unittest.TestCase):
+    def test_import_takes_a_tenth_of_a_second_at_most(self):
+        code = "import time; t = time.process_time(); import lacuna; print(time.process_time() - t)"
+        with tempfile.TemporaryDirectory() as folder:  # compiled once, as when installed
+            environment = dict(os.environ, PYTHONPYCACHEPREFIX=folder)
+            environment.pop("PYTHONDONTWRITEBYTECODE", None)
+            taken = [float(subprocess.check_output([sys.executable, "-c", code], env=environment))
+                     for _ in range(4)]
+        self.assertLess(min(taken[1:]), 0.1, taken)
+
+    def test_words_of_the_recipe_language(self):
+        part = lacuna.synthetic.prism(sides=6, drop=["wall_1"])
+        void = part.open_volume(source="source", target="target", walls="auto")
+        self.assertEqual(void.class_, "III")
+        closure = void.close(edge_shape="straight")
+        self.assertIsInstance(closure, lacuna.Closure)
+        self.assertEqual((closure.void_faces, closure["void_faces"], closure.watertight), (1, 1, True))
+        mesh = void.sweep(layers=3, size=0.4)
+        self.assertEqual(mesh.layers, 3)
+        self.assertEqual(mesh.hexes % 3, 0)
+        self.assertEqual([len(mesh.hex(1)), len(mesh.node(1))], [8, 3])
+        self.assertEqual({type(group.name) for group in mesh.groups()}, {str})
+        self.assertEqual(str(mesh.report), "\n".join(mesh.report))
+        self.assertIn("layers", mesh.report.seconds)
+        self.assertEqual(set(mesh.fidelity.faces), {1, 2, 3, 4, 5, 6, 7, "void:1"})
+        self.assertIsInstance(mesh.fidelity.faces[1], lacuna.FaceFidelity)
+        quality = mesh.quality()
+        self.assertTrue(quality.certified)
+        self.assertEqual(quality.metrics["scaled_jacobian"].min, quality.min_scaled_jacobian)
+        self.assertEqual(list(quality.metrics)[0], "scaled_jacobian")
+        self.assertIn("hexahedra", str(quality))
+        self.assertEqual(part.face(3), part.face("wall_2"))
+        self.assertEqual(part.face(near=(0, 0, 0)), part.face(1))
+        self.assertEqual(len({part.face(3), part.face(4)}), 2)
+        self.assertEqual(part.faces(name="nobody"), [])
+        whole = lacuna.synthetic.barrel()
+        self.assertEqual(whole.open_volume().class_, "closed")
+        self.assertEqual(prism().free_edges()[0].from_, prism().free_edges()[0]["from"])
+        self.assertRegex(lacuna.version, r"^\d+\.\d+\.\d+$")
+
+    def test_faces_of_a_closed_volume_go_by_tag(self):
+        mesh = lacuna.synthetic.barrel().open_volume().sweep(layers=3, size=0.8)
+        self.assertEqual(set(mesh.fidelity.faces), {1, 2, 3})
+
+    def test_options_may_be_a_dict_and_keywords_win(self):
+        self.assertEqual(prism().sweep({"layers": 2, "size": 0.5}, layers=3).layers, 3)
+        above = lacuna.synthetic.prism(sides=4)
+        low, high = above.open_volume(source=1, target=2, walls="auto").cut(plane=[(0, 0, 1), (0, 0, 1)])
+        mesh = lacuna.assembly([low, high]).sweep({low: {"layers": 4}, high: {"layers": 2}}, size=0.5)
+        self.assertEqual(sorted(mesh.layers.values()), [2, 4])
+        self.assertEqual(set(mesh.fidelity.regions), set(mesh.regions))
+        self.assertEqual(len(mesh.cells()), mesh.hexes)
+
+    def test_arrays_are_views_that_outlive_the_mesh(self):
+        mesh = prism().sweep(layers=4, size=0.3)
+        nodes, again, cells = mesh.coordinates(), mesh.coordinates(), mesh.cells("hex")
+        self.assertEqual((nodes.shape, nodes.dtype), ((mesh.nodes, 3), numpy.float64))
+        self.assertEqual((cells.shape, cells.dtype), ((mesh.hexes, 8), numpy.int32))
+        self.assertTrue(numpy.shares_memory(nodes, again), "the memory is the mesh's own")
+        self.assertFalse(nodes.flags.writeable)
+        self.assertEqual(tuple(nodes[6]), mesh.node(7))
+        self.assertEqual(tuple(cells[2]), mesh.hex(3))
+        self.assertEqual((cells.min(), cells.max()), (1, mesh.nodes))
+        kept = nodes.copy()
+        del mesh, again
+        gc.collect()
+        for _ in range(20):
+            prism().sweep(layers=4, size=0.3)
+        self.assertTrue((nodes == kept).all())
+
+    def test_faces_from_arrays(self):
+        points = numpy.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]], dtype=float)
+        model = lacuna.model()
+        floor = model.add_face(points, numpy.array([[1, 4, 3, 2]]), name="floor")
+        lid = model.add_face(points + [0, 0, 3], [[1, 2, 3], [1, 3, 4]], name="lid")
+        self.assertEqual((floor.area, lid.area), (4, 4))
+        void = model.open_volume(source=floor, target=lid)
+        mesh = void.sweep(layers=numpy.int32(3), size=numpy.float32(0.5))
+        self.assertEqual(mesh.hexes, 48)
+        self.assertAlmostEqual(mesh.quality().volume, 12)
+        with self.assertRaisesRegex(lacuna.Error, "found 0"):  # points count from 1
+            model.add_face(points, [[0, 1, 2, 3]])
+
+    def test_paths(self):
+        mesh = prism().sweep(layers=2, size=0.5)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "grün.msh"
+            mesh.write(path, version=2.2, binary=False)
+            self.assertEqual(lacuna.check(path).hexes, mesh.hexes)
+            part = lacuna.load([path])
+            mesh.write(str(path.with_suffix(".vtu")), with_=part)
+            self.assertTrue(path.with_suffix(".vtu").exists())
+
+    def test_meshio(self):
+        try:
+            import meshio
+        except ImportError:
+            self.skipTest("meshio is not installed")
+        mesh = prism().sweep(layers=2, size=0.5)
+        out = mesh.to_meshio()
+        self.assertIsInstance(out, meshio.Mesh)
+        self.assertTrue((out.points == mesh.coordinates()).all())
+        self.assertTrue((out.cells_dict["hexahedron"] == mesh.cells() - 1).all())
+        self.assertLess({"source", "target", "void:1"}, set(out.cell_sets))
+        part = lacuna.load(out)
+        again = part.open_volume(source=dict(facing=(0, 0, -1)), target=dict(facing=(0, 0, 1)), walls="auto")
+        self.assertTrue(part.faces()[0].has_mesh)
+        self.assertEqual(again.sweep().hexes, mesh.hexes)
+        self.assertIn("target", part.face(facing=(0, 0, 1)).name)
+        bare = lacuna.load(meshio.Mesh(out.points, [("hexahedron", mesh.cells() - 1)]), keep_mesh=False)
+        self.assertEqual(len(bare.faces()), 6)
+
+    def test_what_is_not_installed_says_what_to_install(self):
+        mesh = prism().sweep(layers=1, size=1)
+        before = sys.modules.get("pyvista")
+        sys.modules["pyvista"] = None
+        try:
+            with self.assertRaisesRegex(ImportError, "pip install pyvista"):
+                mesh.to_pyvista()
+        finally:
+            if before is None:
+                del sys.modules["pyvista"]
+            else:
+                sys.modules["pyvista"] = before
+
+    def test_notebooks_show_a_page_and_a_picture(self):
+        void = prism()
+        for shown in void.model(), void, void.sweep(layers=2, size=0.5):
+            self.assertTrue(shown._repr_png_().startswith(b"\x89PNG"))
+            self.assertTrue(shown._repr_html_().startswith("<iframe srcdoc="))
+
+
+class Errors(unittest.TestCase):
+    def test_an_error_has_code_entities_and_remedy(self):
+        with self.assertRaises(lacuna.Error) as caught:
+            lacuna.synthetic.prism().face(99)
+        error = caught.exception
+        self.assertEqual(error.code, "lua.bad_value")
+        self.assertEqual((error.entities[0].kind, error.entities[0].tag), ("face", 99))
+        self.assertTrue(str(error).endswith("[lua.bad_value]"))
+        with self.assertRaises(lacuna.Error) as caught:
+            lacuna.load("nowhere.step")
+        self.assertEqual(caught.exception.code, "io.no_file")
+        self.assertTrue(caught.exception.remedy)
+        self.assertIn(caught.exception.remedy, caught.exception.message)
+        again = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((again.code, again.remedy), (caught.exception.code, caught.exception.remedy))
+
+    def test_a_wrong_option_names_the_nearest(self):
+        with self.assertRaisesRegex(lacuna.Error, "nearest is 'layers'"):
+            prism().sweep(layer=3)
+        with self.assertRaises(AttributeError):
+            prism().sweeps
+
+    def test_what_no_call_takes_is_a_type_error(self):
+        with self.assertRaises(TypeError):
+            prism().sweep(size=object())
+
+    def test_an_error_leaves_all_usable(self):
+        void = prism()
+        for _ in range(3):
+            with self.assertRaises(lacuna.Error):
+                void.sweep(layers=0, size=0.5)
+        self.assertEqual(void.sweep(layers=2, size=0.5).layers, 2)
+
+
+class Callbacks(unittest.TestCase):
+    def test_sizes_are_functions_of_the_place(self):
+        places = []
+
+        def size(x, y, z):
+            places.append((x, y, z))
+            return 0.25
+
+        mesh = prism().sweep(layers=2, size=size)
+        self.assertEqual(mesh.hexes, prism().sweep(layers=2, size=lambda x, y, z: 0.25).hexes)
+        self.assertTrue(all(abs(x) <= 1.1 and abs(y) <= 1.1 for x, y, _ in places) and places)
+
+    def test_what_a_callback_raises_comes_out(self):
+        void = prism()
+        with self.assertRaises(ZeroDivisionError):
+            void.sweep(layers=2, size=lambda x, y, z: 1 / 0)
+        with self.assertRaises(TypeError):
+            void.sweep(layers=2, size=lambda x, y, z: None)
+        with self.assertRaises(TypeError):
+            void.sweep(layers=2, size=lambda x: 1)
+        self.assertEqual(void.sweep(layers=2, size=0.5).layers, 2)
+
+    def test_a_callback_cannot_use_what_it_is_called_for(self):
+        void = prism()
+        with self.assertRaises(lacuna.Error) as caught:
+            void.sweep(layers=2, size=lambda x, y, z: len(void.free_edges()))
+        self.assertEqual(caught.exception.code, "lua.busy")
+
+    def test_progress_is_told_on_the_calling_thread_and_may_stop(self):
+        told = []
+
+        def progress(stage, share):
+            told.append((stage, share, threading.get_ident()))
+
+        with lacuna.progress(progress):
+            prism().sweep(layers=40, size=0.05)
+        self.assertTrue(told)
+        self.assertEqual({thread for _, _, thread in told}, {threading.get_ident()})
+        self.assertTrue(all(0 <= share <= 1 for _, share, _ in told))
+        told.clear()
+        prism().sweep(layers=1, size=0.5)
+        self.assertEqual(told, [])
+        with lacuna.progress(lambda stage, share: False), self.assertRaises(lacuna.Error) as caught:
+            prism().sweep(layers=40, size=0.05)
+        self.assertEqual(caught.exception.code, "core.cancelled")
+        with lacuna.progress(lambda stage, share: 1 / 0), self.assertRaises(ZeroDivisionError):
+            prism().sweep(layers=40, size=0.05)
+        self.assertEqual(prism().sweep(layers=1, size=0.5).layers, 1)
+
+    def test_notes_are_warnings_of_logging(self):
+        void = prism(sides=24, bend=60)
+        with self.assertLogs("lacuna", "WARNING") as caught:
+            void.sweep(layers=6, size=0.4)
+        self.assertTrue(all("note: " in line for line in caught.output))
+
+
+class Signals(unittest.TestCase):
+    def test_ctrl_c_stops_a_job_in_half_a_second(self):
+        void = prism(sides=6, twist=40)
+        sent = []
+
+        def interrupt():
+            sent.append(time.process_time())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        for after in 0.05, 0.4:
+            sent.clear()
+            timer = threading.Timer(after, interrupt)
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                void.sweep(layers=400, size=0.005, threads=1)
+            self.assertLess(time.process_time() - sent[0], 0.5, "seconds of one processor")
+            timer.join()
+        self.assertEqual(void.sweep(layers=2, size=0.5).layers, 2)
+
+    def test_what_any_handler_raises_stops_a_job(self):
+        def late(*_):
+            raise TimeoutError
+
+        before = signal.signal(signal.SIGALRM, late)
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 0.1)
+            with self.assertRaises(TimeoutError):
+                prism(sides=6).sweep(layers=400, size=0.005, threads=1)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        self.assertEqual(prism().sweep(layers=2, size=0.5).layers, 2)
+
+
+class Threads(unittest.TestCase):
+    def run_both(self, body):
+        failed = []
+
+        def guarded(i):
+            try:
+                body(i)
+            except BaseException as error:
+                failed.append(error)
+
+        threads = [threading.Thread(target=guarded, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        if failed:
+            raise failed[0]
+
+    def test_two_threads_have_an_interpreter_each(self):
+        def nodes(i):
+            mesh = prism(sides=5 + i).sweep(layers=3, size=lambda x, y, z: 0.3)
+            return mesh.coordinates().tobytes()
+
+        made = [None, None]
+
+        def body(i):
+            for _ in range(5):
+                made[i] = nodes(i)
+
+        self.run_both(body)
+        self.assertEqual(made, [nodes(0), nodes(1)])
+
+    def test_objects_go_from_thread_to_thread_one_call_at_a_time(self):
+        void = prism()
+        counts = [0, 0]
+
+        def body(i):
+            for _ in range(10):
+                counts[i] += void.sweep(layers=1, size=0.5).layers
+
+        self.run_both(body)
+        self.assertEqual(counts, [10, 10])
+
+    def test_one_call_takes_objects_of_one_thread(self):
+        others = []
+        thread = threading.Thread(target=lambda: others.append(prism()))
+        thread.start()
+        thread.join()
+        with self.assertRaisesRegex(ValueError, "different threads"):
+            lacuna.assembly([prism(), others[0]])
+        self.assertEqual(others[0].class_, "I")
+
+    def test_another_thread_runs_while_a_job_runs(self):
+        turns, done = [], threading.Event()
+
+        def count():
+            while not done.is_set():
+                turns.append(time.perf_counter())
+                time.sleep(0.001)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        prism().sweep(layers=60, size=0.02, threads=1)
+        done.set()
+        thread.join()
+        self.assertGreater(len(turns), 20, "the job held the lock of the interpreter")
+
+    def test_a_forked_process_has_an_interpreter_of_its_own(self):
+        prism().sweep(layers=1, size=0.5)
+        child = os.fork()
+        if child == 0:
+            try:
+                os._exit(0 if prism().sweep(layers=2, size=0.5).layers == 2 else 1)
+            finally:
+                os._exit(1)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+
+
+class Memory(unittest.TestCase):
+    def test_a_thousand_models_leave_nothing(self):
+        def models(count):
+            for i in range(count):
+                part = lacuna.synthetic.prism(sides=3, facets=1, drop="walls")
+                void = part.open_volume(source=part.faces()[0], target="target")
+                if i % 20 == 0:
+                    mesh = void.sweep(layers=2, size=0.5)
+                    self.assertEqual(len(mesh.coordinates()), mesh.nodes)
+                    mesh.quality().metrics
+
+        models(100)
+        before = resident()
+        models(1000)
+        self.assertLess(resident() - before, 2 << 20)
+
+    def test_a_mesh_is_freed_when_it_is_dropped(self):
+        void = prism()
+        mesh = void.sweep(layers=100, size=0.02)
+        quality, cells = mesh.quality(), mesh.cells()
+        held = resident()
+        size = mesh.nodes * 24 + cells.nbytes
+        del mesh, quality, cells
+        self.assertLess(resident(), held - size / 2)
+
+    def test_failed_and_stopped_calls_leave_nothing(self):
+        void = prism()
+        with lacuna.progress(lambda stage, share: False):
+            for _ in range(3):
+                with self.assertRaises(lacuna.Error):
+                    void.sweep(layers=40, size=0.05)
+        with self.assertRaises(lacuna.Error):
+            void.sweep(layers=0, size=1)
+        self.assertEqual(void.sweep(layers=1, size=0.5).layers, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
