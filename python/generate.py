@@ -6,6 +6,7 @@ program and the reference.
 generate.py           write lacuna/_api.py, lacuna/_api.pyi, lacuna/synthetic.py and lacuna/synthetic.pyi
 generate.py --check   only compare; exit code 1 where one differs
 """
+import ast
 import pathlib
 import re
 import sys
@@ -510,7 +511,7 @@ def make():
     synthetic = Writer(language)
     for function in language.classes["Synthetic"].methods.values():
         synthetic.function(function, "synthetic.", "")
-    doc = '"""Open volumes of any class and size, for trials: a call returns a Model whose faces have names."""\n'
+    doc = '"""Open volumes of any class and size, for trials: models whose faces have names."""\n'
     head = "from collections.abc import Mapping, Sequence\nfrom typing import Any, Union\n\n" \
         "from ._api import Model\n\nDrop = Union[str, Sequence[str]]\n\n"
     return {
@@ -534,6 +535,7 @@ def main():
     wrong = []
     for name, text in make().items():
         path = HERE / "lacuna" / name
+        ast.parse(text)
         if "--check" not in sys.argv[1:]:
             path.write_text(text)
         elif not path.exists() or path.read_text() != text:

@@ -68,11 +68,12 @@ class _Buffer(ctypes.Structure):
 
 
 def _load():
-    """LACUNA_LIBRARY, else the library in the wheel, else that of a build of the clone, else the system's."""
+    """LACUNA_LIBRARY, else that in the wheel, of a build of the clone, of an installation, of the system."""
     named = os.environ.get("LACUNA_LIBRARY")
     wheel = os.path.join(_folder, "lib", "liblacuna.so")
     build = os.path.join(_folder, "..", "..", "build", "release", "liblacuna.so")
-    places = [named] if named else [path for path in (wheel, build) if os.path.exists(path)]
+    prefix = os.path.join(_folder, "..", "..", "..", "liblacuna.so.0.1")
+    places = [named] if named else [path for path in (wheel, build, prefix) if os.path.exists(path)]
     try:
         lua = os.path.join(_folder, "lib", "liblua5.4.so.0")
         if os.path.exists(lua):  # found by the library under its name
@@ -106,7 +107,7 @@ _library = _load()
 
 
 class _Job:
-    """A call on a thread of its own, while the caller waits: so a signal reaches the caller at once."""
+    """A call on the interpreter's own thread, while the caller waits: so signals reach the caller at once."""
 
     def __init__(self, interpreter, request, callables, progress):
         self.interpreter = interpreter
@@ -166,12 +167,22 @@ class _Job:
         return self.answer
 
 
+def _work(jobs):
+    while True:
+        job = jobs.get()
+        if job is None:
+            return
+        job.run()
+        del job  # nothing of it stays while the thread waits
+
+
 class Interpreter:
     """An interpreter and the objects that live in it. Used by one thread at a time; others wait."""
 
     def __init__(self):
         self._lock = threading.Lock()
         self._job = None  # the one that runs
+        self._jobs = self._process = None
         self._dropped = collections.deque()  # numbers of objects that Python has no more
         own = weakref.ref(self)
         self._callbacks = (_Text(lambda _, text, length: _note(ctypes.string_at(text, length))),
@@ -192,6 +203,8 @@ class Interpreter:
     def __del__(self):
         if getattr(self, "_handle", None) and _library is not None:
             _library.lacuna_close(self._handle)
+            if self._jobs:
+                self._jobs.put(None)
 
     def call(self, request, callables, at_once):
         """Send a request and wait for the answer."""
@@ -205,7 +218,10 @@ class Interpreter:
             with self._lock:
                 return self._exchange(request)
         job = _Job(self, request, callables, getattr(_local, "progress", None))
-        _thread.start_new_thread(job.run, ())
+        if self._process != os.getpid():  # none yet, or none in a process that was forked
+            self._process, self._jobs = os.getpid(), queue.SimpleQueue()
+            _thread.start_new_thread(_work, (self._jobs,))
+        self._jobs.put(job)
         return job.wait()
 
     def buffer(self, number):

@@ -102,7 +102,7 @@ def call(*values, at_once=False):
 
 
 def loaded(path, options):
-    """lacuna.load: meshes of meshio and PyVista go through a file, with the groups that meshio has of Gmsh."""
+    """lacuna.load: meshes of meshio and PyVista go through a file, with groups where meshio has Gmsh's."""
     if hasattr(path, "cells_dict"):
         ending = ".msh" if "gmsh:physical" in path.cell_data else ".vtu"
 

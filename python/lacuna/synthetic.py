@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Made by python/generate.py from lua/lacuna.d.lua.
-"""Open volumes of any class and size, for trials: a call returns a Model whose faces have names."""
+"""Open volumes of any class and size, for trials: models whose faces have names."""
 from ._objects import call, options_of
 
 

@@ -52,7 +52,7 @@ apt-get -qq -y --no-install-recommends install /packages/*.deb lua5.4 gcc libc6-
 lua5.4 -e 'print(require("lacuna").synthetic.prism { sides = 4 }:describe())'
 gcc hosts/host.c -o host_c $(pkg-config --cflags --libs lacuna)
 ./host_c
-python3 hosts/host.py liblacuna.so
+python3 -c 'import lacuna; print(lacuna.synthetic.prism(sides=4).open_volume().sweep(layers=2, size=0.5))'
 apt-get -qq -y remove lacuna >/dev/null
 echo "all of it works"
 INSIDE

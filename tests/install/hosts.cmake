@@ -2,7 +2,7 @@
 # first: nothing of the build may be needed.
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 file(REMOVE_RECURSE "${WORK_DIR}")
-foreach(component IN ITEMS library library_dev program lua)
+foreach(component IN ITEMS library library_dev program lua python)
   run("installing ${component}" ${CMAKE_COMMAND} --install "${BUILD_DIR}" --prefix "${WORK_DIR}/first"
     --component ${component})
 endforeach()
@@ -12,7 +12,7 @@ set(prefix "${WORK_DIR}/prefix")
 # What the manual prints of them is theirs.
 file(READ "${HOSTS_DIR}/../../../docs/hosts.md" page)
 set(hosts "")
-foreach(host IN ITEMS host.cpp host.c host.py CMakeLists.txt)
+foreach(host IN ITEMS host.cpp host.c CMakeLists.txt)
   file(READ "${HOSTS_DIR}/${host}" text)
   string(APPEND hosts "${text}")
 endforeach()
@@ -78,7 +78,9 @@ endif()
 
 # Python, where no sanitizer has to be loaded before it.
 if(PYTHON AND NOT CXX_FLAGS MATCHES "sanitize")
-  run("the Python host" "${PYTHON}" "${HOSTS_DIR}/host.py" "${library}")
+  set(ENV{PYTHONPATH} "${prefix}/lib/python3/dist-packages")
+  set(ENV{LACUNA_LIBRARY} "${library}")
+  run("the Python package" "${PYTHON}" -c "import lacuna; print(lacuna.synthetic.prism(sides=5).describe())")
   message("${output}")
 endif()
 
