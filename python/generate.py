@@ -253,7 +253,12 @@ class Language:
         text = self.hint(type_, given)
         text = re.sub(r"Literal\[([^]]*)\]", lambda found: found[1].replace(", ", " | "), text)
         text = text.replace("Mapping[str, Any]", "dict").replace("Mapping[", "dict[")
-        return text.replace("Sequence[", "list[")
+        text = re.sub(r"\bVector\b", "(x, y, z)", text.replace("Sequence[", "list["))
+        for name, alias in self.aliases.items():
+            if re.search(rf"\b{name}\b", text):
+                short = "str" if len(alias) > 9 else self.words(alias, given)
+                text = re.sub(rf"\b{name}\b", lambda _: short, text)
+        return text
 
     def shape(self, type_):
         """How a result is to be shaped; see `shaped` in _objects.py."""
@@ -329,7 +334,7 @@ class Language:
             first = "None" if required else name
             passed = "".join(f", {key}={key}" for key in required)
             if name == "which":
-                arguments.append(f"options_of(which, keywords) if keywords else which")
+                arguments.append("options_of(which, keywords) if keywords else which")
             else:
                 arguments.append(f"options_of({first}, keywords{passed})")
             if type_[0] != "record" and text:

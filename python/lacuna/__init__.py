@@ -17,6 +17,7 @@ from ._library import VERSION as version
 from ._library import Error, progress
 from ._wire import Report, Table
 
+gmsh_version: str  # see __getattr__
 __version__ = version
 __all__ = [*_names, "Error", "Report", "Table", "progress", "synthetic", "version"]
 

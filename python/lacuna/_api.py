@@ -60,7 +60,7 @@ class FaceInfo(Table):
 class Cavity(Table):
     """kind: "pocket" | "bore" | "slot" | "inner void"
     faces: list[int]; tags, for open_volume(faces=…)
-    class_: Class
+    class_: "I" | "II" | "III" | "IV" | "V" | "closed"
     volume: float; once it is sealed [model length³]
     """
 
@@ -69,7 +69,7 @@ class Cavity(Table):
 
 
 class Classification(Table):
-    """class_: Class
+    """class_: "I" | "II" | "III" | "IV" | "V" | "closed"
     free_loops: int
     wall_free_source: list[int]; tags of vertices on no wall
     wall_free_target: list[int]
@@ -177,7 +177,7 @@ class WorstCell(Table):
 
 
 class MetricSummary(Table):
-    """name: MetricName
+    """name: str
     cells: int; cells for which it is defined
     min: float
     mean: float
@@ -211,11 +211,11 @@ class Model(Shown):
         """tags: int | list[int]
         name: str; a physical group, a part (`pid:7`), an element set
         kind: "plane" | "cylinder" | "cone" | "sphere" | "torus" | "bspline" | "surface" | "discrete"
-        facing: Vector; the mean normal within 30 degrees of it
+        facing: (x, y, z); the mean normal within 30 degrees of it
         normal_within: float; instead of the 30 degrees of `facing`
-        near: Vector; the one closest face
+        near: (x, y, z); the one closest face
         within: float; all faces that close to `near` instead [model length]
-        box: list[Vector]; two corners of a box that all of the face lies in
+        box: list[(x, y, z)]; two corners of a box that all of the face lies in
         touching: Face | int | str; a face it shares an edge with
         region: str; the solid, part or set it bounds
         free: bool; whether it bounds one region alone
@@ -230,11 +230,11 @@ class Model(Shown):
         tags: int | list[int]
         name: str; a physical group, a part (`pid:7`), an element set
         kind: "plane" | "cylinder" | "cone" | "sphere" | "torus" | "bspline" | "surface" | "discrete"
-        facing: Vector; the mean normal within 30 degrees of it
+        facing: (x, y, z); the mean normal within 30 degrees of it
         normal_within: float; instead of the 30 degrees of `facing`
-        near: Vector; the one closest face
+        near: (x, y, z); the one closest face
         within: float; all faces that close to `near` instead [model length]
-        box: list[Vector]; two corners of a box that all of the face lies in
+        box: list[(x, y, z)]; two corners of a box that all of the face lies in
         touching: Face | int | str; a face it shares an edge with
         region: str; the solid, part or set it bounds
         free: bool; whether it bounds one region alone
@@ -246,7 +246,7 @@ class Model(Shown):
     def face_from(self, near, **keywords):
         """A face grown from the facet closest to a place, taken out of the faces it goes over.
 
-        near: Vector; the facet closest to it is where the face begins [model length]
+        near: (x, y, z); the facet closest to it is where the face begins [model length]
         angle: float; the face goes on over sides that turn by no more [degrees]; default 20
         region: str; only over faces that bound it
         free: bool; only over faces that bound one region alone, or two
@@ -255,20 +255,22 @@ class Model(Shown):
 
     def add_face(self, points, cells, **keywords):
         """name: str
-        points: list[Vector]
+        points: list[(x, y, z)]
         cells: list[list[int]]; triangles and quads: numbers of points from 1
         keep_mesh: bool; quads are a mesh to be kept, not mere facets; default False
         """
         return self._method("add_face", options_of(None, keywords, points=points, cells=cells))
 
     def open_volume(self, roles=None, /, **keywords):
-        """source: FaceRefs
-        target: FaceRefs
-        walls: FaceRefs | "auto"; "auto": the source's cavity in a solid, else all that hangs on its rim
-        faces: FaceRefs; instead of roles: these faces make the volume, and their roles are found
+        """source: Face | int | str | dict | list[Face | int | str | dict]
+        target: Face | int | str | dict | list[Face | int | str | dict]
+        walls: Face | int | str | dict | list[Face | int | str | dict] | "auto"; "auto": the source's cavity
+            in a solid, else all that hangs on its rim
+        faces: Face | int | str | dict | list[Face | int | str | dict]; instead of roles: these faces make the
+            volume, and their roles are found
         reading: int; with roles to be found: which of the voids that were found, from 1
         full_turn: bool; the walls are a ring, swept round its whole turn; no ends; default False
-        class_: Class; override
+        class_: "I" | "II" | "III" | "IV" | "V" | "closed"; override
         name: str; what the cells are called: their group, set or property in files; default "volume"
         material: str | int; of the cells, in decks; default: as the elements beside them
         """
@@ -301,7 +303,7 @@ class Model(Shown):
         facets: bool; sides of the facets are drawn; default False
         legend: bool; a title, and what the colours mean; default True
         title: str; default what is shown, counted
-        view: Vector | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
             the eye; default "iso"
         """
         self._method("picture", path, options_of(options, keywords))
@@ -394,7 +396,7 @@ class Volume(Shown):
 
     def close(self, options=None, /, **keywords):
         """edge_shape: "auto" | "straight" | "follow" | "smooth"; how a void edge runs; default "auto"
-        void_edges: list[list[int | list[Vector]]]; given by hand: vertex tags from and to, points between
+        void_edges: list[list[int | list[(x, y, z)]]]; given by hand: vertex tags from and to, points between
         cap: "auto" | "flat" | "parallel"; shape of a missing end; default "auto"
         holes: "cover" | "through"; holes of a given end that have no walls; without it an error where the
             other end is missing
@@ -428,7 +430,7 @@ class Volume(Shown):
         facets: bool; sides of the facets are drawn; default False
         legend: bool; a title, and what the colours mean; default True
         title: str; default what is shown, counted
-        view: Vector | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
             the eye; default "iso"
         """
         self._method("picture", path, options_of(options, keywords))
@@ -437,8 +439,8 @@ class Volume(Shown):
         """By a plane or a face: the pieces, which share what was cut. Without options: the pieces of a volume
         with branches, or one of whose ends lies at several heights; itself where it has neither.
 
-        plane: list[Vector]; point and normal
-        face: FaceRef; a Face of any model, or one of the volume's own
+        plane: list[(x, y, z)]; point and normal
+        face: Face | int | str | dict; a Face of any model, or one of the volume's own
         auto: bool; where pieces result that can be swept
         """
         return self._method("cut", options_of(options, keywords))
@@ -486,7 +488,8 @@ class Volume(Shown):
         mode: "geometric" | "bell" | "both_ends"; default "geometric"
 
         A dict for `boundary_layers` has:
-        walls: FaceRefs; walls and ends; "walls": all walls, "void:<n>": a void face
+        walls: Face | int | str | dict | list[Face | int | str | dict]; walls and ends; "walls": all walls,
+            "void:<n>": a void face
         first: float; thickness of the cells at the face, square to it [model length]
         growth: float; thickness of each row over the one before; default 1
         count: int; rows; default 1
@@ -538,7 +541,8 @@ class Volume(Shown):
         mode: "geometric" | "bell" | "both_ends"; default "geometric"
 
         A dict for `boundary_layers` has:
-        walls: FaceRefs; walls and ends; "walls": all walls, "void:<n>": a void face
+        walls: Face | int | str | dict | list[Face | int | str | dict]; walls and ends; "walls": all walls,
+            "void:<n>": a void face
         first: float; thickness of the cells at the face, square to it [model length]
         growth: float; thickness of each row over the one before; default 1
         count: int; rows; default 1
@@ -650,8 +654,8 @@ class Mesh(AnyMesh):
         """path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, or a folder called polyMesh
         version: float
         binary: bool
-        quality: bool | MetricName | list[MetricName]; metrics that go along for every cell, as $ElementData
-            or cell arrays; True: the scaled Jacobian; default True, but False for version 2.2
+        quality: bool | str | list[str]; metrics that go along for every cell, as $ElementData or cell arrays;
+            True: the scaled Jacobian; default True, but False for version 2.2
         with_: Model | list[Model]; loaded from finite element meshes, that the mesh is joined to; the
             volume's first
         without: str | int | list[str | int]; regions, properties, sets or parts of these models that are left
@@ -684,7 +688,7 @@ class Mesh(AnyMesh):
         path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
-        view: Vector | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
             the eye; default "iso"
         colour: "quality" | "layer" | "groups" | "region" | "origin"; default "quality"
         cut: dict; cells whose centre lies behind the plane are shown whole
@@ -739,7 +743,8 @@ class Assembly(Object):
         mode: "geometric" | "bell" | "both_ends"; default "geometric"
 
         A dict for `boundary_layers` has:
-        walls: FaceRefs; walls and ends; "walls": all walls, "void:<n>": a void face
+        walls: Face | int | str | dict | list[Face | int | str | dict]; walls and ends; "walls": all walls,
+            "void:<n>": a void face
         first: float; thickness of the cells at the face, square to it [model length]
         growth: float; thickness of each row over the one before; default 1
         count: int; rows; default 1
@@ -788,7 +793,8 @@ class Assembly(Object):
         mode: "geometric" | "bell" | "both_ends"; default "geometric"
 
         A dict for `boundary_layers` has:
-        walls: FaceRefs; walls and ends; "walls": all walls, "void:<n>": a void face
+        walls: Face | int | str | dict | list[Face | int | str | dict]; walls and ends; "walls": all walls,
+            "void:<n>": a void face
         first: float; thickness of the cells at the face, square to it [model length]
         growth: float; thickness of each row over the one before; default 1
         count: int; rows; default 1
@@ -886,8 +892,8 @@ class AssemblyMesh(AnyMesh):
     def write(self, path, options=None, /, **keywords):
         """version: float
         binary: bool
-        quality: bool | MetricName | list[MetricName]; metrics that go along for every cell, as $ElementData
-            or cell arrays; True: the scaled Jacobian; default True, but False for version 2.2
+        quality: bool | str | list[str]; metrics that go along for every cell, as $ElementData or cell arrays;
+            True: the scaled Jacobian; default True, but False for version 2.2
         with_: Model | list[Model]; loaded from finite element meshes, that the mesh is joined to; the
             volume's first
         without: str | int | list[str | int]; regions, properties, sets or parts of these models that are left
@@ -918,7 +924,7 @@ class AssemblyMesh(AnyMesh):
         """path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
-        view: Vector | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
             the eye; default "iso"
         colour: "quality" | "layer" | "groups" | "region" | "origin"; default "quality"
         cut: dict; cells whose centre lies behind the plane are shown whole

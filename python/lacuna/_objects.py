@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 
 from ._library import Error, own_interpreter
 from ._wire import Answer, Report, Request, Table
@@ -121,8 +122,8 @@ def loaded(path, options):
 
 def options_of(options, keywords, **given):
     """One table of options, None where there are none. `class_` and `with_` are `class` and `with` in Lua."""
-    if options is not None and not keywords and not given:
-        return options
+    if options is not None and not isinstance(options, Mapping):
+        raise TypeError(f"options are keywords, or a dict before them; found {options!r}")
     merged = dict(options or {})
     merged.update({name[:-1] if name.endswith("_") else name: value for name, value in keywords.items()})
     merged.update(given)

@@ -16,7 +16,7 @@ def prism(options=None, /, **keywords):
     taper: float
     bend: float
     facets: int
-    drop: Drop
+    drop: str | list[str]
     """
     return call("module", "synthetic.prism", options_of(options, keywords))
 
@@ -28,7 +28,7 @@ def annulus(options=None, /, **keywords):
     outer: float
     height: float
     facets: int
-    drop: Drop
+    drop: str | list[str]
     """
     return call("module", "synthetic.annulus", options_of(options, keywords))
 
@@ -41,7 +41,7 @@ def elbow(options=None, /, **keywords):
     bend_radius: float
     angle: float
     facets: int
-    drop: Drop
+    drop: str | list[str]
     """
     return call("module", "synthetic.elbow", options_of(options, keywords))
 
@@ -53,7 +53,7 @@ def barrel(options=None, /, **keywords):
     height: float
     bulge: float
     facets: int
-    drop: Drop
+    drop: str | list[str]
     """
     return call("module", "synthetic.barrel", options_of(options, keywords))
 
@@ -67,6 +67,6 @@ def plate(options=None, /, **keywords):
     holes: int
     hole_radius: float
     facets: int
-    drop: Drop
+    drop: str | list[str]
     """
     return call("module", "synthetic.plate", options_of(options, keywords))

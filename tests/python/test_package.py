@@ -10,7 +10,9 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
+import unittest.mock
 
 try:
     import numpy
@@ -145,16 +147,32 @@ class Values(unittest.TestCase):
 
     def test_what_is_not_installed_says_what_to_install(self):
         mesh = prism().sweep(layers=1, size=1)
-        before = sys.modules.get("pyvista")
-        sys.modules["pyvista"] = None
-        try:
+        with unittest.mock.patch.dict(sys.modules, pyvista=None):
             with self.assertRaisesRegex(ImportError, "pip install pyvista"):
                 mesh.to_pyvista()
-        finally:
-            if before is None:
-                del sys.modules["pyvista"]
-            else:
-                sys.modules["pyvista"] = before
+
+    def test_pyvista_gets_cells_as_vtk_has_them(self):
+        model = lacuna.model()
+        model.add_face([(0, 0, 0), (2, 0, 0), (4, 0, 0), (4, 2, 0), (2, 2, 0), (0, 2, 0)],
+                       [(1, 6, 5, 2), (2, 5, 3), (3, 5, 4)], keep_mesh=True)
+        model.add_face([(0, 0, 3), (4, 0, 3), (4, 2, 3), (0, 2, 3)], [(1, 2, 3, 4)])
+        mesh = model.open_volume(source=1, target=2).sweep(layers=3, wedges=True)
+        pyvista = types.SimpleNamespace(UnstructuredGrid=lambda *arrays: arrays)  # as its constructor takes them
+        with unittest.mock.patch.dict(sys.modules, pyvista=pyvista):
+            cells, kinds, points = mesh.to_pyvista()
+        self.assertEqual(list(kinds), [12] * 3 + [13] * 6)
+        self.assertEqual(len(cells), 3 * 9 + 6 * 7)
+        self.assertEqual(list(cells[:9]), [8, *(node - 1 for node in mesh.hex(1))])
+        self.assertEqual(list(cells[-7:]), [6, *(node - 1 for node in mesh.wedge(6))])
+        self.assertTrue((points == mesh.coordinates()).all())
+
+        def save(path):
+            self.assertTrue(path.endswith(".vtu"))
+            mesh.write(path)
+
+        grid = types.SimpleNamespace(save=save)
+        part = lacuna.load(types.SimpleNamespace(cast_to_unstructured_grid=lambda: grid))
+        self.assertEqual(len(part.faces()), 6)
 
     def test_notebooks_show_a_page_and_a_picture(self):
         void = prism()
@@ -186,8 +204,10 @@ class Errors(unittest.TestCase):
             prism().sweeps
 
     def test_what_no_call_takes_is_a_type_error(self):
-        with self.assertRaises(TypeError):
-            prism().sweep(size=object())
+        for wrong in (lambda: prism().sweep(size=object()), lambda: prism().sweep("auto"),
+                      lambda: lacuna.Mesh(), lambda: prism().sweep(layers=1, size=1).write()):
+            with self.assertRaises(TypeError):
+                wrong()
 
     def test_an_error_leaves_all_usable(self):
         void = prism()

@@ -2,9 +2,12 @@
 """test_pages.py PROJECT FOLDER PROGRAM: every block marked `python` of the manual runs as it stands.
 
 A recipe of the cookbook writes the same files as that in Lua before it, byte for byte.
+The cells of the notebook run one after the other, and what ends a cell is shown as a page and a picture.
 """
+import ast
 import contextlib
 import io
+import json
 import os
 import pathlib
 import re
@@ -55,8 +58,27 @@ def main():
                 assert name.endswith(".geo") or by_lua[name] == by_python[name], (page, number, name)
             beside += 1
     assert beside >= 10
+    if has("numpy"):
+        assert run_notebook(project / "docs" / "first_void.ipynb") == 3
     print(count, "blocks run,", beside, "of them as those in Lua do")
     return 0
+
+
+def run_notebook(path):
+    """@return how many cells showed a page"""
+    names, pages = {}, 0
+    for cell in json.loads(path.read_text())["cells"]:
+        if cell["cell_type"] != "code":
+            continue
+        lines = ast.parse("".join(cell["source"]))
+        last = lines.body.pop()
+        with contextlib.redirect_stdout(io.StringIO()):
+            exec(compile(lines, str(path), "exec"), names)
+            shown = eval(compile(ast.Expression(last.value), str(path), "eval"), names)
+        if hasattr(shown, "_repr_html_"):
+            assert "<iframe" in shown._repr_html_() and shown._repr_png_().startswith(b"\x89PNG")
+            pages += 1
+    return pages
 
 
 def has(module):
