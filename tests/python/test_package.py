@@ -157,7 +157,7 @@ class Values(unittest.TestCase):
                        [(1, 6, 5, 2), (2, 5, 3), (3, 5, 4)], keep_mesh=True)
         model.add_face([(0, 0, 3), (4, 0, 3), (4, 2, 3), (0, 2, 3)], [(1, 2, 3, 4)])
         mesh = model.open_volume(source=1, target=2).sweep(layers=3, wedges=True)
-        pyvista = types.SimpleNamespace(UnstructuredGrid=lambda *arrays: arrays)  # as its constructor takes them
+        pyvista = types.SimpleNamespace(UnstructuredGrid=lambda *arrays: arrays)
         with unittest.mock.patch.dict(sys.modules, pyvista=pyvista):
             cells, kinds, points = mesh.to_pyvista()
         self.assertEqual(list(kinds), [12] * 3 + [13] * 6)

@@ -33,8 +33,8 @@ def main():
         for number, (language, text) in enumerate(blocks):
             if language != "python":
                 continue
-            modules = set(re.findall(r"^import (\w+)", text, re.M))
-            if "meshio" in modules and not has("meshio") or "numpy" in modules and not has("numpy"):
+            modules = re.findall(r"^import (\w+)", text, re.M)
+            if not all(has(module) for module in modules):
                 print("left out:", page, "block", number)
                 continue
             work = folder / f"{pathlib.Path(page).stem}_{number}"
