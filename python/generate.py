@@ -16,7 +16,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 STUB = HERE.parent / "lua" / "lacuna.d.lua"
 WIDTH = 110
 # Classes whose objects stay in the interpreter, and what they have beyond Lua.
-OBJECTS = {"Model": "Shown", "Face": "Object", "Volume": "Shown", "Mesh": "AnyMesh", "Assembly": "Object",
+OBJECTS = {"Model": "Shown", "Face": "AnyFace", "Volume": "Shown", "Mesh": "AnyMesh", "Assembly": "Object",
            "AssemblyMesh": "AnyMesh", "Quality": "Object"}
 SLOW = {"Model", "Quality"}  # some of their fields are worked out when they are asked for
 # Not for Python: the command line, the errors of pcall, what numpy does.
@@ -505,13 +505,13 @@ def make():
     table = "classes.update(" + ", ".join(f"{name}={name}" for name in [*results(language), *OBJECTS]) + ")"
     table = textwrap.fill(table, WIDTH, subsequent_indent="               ")
     code = HEAD + '"""Classes and functions, as lacuna.d.lua has them."""\n' \
-        "from ._objects import AnyMesh, Object, Shown, Table, call, classes, loaded, options_of, shaped\n\n" \
-        + exported
+        "from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, loaded, options_of,\n" \
+        "                       shaped)\n\n" + exported
     aliases = "\n".join(f"{name} = Union[{language.hint(type_, True).replace(' | ', ', ')}]"
                         for name, type_ in language.aliases.items() if name != "Drop")
     stub = HEAD + "import os\nfrom collections.abc import Callable, Mapping, Sequence\n" \
         "from typing import Any, Literal, Union\n\nimport numpy\n\n" \
-        "from ._objects import AnyMesh, Object, Shown\nfrom ._wire import Report, Table\n\n" \
+        "from ._objects import AnyFace, AnyMesh, Object, Shown\nfrom ._wire import Report, Table\n\n" \
         "Path = Union[str, os.PathLike[str]]\n" + aliases + "\n"
     synthetic = Writer(language)
     for function in language.classes["Synthetic"].methods.values():

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Made by python/generate.py from lua/lacuna.d.lua.
 """Classes and functions, as lacuna.d.lua has them."""
-from ._objects import AnyMesh, Object, Shown, Table, call, classes, loaded, options_of, shaped
+from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, loaded, options_of,
+                       shaped)
 
 __all__ = [
         "ModelInfo", "FaceInfo", "Cavity", "Classification", "Match", "Closure", "FreeEdge", "LeftOut",
@@ -309,7 +310,7 @@ class Model(Shown):
         self._method("picture", path, options_of(options, keywords))
 
 
-class Face(Object):
+class Face(AnyFace):
     __slots__ = ()
 
     @property

@@ -6,7 +6,7 @@ from typing import Any, Literal, Union
 
 import numpy
 
-from ._objects import AnyMesh, Object, Shown
+from ._objects import AnyFace, AnyMesh, Object, Shown
 from ._wire import Report, Table
 
 Path = Union[str, os.PathLike[str]]
@@ -165,7 +165,7 @@ class Model(Shown):
             title: str | None = ...,
             view: Vector | Literal["iso", "front", "back", "left", "right", "top", "bottom"] | None = ...,
     ) -> None: ...
-class Face(Object):
+class Face(AnyFace):
     @property
     def tag(self) -> int: ...
     @property

@@ -53,6 +53,17 @@ class Object:
         return numpy.asarray(_Memory(self._method(name, *arguments)))
 
 
+class AnyFace(Object):
+    """Equal to other objects of the same face, and counted with them in sets."""
+
+    __slots__ = ()
+
+    def __hash__(self):
+        return hash((id(self._interpreter), self._field("tag")))
+
+    __eq__ = Object.__eq__
+
+
 class Buffer(Object):
     __slots__ = ()
 
