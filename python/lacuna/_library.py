@@ -162,9 +162,13 @@ class _Job:
             except BaseException as error:  # the job has to end first
                 raised = raised or error
                 self.stop()
-        if raised or self.error:
-            raise raised or self.error
-        return self.answer
+        raised, self.error = raised or self.error, None
+        if raised is None:
+            return self.answer
+        try:
+            raise raised
+        finally:
+            del raised  # which would keep this frame, and all arguments, until the next collection
 
 
 def _work(jobs):
@@ -303,14 +307,6 @@ def _note(line):
 
 
 _local = threading.local()
-
-
-def _forget_threads():
-    global _local
-    _local = threading.local()
-
-
-os.register_at_fork(after_in_child=_forget_threads)
 
 
 def own_interpreter():

@@ -13,6 +13,7 @@ import time
 import types
 import unittest
 import unittest.mock
+import weakref
 
 try:
     import numpy
@@ -375,11 +376,13 @@ class Threads(unittest.TestCase):
         self.assertGreater(len(turns), 20, "the job held the lock of the interpreter")
 
     def test_a_forked_process_has_an_interpreter_of_its_own(self):
-        prism().sweep(layers=1, size=0.5)
+        void = prism()
+        void.sweep(layers=1, size=0.5)
         child = os.fork()
         if child == 0:
             try:
-                os._exit(0 if prism().sweep(layers=2, size=0.5).layers == 2 else 1)
+                counts = [each.sweep(layers=2, size=0.5).layers for each in (void, prism())]
+                os._exit(0 if counts == [2, 2] else 1)
             finally:
                 os._exit(1)
         self.assertEqual(os.waitpid(child, 0)[1], 0)
@@ -412,13 +415,19 @@ class Memory(unittest.TestCase):
 
     def test_failed_and_stopped_calls_leave_nothing(self):
         void = prism()
+        gc.disable()
+        self.addCleanup(gc.enable)
         with lacuna.progress(lambda stage, share: False):
             for _ in range(3):
                 with self.assertRaises(lacuna.Error):
                     void.sweep(layers=40, size=0.05)
-        with self.assertRaises(lacuna.Error):
-            void.sweep(layers=0, size=1)
+        for wrong in dict(layers=0), dict(size=lambda x, y, z: 1 / 0):
+            with self.assertRaises((lacuna.Error, ZeroDivisionError)):
+                void.sweep(**wrong)
         self.assertEqual(void.sweep(layers=1, size=0.5).layers, 1)
+        gone = weakref.ref(void)
+        del void
+        self.assertIsNone(gone())
 
 
 if __name__ == "__main__":
