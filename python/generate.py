@@ -216,7 +216,9 @@ class Language:
         if kind == "literal":
             return f"Literal[{type_[1]}]"
         if kind == "list":
-            return f"{'Sequence' if given else 'list'}[{self.hint(type_[1], given)}]"
+            of = self.hint(type_[1], given, name)
+            array = " | numpy.ndarray" if given and of in ("Vector", "Sequence[int]") else ""
+            return f"{'Sequence' if given else 'list'}[{of}]{array}"
         if kind == "tuple":
             hints = " | ".join(dict.fromkeys(self.hint(part, given) for part in type_[1:]))
             return f"{'Sequence' if given else 'list'}[{hints}]"
@@ -306,7 +308,8 @@ class Language:
             name = name_in_python(name)
             if options is None:
                 default = " = None" if optional else ""
-                stub.append(f"{name}: {self.hint(type_, True, name.rstrip('_'))}"
+                other = " | OtherMesh" if function.name == "load" else ""
+                stub.append(f"{name}: {self.hint(type_, True, name.rstrip('_'))}{other}"
                             f"{' | None = None' if optional else ''}")
                 code.append(name + default.replace(" ", ""))
                 arguments.append(name)
@@ -505,13 +508,15 @@ def make():
     table = "classes.update(" + ", ".join(f"{name}={name}" for name in [*results(language), *OBJECTS]) + ")"
     table = textwrap.fill(table, WIDTH, subsequent_indent="               ")
     code = HEAD + '"""Classes and functions, as lacuna.d.lua has them."""\n' \
-        "from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, loaded, options_of,\n" \
-        "                       shaped)\n\n" + exported
-    aliases = "\n".join(f"{name} = Union[{language.hint(type_, True).replace(' | ', ', ')}]"
+        "from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, loaded,\n" \
+        "                       options_of, shaped)\n\n" + exported
+    aliases = "\n".join(f"{name} = Union[{language.hint(type_, True).replace(' | ', ', ')}"
+                        f"{', numpy.ndarray' if name == 'Vector' else ''}]"
                         for name, type_ in language.aliases.items() if name != "Drop")
     stub = HEAD + "import os\nfrom collections.abc import Callable, Mapping, Sequence\n" \
-        "from typing import Any, Literal, Union\n\nimport numpy\n\n" \
+        "from typing import Any, Literal, Protocol, Union\n\nimport numpy\n\n" \
         "from ._objects import AnyFace, AnyMesh, Object, Shown\nfrom ._wire import Report, Table\n\n" \
+        "class OtherMesh(Protocol):  # of meshio or PyVista\n    points: Any\n\n" \
         "Path = Union[str, os.PathLike[str]]\n" + aliases + "\n"
     synthetic = Writer(language)
     for function in language.classes["Synthetic"].methods.values():

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Made by python/generate.py from lua/lacuna.d.lua.
 """Classes and functions, as lacuna.d.lua has them."""
-from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, loaded, options_of,
-                       shaped)
+from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, loaded,
+                       options_of, shaped)
 
 __all__ = [
         "ModelInfo", "FaceInfo", "Cavity", "Classification", "Match", "Closure", "FreeEdge", "LeftOut",
@@ -256,8 +256,8 @@ class Model(Shown):
 
     def add_face(self, points, cells, **keywords):
         """name: str
-        points: list[(x, y, z)]
-        cells: list[list[int]]; triangles and quads: numbers of points from 1
+        points: list[(x, y, z)] | numpy.ndarray
+        cells: list[list[int]] | numpy.ndarray; triangles and quads: numbers of points from 1
         keep_mesh: bool; quads are a mesh to be kept, not mere facets; default False
         """
         return self._method("add_face", options_of(None, keywords, points=points, cells=cells))
@@ -388,8 +388,8 @@ class Volume(Shown):
         return self._method("override_class", class_)
 
     def match(self, options=None, /, **keywords):
-        """vertices: list[list[int]]; tags: source, target
-        loops: list[list[int]]; numbers: source, target
+        """vertices: list[list[int]] | numpy.ndarray; tags: source, target
+        loops: list[list[int]] | numpy.ndarray; numbers: source, target
         flip: list[int]; source loops whose direction on the target is turned round
         method: "aligned" | "nearest"; default "aligned"
         """
@@ -397,7 +397,8 @@ class Volume(Shown):
 
     def close(self, options=None, /, **keywords):
         """edge_shape: "auto" | "straight" | "follow" | "smooth"; how a void edge runs; default "auto"
-        void_edges: list[list[int | list[(x, y, z)]]]; given by hand: vertex tags from and to, points between
+        void_edges: list[list[int | list[(x, y, z)] | numpy.ndarray]]; given by hand: vertex tags from and to,
+            points between
         cap: "auto" | "flat" | "parallel"; shape of a missing end; default "auto"
         holes: "cover" | "through"; holes of a given end that have no walls; without it an error where the
             other end is missing

@@ -2,15 +2,18 @@
 # Made by python/generate.py from lua/lacuna.d.lua.
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal, Union
+from typing import Any, Literal, Protocol, Union
 
 import numpy
 
 from ._objects import AnyFace, AnyMesh, Object, Shown
 from ._wire import Report, Table
 
+class OtherMesh(Protocol):  # of meshio or PyVista
+    points: Any
+
 Path = Union[str, os.PathLike[str]]
-Vector = Union[Sequence[float]]
+Vector = Union[Sequence[float], numpy.ndarray]
 Class = Union[Literal["I", "II", "III", "IV", "V", "closed"]]
 FaceRef = Union[Face, int, str, Mapping[str, Any]]
 FaceRefs = Union[FaceRef, Sequence[FaceRef]]
@@ -144,8 +147,8 @@ class Model(Shown):
             free: bool | None = ...,
     ) -> Face: ...
     def add_face(
-            self, points: Sequence[Vector], cells: Sequence[Sequence[int]], *, name: str | None = ...,
-            keep_mesh: bool | None = ...,
+            self, points: Sequence[Vector] | numpy.ndarray, cells: Sequence[Sequence[int]] | numpy.ndarray, *,
+            name: str | None = ..., keep_mesh: bool | None = ...,
     ) -> Face: ...
     def open_volume(
             self, roles: Mapping[str, Any] | None = None, /, *, source: FaceRefs | None = ...,
@@ -199,13 +202,14 @@ class Volume(Shown):
     def override_class(self, class_: Class) -> Volume: ...
     def match(
             self, options: Mapping[str, Any] | None = None, /, *,
-            vertices: Sequence[Sequence[int]] | None = ..., loops: Sequence[Sequence[int]] | None = ...,
-            flip: Sequence[int] | None = ..., method: Literal["aligned", "nearest"] | None = ...,
+            vertices: Sequence[Sequence[int]] | numpy.ndarray | None = ...,
+            loops: Sequence[Sequence[int]] | numpy.ndarray | None = ..., flip: Sequence[int] | None = ...,
+            method: Literal["aligned", "nearest"] | None = ...,
     ) -> Match: ...
     def close(
             self, options: Mapping[str, Any] | None = None, /, *,
             edge_shape: Literal["auto", "straight", "follow", "smooth"] | None = ...,
-            void_edges: Sequence[Sequence[int | Sequence[Vector]]] | None = ...,
+            void_edges: Sequence[Sequence[int | Sequence[Vector] | numpy.ndarray]] | None = ...,
             cap: Literal["auto", "flat", "parallel"] | None = ...,
             holes: Literal["cover", "through"] | None = ...,
     ) -> Closure: ...
@@ -430,7 +434,7 @@ class Quality(Object):
     @property
     def volume(self) -> float: ...
 def load(
-        path: Path | Sequence[str], options: Mapping[str, Any] | None = None, /, *,
+        path: Path | Sequence[Path] | OtherMesh, options: Mapping[str, Any] | None = None, /, *,
         tolerance: float | None = ..., feature_angle: float | None = ..., keep_mesh: bool | None = ...,
         scale: float | None = ..., cad_seconds: float | None = ..., cad_megabytes: float | None = ...,
         without: str | int | Sequence[str | int] | None = ...,
