@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import _thread
-import collections
 import ctypes
 import os
 import queue
 import threading
 import weakref
-
-from ._wire import Request
 
 VERSION = "0.1.0"
 _OK, _FAILED, _CANCELLED = 0, 1, 2
@@ -109,17 +106,18 @@ _library = _load()
 class _Job:
     """A call on the interpreter's own thread, while the caller waits: so signals reach the caller at once."""
 
-    def __init__(self, interpreter, request, callables, progress):
+    def __init__(self, interpreter, request, callables, read, progress):
         self.interpreter = interpreter
         self.request = request
         self.callables = callables
+        self.read = read
         self.progress = progress
         self.caller = _thread.get_ident()
         self.thread = None
         self.inbox = queue.SimpleQueue()  # shares of stages; None: it has ended
-        self.answer = self.error = None
+        self.result = self.error = None
         self._guard = threading.Lock()
-        self._running = self._stopped = False
+        self._running = self._stopped = self._ended = False
 
     def run(self):
         own = self.interpreter
@@ -131,15 +129,16 @@ class _Job:
                     with self._guard:
                         self._running = not self._stopped
                     if self._running:
-                        self.answer = own._exchange(self.request)
+                        self.result = self.read(own._exchange(self.request))
                 except BaseException as error:  # goes on in the caller
                     self.error = self.error or error
                 finally:
                     with self._guard:
                         self._running = False
                     own._job = None
-                    own._settle(self._stopped or self.error is not None)
+                    own._settle(self._stopped)
         finally:
+            self._ended = True
             self.inbox.put(None)
 
     def stop(self):
@@ -149,34 +148,48 @@ class _Job:
                 _library.lacuna_cancel(self.interpreter._handle)
 
     def wait(self):
-        """The answer. What a signal's handler or the progress callback raises stops the job and is raised."""
+        """The result. What a signal's handler or the progress callback raises stops the job and is raised."""
         raised = None
         while True:
             try:
-                told = self.inbox.get()
-                if told is None:
+                if self._ended and self.inbox.empty():  # a signal may come while the last item is taken
                     break
-                if raised is None and self.progress(*told) is False:
+                told = self.inbox.get()
+                if told is not None and raised is None and self.progress(*told) is False:
                     raised = Error("stopped by the progress callback", "core.cancelled")
                     self.stop()
             except BaseException as error:  # the job has to end first
                 raised = raised or error
                 self.stop()
-        raised, self.error = raised or self.error, None
+        result, raised = self.result, raised or self.error
+        self.result = self.error = None
         if raised is None:
-            return self.answer
+            return result
         try:
             raise raised
         finally:
-            del raised  # which would keep this frame, and all arguments, until the next collection
+            del raised, result  # they would keep this frame, and all arguments, until the next collection
 
 
-def _work(jobs):
+class _Stand(weakref.ref):
+    """Kept while an object of Python stands for one in the interpreter. The end of the former puts this into
+    the queue of jobs, without a line of Python that a signal could interrupt."""
+
+    __slots__ = ("number",)
+
+
+def _work(jobs, own):
     while True:
         job = jobs.get()
         if job is None:
             return
-        job.run()
+        if isinstance(job, _Stand):
+            interpreter = own()
+            if interpreter is not None:
+                interpreter._release(job)
+            del interpreter
+        else:
+            job.run()
         del job  # nothing of it stays while the thread waits
 
 
@@ -187,7 +200,7 @@ class Interpreter:
         self._lock = threading.Lock()
         self._job = None  # the one that runs
         self._jobs = self._process = None
-        self._dropped = collections.deque()  # numbers of objects that Python has no more
+        self._stands = {}  # by id: they hash as what they stand for
         own = weakref.ref(self)
         self._callbacks = (_Text(lambda _, text, length: _note(ctypes.string_at(text, length))),
                            _Progress(lambda _, stage, share: own()._tell(stage, share)),
@@ -210,21 +223,21 @@ class Interpreter:
             if self._jobs:
                 self._jobs.put(None)
 
-    def call(self, request, callables, at_once):
-        """Send a request and wait for the answer."""
+    def call(self, request, callables, read, at_once):
+        """Send a request, and return what `read` makes of the answer."""
         me = _thread.get_ident()
         running = self._job
         if running is not None and me in (running.caller, running.thread):
             remedy = "make the call when the one that runs is done"
             raise Error(f"a callback cannot use objects of the thread that it is called for; {remedy}",
                         "lua.busy", remedy=remedy)
+        if self._process != os.getpid():  # no thread yet, or none in a process that was forked
+            self._process, self._jobs = os.getpid(), queue.SimpleQueue()
+            _thread.start_new_thread(_work, (self._jobs, weakref.ref(self)))
         if at_once:
             with self._lock:
-                return self._exchange(request)
-        job = _Job(self, request, callables, getattr(_local, "progress", None))
-        if self._process != os.getpid():  # none yet, or none in a process that was forked
-            self._process, self._jobs = os.getpid(), queue.SimpleQueue()
-            _thread.start_new_thread(_work, (self._jobs,))
+                return read(self._exchange(request))
+        job = _Job(self, request, callables, read, getattr(_local, "progress", None))
         self._jobs.put(job)
         return job.wait()
 
@@ -234,42 +247,36 @@ class Interpreter:
             self._check(_library.lacuna_get_buffer(self._handle, b"lacuna_python.objects.%d" % number, found))
         return found
 
-    def drop(self, number):
-        """An object of Python is gone; callable at any time."""
-        self._dropped.append(number)
-        if self._lock.acquire(blocking=False):
-            try:
-                self._release()
-            finally:
-                self._lock.release()
+    def stand(self, made, number):
+        """`made` stands for an object from now on, which is released when it ends."""
+        made._interpreter, made._number = self, number
+        stand = _Stand(made, self._jobs.put)
+        stand.number = number
+        self._stands[id(stand)] = stand
+
+    def _release(self, stand):
+        del self._stands[id(stand)]
+        text = b"lacuna_python.release(%d)" % stand.number
+        with self._lock:  # if that fails, the object stays as long as the interpreter
+            _library.lacuna_run_string(self._handle, text, len(text), None)
 
     # With the lock held:
 
     def _exchange(self, request):
-        self._release()
         self._check(_library.lacuna_set_string(self._handle, b"lacuna_python.request", request, len(request)))
-        self._run(b"lacuna_python.call()")
+        try:
+            self._run(b"lacuna_python.call()")
+        except Error:
+            self._run(b"lacuna_python.forget()")
+            raise
         data, length = ctypes.c_void_p(), ctypes.c_size_t()
         self._check(_library.lacuna_get_string(self._handle, b"lacuna_python.answer", data, length))
         return ctypes.string_at(data, length.value)
 
-    def _settle(self, failed):
-        """After a job: forget what it made if it failed, and a request to stop that came too late."""
-        if failed:
-            for text in b"", b"lacuna_python.forget()":
-                _library.lacuna_run_string(self._handle, text, len(text), None)
-        self._release()
-
-    def _release(self):
-        while self._dropped:
-            numbers = []
-            while self._dropped:
-                numbers.append(self._dropped.popleft())
-            request = Request(())
-            request.put(numbers)
-            data = b"".join(request.parts)
-            self._check(_library.lacuna_set_string(self._handle, b"lacuna_python.request", data, len(data)))
-            self._run(b"lacuna_python.release()")
+    def _settle(self, stopped):
+        """After a job: a request to stop that came too late would stop the next one."""
+        if stopped:
+            _library.lacuna_run_string(self._handle, b"", 0, None)
 
     def _run(self, text):
         self._check(_library.lacuna_run_string(self._handle, text, len(text), b"python"))

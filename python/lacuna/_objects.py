@@ -22,11 +22,6 @@ class Object:
     def __init__(self, *_, **__):
         raise TypeError(f"a {type(self).__name__} is made by a call, such as lacuna.load")
 
-    def __del__(self):
-        interpreter = getattr(self, "_interpreter", None)
-        if interpreter is not None:
-            interpreter.drop(self._number)
-
     def __str__(self):
         return call("text", self, at_once=self._at_once)
 
@@ -98,12 +93,14 @@ def call(*values, at_once=False):
 
     def make(name, number):
         made = object.__new__(classes[name])
-        made._interpreter, made._number = interpreter, number
+        interpreter.stand(made, number)
         return made
 
-    answer = Answer(interpreter.call(data, request.callables, at_once), make)
-    done = answer.take(1) == b"k"
-    results = [answer.value() for _ in range(answer.whole())]
+    def read(data):
+        answer = Answer(data, make)
+        return answer.take(1) == b"k", [answer.value() for _ in range(answer.whole())]
+
+    done, results = interpreter.call(data, request.callables, read, at_once)
     if done:
         return None if not results else results[0] if len(results) == 1 else tuple(results)
     error, = results

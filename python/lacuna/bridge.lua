@@ -136,22 +136,16 @@ function calls.module(path, ...)
 end
 
 -- Objects are closed at once: Lua knows nothing of the memory behind them.
-local function release(list)
-  local any = false
-  for _, number in ipairs(list) do
-    shares[number] = shares[number] - 1
-    if shares[number] == 0 then
-      local object = objects[number]
-      objects[number], numbers[object], shares[number] = nil, nil, nil
-      if type(object) == "userdata" then
-        local _ <close> = object
-        any = any or debug.getmetatable(object).__name ~= "Face"
-      else
-        any = true
-      end
-    end
+local function release(number)
+  shares[number] = shares[number] - 1
+  if shares[number] > 0 then return end
+  local object = objects[number]
+  objects[number], numbers[object], shares[number] = nil, nil, nil
+  if type(object) == "userdata" then
+    local _ <close> = object
+    if debug.getmetatable(object).__name == "Face" then return end
   end
-  if any then collectgarbage() end
+  collectgarbage()
 end
 
 -- The answer: a letter, then the results or the error.
@@ -174,14 +168,12 @@ lacuna_python = {
     for i = 1, count do values[i], at = value_at(request, at) end
     lacuna_python.answer = answer(pcall(calls[values[1]], table.unpack(values, 2, count)))
   end,
-  release = function()
-    local list = value_at(lacuna_python.request, 1)
-    lacuna_python.request = nil
-    release(list)
-  end,
-  -- The answer did not arrive.
+  release = release,
+  -- The call was stopped: before it took its request, or before its answer was taken.
   forget = function()
-    release(made)
-    made = {}
+    if not lacuna_python.request then
+      for _, number in ipairs(made) do release(number) end
+    end
+    lacuna_python.request, made = nil, {}
   end,
 }

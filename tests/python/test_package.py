@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The package as a program in Python meets it: values, errors, callbacks, signals, threads, memory."""
+import ctypes
 import gc
 import os
 import pathlib
 import pickle
+import random
 import signal
 import subprocess
 import sys
@@ -32,6 +34,19 @@ def resident():
 def prism(**options):
     options = {"sides": 4, "drop": "walls", **options}
     return lacuna.synthetic.prism(**options).open_volume(source="source", target="target")
+
+
+def objects_left():
+    """How many objects live in this thread's interpreter."""
+    library = lacuna._library._library
+    handle = ctypes.c_void_p(lacuna._library.own_interpreter()._handle)
+    kept = lacuna.synthetic.prism()  # what was dropped before a call is released before it
+    count = ctypes.c_int64()
+    text = b"left = 0 for _ in pairs(lacuna_python.objects) do left = left + 1 end"
+    library.lacuna_run_string(handle, text, len(text), None)
+    library.lacuna_get_integer(handle, b"left", ctypes.byref(count))
+    del kept
+    return count.value - 1
 
 
 class Values(unittest.TestCase):
@@ -308,6 +323,33 @@ class Signals(unittest.TestCase):
         self.assertEqual(prism().sweep(layers=2, size=0.5).layers, 2)
 
 
+    def test_signals_at_any_time_leave_nothing_behind(self):
+        def work():
+            void = prism(sides=5)
+            areas = [face.area for face in void.model().faces()]
+            mesh = void.sweep(layers=8, size=lambda x, y, z: 0.25)
+            return sum(areas), mesh.coordinates().tobytes(), mesh.quality().certified
+
+        expected, random_numbers = work(), random.Random(1)
+        stopped = 0
+        before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        try:
+            for _ in range(60):
+                try:
+                    signal.setitimer(signal.ITIMER_REAL, random_numbers.uniform(0.0005, 0.05))
+                    self.assertEqual(work(), expected)
+                    signal.setitimer(signal.ITIMER_REAL, 0)
+                except KeyboardInterrupt:
+                    stopped += 1
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        self.assertGreater(stopped, 5)
+        self.assertEqual(work(), expected)
+        gc.collect()
+        self.assertEqual(objects_left(), 0)
+
+
 class Threads(unittest.TestCase):
     def run_both(self, body):
         failed = []
@@ -411,6 +453,7 @@ class Memory(unittest.TestCase):
         held = resident()
         size = mesh.nodes * 24 + cells.nbytes
         del mesh, quality, cells
+        void.free_edges()  # calls come after what was dropped before them
         self.assertLess(resident(), held - size / 2)
 
     def test_failed_and_stopped_calls_leave_nothing(self):
