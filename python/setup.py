@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A wheel of the package with the library and the program lacuna-cad of a build: that in build/release, or in
-the folder that LACUNA_BUILD names. Nothing is compiled here, and one wheel serves every Python 3."""
+the folder that LACUNA_BUILD names. Nothing is compiled here, and one wheel serves every Python from 3.9."""
 import atexit
 import os
 import pathlib
