@@ -78,6 +78,10 @@ TEST_CASE("hexahedra, wedges, pyramids and tetrahedra come back from every forma
             io::write_deck(deck, target.format, path, {}, target.options);
             const Deck again = io::read_deck(path);
             CHECK(elements_by_shape(again) == elements_by_shape(deck));
+            std::set<Index> regions;
+            for (const io::DeckBlock& block : again.blocks)
+                regions.insert(block.regions.begin(), block.regions.end());
+            CHECK(regions.size() == 1);
             REQUIRE(again.points.size() == deck.points.size());
             double farthest = 0;
             for (std::size_t p = 0; p < deck.points.size(); ++p)

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -18,7 +19,8 @@ namespace {
 /// An array of a netCDF file.
 struct NcArray {
     std::vector<std::size_t> lengths; ///< lengths of its dimensions
-    std::string element_type{};       ///< its attribute of that name
+    std::string element_type{};       ///< its attribute `elem_type`
+    std::string name{};               ///< its attribute of that name
     const VtkType* type = nullptr;
     std::uint64_t begin = 0;
     bool records = false; ///< one array per time step
@@ -127,8 +129,8 @@ private:
         }
     }
 
-    /// @param element_type  receives the text of the attribute `elem_type`; may be null.
-    void skip_attributes(std::string* element_type)
+    /// @param array  receives the texts that describe it; may be null.
+    void skip_attributes(NcArray* array)
     {
         const std::uint64_t all = list(12);
         for (std::uint64_t a = 0; a < all; ++a) {
@@ -139,7 +141,9 @@ private:
             const std::uint64_t size = cursor_.plausible(length, type->bytes, 1) * type->bytes;
             const std::string_view text = cursor_.bytes(size);
             cursor_.bytes((4 - size % 4) % 4);
-            if (element_type != nullptr && of == "elem_type") *element_type = text.substr(0, text.find('\0'));
+            if (array == nullptr) continue;
+            if (of == "elem_type") array->element_type = text.substr(0, text.find('\0'));
+            if (of == "name") array->name = text.substr(0, text.find('\0'));
         }
     }
 
@@ -158,7 +162,7 @@ private:
                 array.lengths.push_back(dimensions_[dimension]);
                 array.records = array.records || (d == 0 && array.lengths.back() == 0);
             }
-            skip_attributes(&array.element_type);
+            skip_attributes(&array);
             array.type = type_of(cursor_.integer());
             count(); // number of bytes, which also follows from the dimensions
             array.begin = wide_offsets_ ? cursor_.size() : static_cast<std::uint32_t>(cursor_.integer());
@@ -290,10 +294,17 @@ private:
         const std::vector<std::string> name = names("eb_names", "block", id);
         numbers_ = numbers("elem_num_map", "elem_map", elements_of(count));
         shapes_.resize(numbers_.size());
+        const NcArray* property = head_.find("eb_prop2");
+        const bool several = property != nullptr && property->name == kRegionProperty;
+        const std::vector<std::int64_t> whole = several ? head_.wholes(*property, "eb_prop2", count) : id;
+        std::map<std::int64_t, std::optional<Index>> regions; // by the id of their first block
         std::size_t first = 0;
-        for (std::size_t b = 0; b < count; ++b)
+        for (std::size_t b = 0; b < count; ++b) {
+            std::optional<Index> own;
             first += read_block("connect" + std::to_string(b + 1), name[b],
-                                static_cast<int>(std::clamp<std::int64_t>(id[b], 0, kMostTag)), first);
+                                static_cast<int>(std::clamp<std::int64_t>(id[b], 0, kMostTag)), first,
+                                several ? regions[whole[b]] : own);
+        }
     }
 
     std::size_t elements_of(std::size_t blocks) const
@@ -309,8 +320,10 @@ private:
         return all;
     }
 
+    /// @param region  of its elements; none: one is added.
     /// @return  number of its elements
-    std::size_t read_block(const std::string& array, const std::string& name, int id, std::size_t first)
+    std::size_t read_block(const std::string& array, const std::string& name, int id, std::size_t first,
+                           std::optional<Index>& region)
     {
         const NcArray* connect = head_.find(array);
         if (connect == nullptr || connect->lengths.size() != 2 || connect->lengths[1] == 0) return 0;
@@ -321,8 +334,9 @@ private:
             into_.pass_over("elements " + connect->element_type, count);
             return count;
         }
+        if (!region) region = into_.add_region(id, name);
         const std::size_t block = into_.block_of(*shape, connect->element_type);
-        const DeckBuilder::Room room = into_.add_elements(block, count, into_.add_region(id, name));
+        const DeckBuilder::Room room = into_.add_elements(block, count, *region);
         const auto places = node_places(NodeOrder::exodus, *shape);
         const auto last = static_cast<std::int64_t>(into_.points().size());
         const auto kept = static_cast<std::size_t>(shape_info(*shape).nodes);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <set>
@@ -209,6 +210,7 @@ struct Block {
     std::size_t first = 0;   ///< number of the first, from 0
     std::string name{};
     int id = 0;
+    int whole = 0; ///< id of the first block of its region
 };
 
 /// The positions, from 0, of nodes or elements in the file, by their numbers.
@@ -315,11 +317,13 @@ private:
     {
         std::set<std::string> names;
         std::set<int> ids;
+        std::map<Index, int> wholes;
         int next = highest_tag(view_->regions);
         for (Block& block : *blocks_) {
             const int tag = block.region < 0 ? 0 : view_->regions[index(block.region)].tag;
             block.id = tag > 0 && ids.insert(tag).second ? tag : ++next;
             ids.insert(block.id);
+            block.whole = wholes.try_emplace(block.region, block.id).first->second;
             const std::string base = block.region < 0 ? "skin" : view_->regions[index(block.region)].name;
             block.name = base;
             for (int i = 2; !block.name.empty() && !names.insert(block.name).second; ++i)
@@ -397,14 +401,18 @@ private:
         const int elements = nc_.dimension("num_elem", elements_);
         const int count = nc_.dimension("num_el_blk", blocks_->size());
         std::vector<std::string> names;
-        std::vector<int> ids;
+        std::vector<int> ids, wholes;
         for (const Block& block : *blocks_) {
             names.push_back(block.name);
             ids.push_back(block.id);
+            wholes.push_back(block.whole);
         }
         nc_.wholes("eb_status", {count}, [](std::size_t) { return 1; });
         nc_.wholes("eb_prop1", {count}, [ids](std::size_t i) { return ids[i]; },
                    {text_attribute("name", "ID")});
+        if (wholes != ids)
+            nc_.wholes("eb_prop2", {count}, [wholes](std::size_t i) { return wholes[i]; },
+                       {text_attribute("name", kRegionProperty)});
         nc_.names("eb_names", {count, name_}, names);
         nc_.array("elem_num_map", NcType::whole, {elements}, 1,
                   [view = view_, blocks = blocks_](std::size_t begin, std::size_t end, char* out) {

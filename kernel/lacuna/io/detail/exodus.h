@@ -11,6 +11,10 @@
 /// accepts only paths.
 namespace lacuna::io {
 
+/// The property of blocks that holds the id of the first block of their region: a block has one shape, a
+/// region may have several. It is written if one has.
+inline constexpr const char* kRegionProperty = "REGION";
+
 /// Number of a side in Exodus, from that in Abaqus, which has the bottom and top faces first; Exodus has them
 /// last. Tetrahedra and pyramids have only a bottom face.
 int exodus_side(DeckShape shape, int side);
