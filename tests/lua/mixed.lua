@@ -142,10 +142,17 @@ local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
 local corner = solid { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } }
 do
   local volume = corner:open_volume {}
-  check.fails(function() volume:sweep {} end, "topology.no_roles")
-  check.fails(function() volume:sweep { fallback = "wedges" } end, "topology.no_roles")
+  local remedy = 'or try fallback = "mixed" [topology.no_roles]'
+  check.fails(function() volume:sweep {} end, remedy)
+  check.fails(function() volume:sweep { fallback = "wedges" } end, remedy)
+  check.fails(function() lacuna.assembly { volume }:sweep {} end, remedy)
+  check.fails(function() volume:sweep_to(path("a.msh"), {}) end, 'or try sweep with fallback = "mixed"')
+  check.fails(function() corner:open_volume { source = "f1", target = "f2", walls = { "f3", "f4" } } end,
+    "topology.ends_share_edge", 'fallback = "mixed"')
   check.fails(function() volume:sweep { fallback = "mixed", order = 2 } end, "fill.tets_order", "order = 1")
-  check.fails(function() volume:sweep_to(path("a.msh"), { fallback = "mixed" }) end)
+  for _, object in ipairs { volume, lacuna.assembly { volume } } do
+    check.fails(function() object:sweep_to(path("a.msh"), { fallback = "mixed" }) end, "use sweep and write")
+  end
   local mesh = volume:sweep { fallback = "mixed", size = 0.2 }
   check_mesh(mesh, 1 / 6)
   check.equal(mesh.hexes, 0)
@@ -163,6 +170,17 @@ do
     bytes[n] = opened:read("a")
   end
   check.that(bytes[1] == bytes[2], "other bytes with four threads")
+end
+
+-- Two solids in one volume are refused, with what to do.
+do
+  local faces = cubes { { 0, 0, 0 } }
+  local function away(p) return { p[1] + 5, p[2], p[3] } end
+  for _, face in ipairs { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } } do
+    faces[#faces + 1] = { away(face[1]), away(face[2]), away(face[3]) }
+  end
+  check.fails(function() solid(faces):open_volume {}:sweep { fallback = "mixed" } end, "cad.skin_open",
+    "open each part by itself, with open_volume{ faces = … }")
 end
 
 -- A hole inside a cube: the skin has two parts. The body that fills the hole shares its nodes.
@@ -189,7 +207,7 @@ do
   for k = 1, 4 do faces[k + 1] = { low[k], low[k % 4 + 1], top } end
   local roof = solid(faces):open_volume { name = "roof" }
   local assembly = lacuna.assembly { base, roof }
-  check.fails(function() assembly:sweep { size = 0.25 } end)
+  check.fails(function() assembly:sweep { size = 0.25 } end, 'try fallback = "mixed"')
   local mesh = assembly:sweep { size = 0.25, fallback = "mixed" }
   check_mesh(mesh, 1 + 0.8 / 3)
   check.equal(mesh.hexes, 64)
@@ -216,6 +234,9 @@ do
     check.equal(quality.pyramids, 16)
     check.equal(quality.tets, mesh.tets)
     check.that(math.abs(quality.volume - (1 + 0.8 / 3)) < 1e-6, ending .. ": volume " .. quality.volume)
+    -- A region of several shapes is one region: its cells have no faces between them.
+    local has_regions = ending ~= "vtk" and ending ~= "vtu"
+    check.equal(#lacuna.load(file):faces(), has_regions and 10 or 5, ending)
   end
   check.fails(function() mesh:write(path("parts.msh"), { partitions = 2 }) end, "lua.mixed_write")
   check.fails(function() mesh:write(path("parts.msh"), { partitions = 1 }) end, "lua.mixed_write")

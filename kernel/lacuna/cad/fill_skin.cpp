@@ -102,8 +102,10 @@ std::vector<std::vector<Triangle>> split_into_shells(const ClosedSkin& skin, con
         shells.insert(is_outer ? shells.begin() : shells.end(), std::move(part));
     }
     if (outer != 1)
-        throw InvalidInput("cad.skin_open", "{} has {} outer parts, but {} is needed, oriented outward",
-                           words_for(skin), found(outer), needed(1));
+        throw InvalidInput(Message("cad.skin_open",
+                                   "{} has {} outer parts, but {} is needed, oriented outward",
+                                   words_for(skin), found(outer), needed(1))
+                               .remedy("open each part by itself, with open_volume{{ faces = … }}"));
     return shells;
 }
 

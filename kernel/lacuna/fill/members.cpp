@@ -10,6 +10,7 @@
 #include <lacuna/fill/detail/tets.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/walls.h>
+#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
@@ -249,7 +250,8 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
         const std::string region = part.volume.name.empty() ? number : part.volume.name;
         const auto close_part = [&] {
             if (!mixed) {
-                require_roles(part.volume);
+                if (part.volume.no_roles)
+                    throw InvalidInput(with_tets_as_remedy(*part.volume.no_roles, part.asked->options));
                 part.volume = close_to_sweep(part.volume, region, context);
             } else if (!part.volume.volume.full_turn) { // which is closed
                 part.volume = close(part.volume, {}, context);
@@ -257,9 +259,10 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
         };
         if (part.left_out || !do_or_leave_out(ready.left_out, region, *part.asked, close_part)) continue;
         ready.materials.push_back(part.volume.material);
+        const bool unswept = mixed && (part.volume.no_roles || !closure::has_ends(part.volume.volume));
+        if (unswept) topology::orient_skin(part.volume.volume.model, context); // neighbours are told by it
         ready.members.push_back(member_of(part, region, alone));
-        ready.members.back().unswept = mixed &&
-                                       (part.volume.no_roles || !closure::has_ends(part.volume.volume));
+        ready.members.back().unswept = unswept;
         ready.parts.push_back(&part);
     }
     return ready;
@@ -295,6 +298,7 @@ void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunCo
             }
         }
         mesh.tets.push_back(fill_with_tets(what, part.asked->options, context));
+        mesh.materials.push_back(part.volume.material);
     }
     if (!mesh.tets.empty()) number_nodes(mesh);
     for (const FilledTets& tets : mesh.tets)
@@ -395,7 +399,13 @@ Filled sweep(std::span<const Member> members, const RunContext& context)
         if (!do_or_leave_out(left_out, name, member, add))
             parts.push_back({&member, name, *member.volume, nullptr, true});
     }
-    Filled filled{{}, sweep_parts(parts, std::move(left_out), false, context)};
+    const auto asked = std::ranges::find_if(members, [](const Member& member) {
+        return member.volume != nullptr && member.options.fallback != sweep::Fallback::mixed;
+    });
+    const sweep::SweepOptions none;
+    Filled filled = sweep_or_name_tets(asked == members.end() ? none : asked->options, [&] {
+        return Filled{{}, sweep_parts(parts, std::move(left_out), false, context)};
+    });
     for (const Member& member : members) {
         if (member.volume == nullptr) continue;
         const auto part = std::ranges::find(parts, &member, &Part::asked);

@@ -181,14 +181,12 @@ std::vector<std::string>& report_of(Filled& filled)
     return std::get<FilledVolume>(filled.mesh).swept.report;
 }
 
-} // namespace
-
-Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& context)
+Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
     if (volume.no_roles) {
         if (auto filled = sweep_in_pieces(volume, *volume.no_roles, asked, context))
             return std::move(*filled);
-        require_roles(volume);
+        throw InvalidInput(with_tets_as_remedy(*volume.no_roles, asked.options));
     }
     SweepRequest request = asked;
     request.options.improving = sweep::with_deadline(request.options.improving);
@@ -237,6 +235,20 @@ Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& 
         other = with_other_sweep(volume, next);
         other->told = told;
     }
+}
+
+} // namespace
+
+Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& options)
+{
+    if (options.fallback == sweep::Fallback::mixed || !options.tet_mesher || options.order > 1) return why;
+    return why.remedy("{}try {}fallback = \"mixed\"", why.remedy().empty() ? "" : why.remedy() + ", or ",
+                      options.layered ? "sweep with " : "");
+}
+
+Filled sweep(const Volume& volume, const SweepRequest& request, const RunContext& context)
+{
+    return sweep_or_name_tets(request.options, [&] { return sweep_or_fill(volume, request, context); });
 }
 
 Filled fill(const topology::Model& model, const Request& request, const RunContext& context)

@@ -96,6 +96,18 @@ std::vector<FaceId> walls_at(const OpenVolume& volume, VertexId vertex, EdgeId e
     return walls;
 }
 
+bool share_a_vertex(const Model& model, const std::vector<FaceId>& some, const std::vector<FaceId>& others)
+{
+    std::set<VertexId> vertices;
+    for (const FaceId face : some)
+        for (const EdgeUse& use : uses_of(model[face])) vertices.insert(use_from(model, use));
+    return std::ranges::any_of(others, [&](FaceId face) {
+        return std::ranges::any_of(uses_of(model[face]), [&](const EdgeUse& use) {
+            return vertices.contains(use_from(model, use));
+        });
+    });
+}
+
 /// Ends of a pie slice share its axis, where layers have no height; along that axis it can be swept.
 void check_no_shared_edge(const OpenVolume& volume)
 {
@@ -116,6 +128,9 @@ void check_no_shared_edge(const OpenVolume& volume)
                 throw InvalidInput(std::move(message).remedy(
                     "sweep along that edge: the faces at its two ends are source and target (they may be "
                     "missing), and these two are walls"));
+            if (share_a_vertex(model, from, to)) // a slice of a cone, whose tip is the end of its axis
+                throw InvalidInput(std::move(message).remedy(
+                    "name no roles, and sweep with fallback = \"mixed\", which fills it with tetrahedra"));
             throw InvalidInput(std::move(message).remedy(
                 "sweep along that edge, with {} as source and {} as target and these two as walls",
                 entities_of(model, from), entities_of(model, to)));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/closure/shared/steps.h>
+#include <lacuna/core/error.h>
 #include <lacuna/fill.h>
 
 #include <string>
@@ -11,6 +12,20 @@ namespace lacuna::fill {
 
 /// @throw InvalidInput  if no ends to sweep between were found: why.
 void require_roles(const Volume& volume);
+
+/// Why a volume cannot be swept, with the option that fills it with tetrahedra as one more thing to try.
+Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& options);
+
+/// Run a sweep. @throw NotSweepable  likewise, if the options do not allow tetrahedra.
+template <class Do>
+auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
+{
+    try {
+        return sweep();
+    } catch (const NotSweepable& error) {
+        throw NotSweepable(with_tets_as_remedy(error.message(), options));
+    }
+}
 
 /// Close a volume and check that it has a source and a target.
 /// @param region  name of the region, for messages.
