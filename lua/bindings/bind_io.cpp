@@ -14,11 +14,13 @@
 #include <lacuna/io/leave_out.h>
 #include <lacuna/io/load_facets.h>
 #include <lacuna/io/mesh_file.h>
+#include <lacuna/io/shared/mixed_deck.h>
 #include <lacuna/io/shared/solid_nodes.h>
 #include <lacuna/quality/shared/second_order.h>
 #include <lacuna/team/shared/tasks.h>
 
 #include <algorithm>
+#include <variant>
 
 namespace lacuna::lua {
 
@@ -231,7 +233,7 @@ const io::Deck& deck_with(const WriteArguments& arguments, io::Deck& merged, con
 
 /// A mesh that joins the decks, and the material of its region.
 struct JoinedMesh {
-    const mesh::HexMesh* mesh;
+    std::variant<const mesh::HexMesh*, const mesh::TetPart*> mesh;
     std::string material;
 };
 
@@ -255,8 +257,12 @@ io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& a
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         options.material = meshes[m].material;
         const io::Deck& with = m > 0 ? joined : without ? split.kept : deck;
-        joined = io::join_deck(with, model.model, model.scale, *meshes[m].mesh, options, context,
-                               split.gone.get(), &before);
+        joined = std::visit(
+            [&](const auto* mesh) {
+                return io::join_deck(with, model.model, model.scale, *mesh, options, context,
+                                     split.gone.get(), &before);
+            },
+            meshes[m].mesh);
         options.first_node = options.first_cell = 0;
     }
     return io::close_gap(std::move(joined), context);
@@ -375,6 +381,8 @@ io::Deck joined_deck(const fill::FilledParts& state, const WriteArguments& argum
     std::vector<JoinedMesh> meshes;
     for (std::size_t p = 0; p < state.regions.size(); ++p)
         meshes.push_back({&state.swept.parts[p].mesh, state.materials[p]});
+    for (std::size_t t = 0; t < state.tets.size(); ++t)
+        meshes.push_back({&state.tets[t].mesh, state.materials[state.regions.size() + t]});
     return joined_deck(meshes, arguments, context);
 }
 
@@ -383,15 +391,14 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
                  const RunContext& context)
 {
     const io::Format& format = io::needed_mesh_format("write", path.text());
-    if (!arguments.with.empty() || arguments.partitions_given)
-        throw InvalidInput(Message("lua.mixed_write", "write: a mesh with tetrahedra is written without '{}'",
-                                   arguments.with.empty() ? "partitions" : "with")
-                               .remedy("leave it out"));
-    if (is_pieces(format))
-        throw InvalidInput(Message("lua.mixed_write", "write: a mesh with tetrahedra is written as one file")
-                               .remedy("write a .vtu file"));
+    if (arguments.partitions_given || is_pieces(format))
+        throw InvalidInput(
+            Message("lua.mixed_write", "write: a mesh with tetrahedra is written as one file")
+                .remedy("{}", is_pieces(format) ? "write a .vtu file" : "leave out 'partitions'"));
     arguments.deck.format = format.deck;
-    const io::Deck deck = fill::whole_deck(state, arguments.deck, arguments.msh.interfaces, context);
+    const io::Deck deck = arguments.with.empty()
+                              ? fill::whole_deck(state, arguments.deck, arguments.msh.interfaces, context)
+                              : joined_deck(state, arguments, context);
     io::write_deck(deck, format, path, context, arguments.msh);
 }
 

@@ -41,7 +41,7 @@ struct FilledTets {
 struct FilledParts {
     sweep::SweptAssembly swept;         ///< its `nodes` count those of `tets` too
     std::vector<std::string> regions;   ///< one for each part; the pieces of a full turn share one
-    std::vector<std::string> materials; ///< one for each part; empty: no material
+    std::vector<std::string> materials; ///< one for each part, then for each of `tets`; empty: no material
     std::vector<sweep::LeftOut> left_out;
     std::vector<FilledTets> tets;
 };

@@ -264,4 +264,32 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
     join_centres(deck, mesh, matched, tolerance, scale, points);
 }
 
+void join_middles(const Deck& deck, const mesh::TetPart& mesh, const std::vector<bool>& /*matched*/,
+                  double /*tolerance*/, double /*scale*/, std::vector<Index>& points)
+{
+    std::vector<Segment> pairs;
+    std::vector<std::size_t> of;
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+        const mesh::CellNodes corners = skin_nodes(mesh, i);
+        for (std::size_t k = 0; k < corners.count; ++k) {
+            const Segment pair{points[index(corners.node[k])],
+                               points[index(corners.node[(k + 1) % corners.count])]};
+            if (pair[0] < 0 || pair[1] < 0) continue;
+            pairs.push_back(pair);
+            of.push_back(i);
+        }
+    }
+    const std::vector<Index> found = find_middles<2>(deck, pairs);
+    const auto middle = std::ranges::find_if(found, [](Index node) { return node >= 0; });
+    if (middle == found.end()) return;
+    const auto s = static_cast<std::size_t>(middle - found.begin());
+    throw InvalidInput(Message("io.mixed_order",
+                               "{}: the side between {} and {} has a middle node in the deck, but "
+                               "tetrahedra and pyramids are of order 1",
+                               entity_of(mesh.patches[index(skin_quad(mesh, of[s]).patch)]),
+                               numbered("node", deck.point_tags[index(pairs[s][0])]),
+                               numbered("node", deck.point_tags[index(pairs[s][1])]))
+                           .remedy("give the deck elements of order 1"));
+}
+
 } // namespace lacuna::io

@@ -6,6 +6,7 @@
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
+#include <lacuna/io/shared/mixed_deck.h>
 
 #include <algorithm>
 #include <map>
@@ -15,9 +16,10 @@
 namespace lacuna::io {
 namespace {
 
+template <class Mesh>
 class Joiner {
 public:
-    Joiner(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh)
+    Joiner(const Deck& deck, const topology::Model& model, double scale, const Mesh& mesh)
         : deck_(deck), model_(model), scale_(scale), mesh_(mesh)
     {
     }
@@ -220,7 +222,7 @@ private:
     const Deck& deck_;
     const topology::Model& model_;
     double scale_;
-    const mesh::HexMesh& mesh_;
+    const Mesh& mesh_;
     std::vector<Index> skin_;                        ///< nodes of the mesh
     NodesAt at_;                                     ///< points of the deck at these nodes
     std::vector<std::span<const Index>> candidates_; ///< for each node of the mesh, in `at_`
@@ -231,11 +233,9 @@ private:
     std::vector<std::size_t> touching_; ///< for each region, number of its faces on the skin
 };
 
-} // namespace
-
-Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
-               const MeshDeckOptions& options, const RunContext& context, const Deck* gone,
-               JoinedBefore* before)
+template <class Mesh>
+Deck joined(const Deck& deck, const topology::Model& model, double scale, const Mesh& mesh,
+            const MeshDeckOptions& options, const RunContext& context, const Deck* gone, JoinedBefore* before)
 {
     std::vector<bool> was_there(mesh.skin_count(), false);
     if (gone != nullptr) was_there = Joiner(*gone, model, scale, mesh).match();
@@ -251,6 +251,22 @@ Deck join_deck(const Deck& deck, const topology::Model& model, double scale, con
     Deck joined = deck;
     add_mesh(joined, mesh, added, options, context);
     return joined;
+}
+
+} // namespace
+
+Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
+               const MeshDeckOptions& options, const RunContext& context, const Deck* gone,
+               JoinedBefore* before)
+{
+    return joined(deck, model, scale, mesh, options, context, gone, before);
+}
+
+Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::TetPart& mesh,
+               const MeshDeckOptions& options, const RunContext& context, const Deck* gone,
+               JoinedBefore* before)
+{
+    return joined(deck, model, scale, mesh, options, context, gone, before);
 }
 
 } // namespace lacuna::io

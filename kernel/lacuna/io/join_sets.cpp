@@ -99,7 +99,8 @@ public:
             add(set.members, old.kind == nodes ? added_.nodes : added_.cells);
             return 1;
         }
-        if (old.kind == elements && added_.skin.empty()) return 0;
+        const auto has_cell = [](const NewCells::Side& side) { return side.cell.has_value(); };
+        if (old.kind == elements && std::ranges::none_of(added_.skin, has_cell)) return 0;
         std::vector<double> held; // for each face of the old skin, its area if the set contained it
         for (const Face& face : skin_) {
             std::vector<DeckTag> corners;
@@ -114,10 +115,11 @@ public:
         for (std::size_t i = 0; i < on_.size(); ++i) {
             if (on_[i] < 0 || held[index(on_[i])] == 0) continue;
             share += area_[i];
-            if (old.kind == sides && !added_.sides.empty()) set.sides.push_back(added_.sides[i]);
-            if (old.kind == elements) set.members.push_back(added_.skin[i]);
-            for (const Index node : skin_nodes(added_.mesh, i))
-                if (old.kind == nodes) set.members.push_back(added_.nodes[index(node)]);
+            const NewCells::Side& side = added_.skin[i];
+            if (old.kind == sides && side.side) set.sides.push_back(*side.side);
+            if (old.kind == elements) set.members.push_back(*side.cell);
+            if (old.kind == nodes)
+                set.members.insert(set.members.end(), side.nodes.begin(), side.nodes.end());
         }
         add(set.sides, {});
         add(set.members, {});
@@ -142,10 +144,9 @@ private:
             face.area = facet_of(face.corners, [&](Index node) { return gone_.points[index(node)]; }).area;
         }
         const geometry::FacetTree tree(gone_.points, triangles);
-        for (std::size_t i = 0; i < added_.mesh.skin_count(); ++i) {
-            const Facet quad = facet_of(skin_quad(added_.mesh, i).nodes, [&](Index node) {
-                return Vec3(added_.mesh.node(index(node)) / added_.scale);
-            });
+        for (const NewCells::Side& side : added_.skin) {
+            const Facet quad = facet_of({0, 1, 2, 3},
+                                        [&](Index corner) { return side.corners[index(corner)]; });
             area_.push_back(quad.area.norm());
             const Index hit = tree.closest(quad.centre, kReach * kReach * area_.back()).triangle;
             on_.push_back(hit < 0 || quad.area.dot(skin_[index(hit / 2)].area) <= 0 ? -1 : hit / 2);

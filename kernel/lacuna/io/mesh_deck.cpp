@@ -124,11 +124,7 @@ struct TetParts {
     {
         return mesh::distinct_corners(mesh.cells[c]);
     }
-    [[nodiscard]] mesh::CellNodes skin_nodes(std::size_t i) const
-    {
-        const Quad& quad = mesh.skin[i];
-        return {{quad[0], quad[1], quad[2], quad[3]}, mesh::corner_count(quad)};
-    }
+    [[nodiscard]] mesh::CellNodes skin_nodes(std::size_t i) const { return mesh::skin_nodes(mesh, i); }
     [[nodiscard]] Quad skin_quad(std::size_t i) const { return mesh.skin[i]; }
     [[nodiscard]] Index patch(std::size_t i) const { return mesh.skin_patch[i]; }
     [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<int>> behind_skin() const
@@ -181,8 +177,7 @@ public:
         const std::vector<std::size_t> of_all = joins() ? sets_of_all(deck_) : std::vector<std::size_t>();
         add_points();
         add_cells();
-        if constexpr (std::is_same_v<Parts, SweptParts>)
-            if (joins()) update_sets(of_all);
+        if (joins()) update_sets(of_all);
         if (abaqus) add_groups(); // surfaces keep their names, element sets are renamed
         if (options_.format != DeckFormat::nastran)
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
@@ -340,14 +335,19 @@ private:
     void update_sets(const std::vector<std::size_t>& of_all)
     {
         if (of_all.empty() && deck_.gap.gone.empty()) return;
-        NewCells added{.mesh = mesh_, .scale = added_.scale, .volume = volume_};
+        NewCells added{.volume = volume_};
         for (const Index place : point_) added.nodes.push_back(deck_.point_tags[index(place)]);
         for (std::size_t c = 0; c < mesh_.cell_count(); ++c)
             added.cells.push_back(first_cell_ + static_cast<DeckTag>(c));
-        for (std::size_t i = 0; i < sides_.size(); ++i)
-            added.sides.push_back({first_cell_ + cells_[i], sides_[i]});
-        for (std::size_t i = 0; added_.skin_cells && i < mesh_.skin_count(); ++i)
-            added.skin.push_back(skin_tag(i));
+        for (std::size_t i = 0; i < mesh_.skin_count(); ++i) {
+            NewCells::Side& side = added.skin.emplace_back();
+            const Quad corners = parts_.skin_quad(i);
+            for (std::size_t k = 0; k < 4; ++k)
+                side.corners[k] = mesh_.node(index(corners[k])) / added_.scale;
+            for (const Index node : parts_.skin_nodes(i)) side.nodes.push_back(point_tag(node));
+            if (has_sides()) side.side = {first_cell_ + cells_[i], sides_[i]};
+            if (added_.skin_cells) side.cell = skin_tag(i);
+        }
         join_sets(deck_, added, of_all, [&](const DeckSet& set) { return may_join(set); });
     }
 
@@ -642,6 +642,12 @@ void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, con
               const RunContext& context)
 {
     MeshAdder(deck, SweptParts{mesh}, added, options, context).add();
+}
+
+void add_mesh(Deck& deck, const mesh::TetPart& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+              const RunContext& context)
+{
+    MeshAdder(deck, TetParts{mesh}, added, options, context).add();
 }
 
 namespace {

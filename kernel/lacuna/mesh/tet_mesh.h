@@ -71,7 +71,16 @@ struct TetPart {
 
     [[nodiscard]] std::size_t cell_count() const { return cells.size(); }
     [[nodiscard]] std::size_t skin_count() const { return skin.size(); }
+    [[nodiscard]] std::size_t node_count() const { return nodes.size(); }
     [[nodiscard]] const Vec3& node(std::size_t n) const { return nodes[n]; }
 };
+
+/// A quad or triangle of the skin, as of a `HexMesh`.
+inline SkinQuad skin_quad(const TetPart& mesh, std::size_t i) { return {mesh.skin[i], mesh.skin_patch[i]}; }
+inline CellNodes skin_nodes(const TetPart& mesh, std::size_t i)
+{
+    const Quad& quad = mesh.skin[i];
+    return {{quad[0], quad[1], quad[2], quad[3]}, corner_count(quad)};
+}
 
 } // namespace lacuna::mesh

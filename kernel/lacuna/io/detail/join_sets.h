@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,13 +17,17 @@ namespace lacuna::io {
 
 /// A mesh that was added to a deck, but not to its sets.
 struct NewCells {
-    const mesh::HexMesh& mesh;
-    double scale = 1;              ///< factor from the mesh's coordinates to the deck's
-    const std::string& volume;     ///< its name
-    std::vector<DeckTag> nodes{};  ///< number of each node of the mesh
-    std::vector<DeckTag> cells{};  ///< number of each cell, increasing
-    std::vector<DeckSide> sides{}; ///< for each quad of the skin; empty: the format has none
-    std::vector<DeckTag> skin{};   ///< element for each quad of the skin; empty: none
+    const std::string& volume;    ///< its name
+    std::vector<DeckTag> nodes{}; ///< number of each node of the mesh
+    std::vector<DeckTag> cells{}; ///< number of each cell, increasing
+    /// A quad or triangle of the skin.
+    struct Side {
+        std::array<Vec3, 4> corners;    ///< in the deck's coordinates; a triangle repeats the last
+        std::vector<DeckTag> nodes{};   ///< numbers of its nodes
+        std::optional<DeckSide> side{}; ///< none: the format has none
+        std::optional<DeckTag> cell{};  ///< element there; none: the skin has none
+    };
+    std::vector<Side> skin{};
 };
 
 template <std::size_t N>

@@ -5,6 +5,7 @@
 #include <lacuna/io/deck_file.h>
 
 #include <lacuna/mesh/mesh_part.h>
+#include <lacuna/mesh/tet_mesh.h>
 
 #include <map>
 #include <span>
@@ -46,8 +47,10 @@ struct AddedMesh {
     /// Material of the elements next to the mesh, and the name of their region; empty: unknown.
     std::string neighbour_material{}, neighbour{};
 };
-/// Add nodes, hexahedra, their region and the sets of the skin to a deck. @throw  as `join_deck()`.
+/// Add nodes, cells, their region and the sets of the skin to a deck. @throw  as `join_deck()`.
 void add_mesh(Deck& deck, const mesh::HexMesh& mesh, const AddedMesh& added, const MeshDeckOptions& options,
+              const RunContext& context = {});
+void add_mesh(Deck& deck, const mesh::TetPart& mesh, const AddedMesh& added, const MeshDeckOptions& options,
               const RunContext& context = {});
 
 /// The face of a patch of the skin, for messages.
@@ -58,6 +61,9 @@ NamedEntity entity_of(const mesh::SkinPatch& patch);
 /// @param points   the deck's point for each corner of the mesh, -1: none; middle nodes are added.
 /// @throw InvalidInput "io.mixed_order"  only one of them has a middle node, or these differ.
 void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
+                  double tolerance, double scale, std::vector<Index>& points);
+/// The same for cells of order 1, which have none.
+void join_middles(const Deck& deck, const mesh::TetPart& mesh, const std::vector<bool>& matched,
                   double tolerance, double scale, std::vector<Index>& points);
 
 } // namespace lacuna::io

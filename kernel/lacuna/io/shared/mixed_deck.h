@@ -27,4 +27,10 @@ struct NumberedTets {
 Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedTets> tets, std::size_t nodes,
              MeshDeckOptions options, bool interfaces, const RunContext& context = {});
 
+/// As `join_deck()` of `deck_file.h`, with tetrahedra and pyramids. If other parts of their mesh joined the
+/// deck before, nodes in the same place are shared with these.
+Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::TetPart& mesh,
+               const MeshDeckOptions& options, const RunContext& context = {}, const Deck* gone = nullptr,
+               JoinedBefore* before = nullptr);
+
 } // namespace lacuna::io

@@ -1,0 +1,104 @@
+-- SPDX-License-Identifier: MIT
+-- A void of a deck that no sweep fills is filled with pyramids and tetrahedra, and both are written as one
+-- deck: its nodes, quads, numbers, sets and cards stay, and CalculiX finds one stress in all kinds of cells.
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+local params = lacuna.params { scratch = "" }
+
+local N = 5
+local block = dofile(arg[0]:match("^(.*/)") .. "unit_block.lua")(check, params.scratch, N)
+
+-- The void in the middle: a cell with arms to five sides. Nodes inside the block are moved, so that quads are
+-- warped and no cut follows them.
+local function is_void(i, j, k)
+  local apart = math.abs(i - 2) + math.abs(j - 2) + math.abs(k - 2)
+  return apart == 0 or (apart == 1 and k < 3)
+end
+local function node(i, j, k) return 10 + i + (N + 1) * (j + (N + 1) * k) end
+local function place(i, j, k)
+  local at = { i, j, k }
+  if math.min(i, j, k) > 0 and math.max(i, j, k) < N then
+    at = { i + 0.1 * math.sin(i + 2 * j + 3 * k), j + 0.1 * math.cos(3 * i - j + k),
+      k + 0.1 * math.sin(i - j) }
+  end
+  return at[1] / N, at[2] / N, at[3] / N
+end
+
+local own = { body = {}, core = {} } -- cells
+for k = 0, N - 1 do
+  for j = 0, N - 1 do
+    for i = 0, N - 1 do
+      local cells = is_void(i, j, k) and own.core or own.body
+      cells[#cells + 1] = { node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
+        node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1) }
+    end
+  end
+end
+
+--- The block as a deck. @param parts  the sets of cells that it has
+local function deck(parts)
+  local lines, tag = { "*HEADING\na block\n*NODE" }, 1000
+  local function add(...) lines[#lines + 1] = string.format(...) end
+  for k = 0, N do
+    for j = 0, N do
+      for i = 0, N do add("%d, %.12g, %.12g, %.12g", node(i, j, k), place(i, j, k)) end
+    end
+  end
+  for _, part in ipairs(parts) do
+    add("*ELEMENT, TYPE=C3D8, ELSET=%s", part)
+    for _, cell in ipairs(own[part]) do
+      tag = tag + 1
+      add("%d, %s", tag, table.concat(cell, ", "))
+    end
+  end
+  add("*ELSET, ELSET=all, GENERATE\n1001, %d", tag)
+  add("*MATERIAL, NAME=steel\n*ELASTIC\n210000., 0.3")
+  for _, part in ipairs(parts) do add("*SOLID SECTION, ELSET=%s, MATERIAL=steel", part) end
+  add("*STEP\n*STATIC\n*EL PRINT, ELSET=all\nS\n*END STEP\n")
+  return table.concat(lines, "\n")
+end
+
+-- The void, or cells that are left out on loading: what fills them takes their place.
+for name, parts in pairs { void = { "body" }, replaced = { "body", "core" } } do
+  local path = ("%s/%s.inp"):format(params.scratch, name)
+  check.write(path, deck(parts))
+  local model = lacuna.load(path, { without = parts[2] })
+  local room = 0.5 / N
+  local void = model:open_volume {
+    faces = model:faces { box = { { room, room, room }, { 1 - room, 1 - room, 1 - room } } },
+    name = "core", material = "steel",
+  }
+  check.equal(void:is_watertight(), true)
+  local mesh = void:sweep { size = 1 / N, fallback = "mixed" }
+  check.that(mesh.pyramids > 0 and mesh.tets > 0, mesh.hexes .. " hexahedra")
+  local hexes = #own.body + mesh.hexes
+
+  for _, ending in ipairs { "inp", "bdf", "msh", "vtu", "exo", "unv" } do
+    local out = ("%s/joined_%s.%s"):format(params.scratch, name, ending)
+    mesh:write(out, { with = model })
+    local quality = lacuna.check(out)
+    check.equal(quality.certified, true, ending)
+    check.equal(quality.pyramids, mesh.pyramids, ending)
+    check.equal(quality.tets, mesh.tets, ending)
+    check.equal(quality.hexes, hexes, ending)
+    check.near(quality.volume, 1, 1e-7)
+  end
+
+  local text = block.read(("%s/joined_%s.inp"):format(params.scratch, name))
+  local nodes, cells = block.deck(text)
+  local before, kept = block.deck(deck { "body" })
+  for tag, at in pairs(before) do
+    for axis = 1, 3 do check.equal(nodes[tag][axis], at[axis]) end
+  end
+  for tag, corners in pairs(kept) do
+    check.equal(table.concat(cells[tag], " "), table.concat(corners, " "))
+  end
+  check.equal(block.size(cells), hexes + mesh.pyramids + mesh.tets)
+  local _, sections = text:gsub("SOLID SECTION, ELSET=core, MATERIAL=steel", "")
+  check.equal(sections, 1)
+  if block.ccx then
+    local points = block.solve(name, text, nodes)
+    check.equal(points, 8 * (hexes + mesh.pyramids) + mesh.tets)
+  end
+end
+check.done()
