@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <chrono>
 #include <clocale>
 #include <csignal>
 #include <cstdint>
@@ -27,6 +28,54 @@ local prism = lacuna.synthetic.prism { sides = 4, drop = "walls" }
 void = prism:open_volume { source = "source", target = "target" }
 mesh = void:sweep { layers = layers or 2, size = 0.5 }
 nodes, cells = mesh:coordinates(), mesh:cells()
+)lua";
+
+/// A cube with an arm to each side, which no single sweep fills, and the pieces it is cut into.
+const char* const kStar = R"lua(
+local star = require("lacuna").model()
+local cubes = { { 0, 0, 0 } }
+for axis = 1, 3 do
+  for side = -1, 1, 2 do
+    cubes[#cubes + 1] = { 0, 0, 0 }
+    cubes[#cubes][axis] = side
+  end
+end
+local known = {}
+for _, cube in ipairs(cubes) do known[table.concat(cube, " ")] = true end
+for _, cube in ipairs(cubes) do
+  for axis = 1, 3 do
+    for side = 0, 1 do
+      local beside, points = { cube[1], cube[2], cube[3] }, {}
+      beside[axis] = beside[axis] + 2 * side - 1
+      for k, at in ipairs { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } do
+        local point = { cube[1], cube[2], cube[3] }
+        point[axis] = point[axis] + side
+        point[axis % 3 + 1] = point[axis % 3 + 1] + at[1]
+        point[(axis + 1) % 3 + 1] = point[(axis + 1) % 3 + 1] + at[2]
+        points[side == 1 and k or 5 - k] = point
+      end
+      if not known[table.concat(beside, " ")] then
+        star:add_face { points = points, cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+      end
+    end
+  end
+end
+local volume = star:open_volume {}
+pieces = volume:cut { auto = true }
+count = #pieces
+mesh = volume:sweep { size = 0.5, fallback = "mixed" }
+hexes, tets, filled = mesh.hexes, mesh.tets, mesh:quality().volume
+)lua";
+
+/// The corner of a cube, cut off, in tetrahedra of a size.
+const char* const kCorner = R"lua(
+local corner = require("lacuna").model()
+local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
+for _, points in ipairs { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } } do
+  corner:add_face { points = points, cells = { { 1, 2, 3 } } }
+end
+mesh = corner:open_volume {}:sweep { size = size, fallback = "mixed" }
+nodes, tets = mesh:coordinates(), mesh:cells "tet"
 )lua";
 
 /// The error a text ends with.
@@ -228,6 +277,62 @@ TEST_CASE("the host's locale, streams and signal handlers stay, and numbers have
     const bool kept = std::signal(SIGINT, handler) == SIG_IGN;
     CHECK(kept);
 }
+
+TEST_CASE("a volume that no sweep fills is cut into pieces, from C++ and from C")
+{
+    Interpreter host;
+    host.run_string(kStar);
+    REQUIRE(std::get<std::int64_t>(host.get("count")) > 1);
+    CHECK(host.get("tets") == Value(std::int64_t{0}));
+    CHECK(std::get<double>(host.get("filled")) == doctest::Approx(7));
+    lacuna_interpreter* const handle = lacuna_open(nullptr);
+    REQUIRE(lacuna_run_string(handle, kStar, std::strlen(kStar), nullptr) == LACUNA_OK);
+    for (const char* name : {"count", "hexes", "tets"}) {
+        std::int64_t number = -1;
+        CHECK(lacuna_get_integer(handle, name, &number) == LACUNA_OK);
+        CHECK(host.get(name) == Value(number));
+    }
+    lacuna_close(handle);
+}
+
+#ifdef LACUNA_CAD_PROGRAM
+TEST_CASE(
+    "tetrahedra are buffers in C++ and in C, are cancelled in time, and need the program that makes them")
+{
+    ::setenv("LACUNA_CAD", LACUNA_CAD_PROGRAM, 1);
+    Interpreter host;
+    host.set("size", 0.2);
+    host.run_string(kCorner);
+    const BufferView tets = host.buffer("tets");
+    CHECK(tets.columns == 4);
+    CHECK(Value(static_cast<std::int64_t>(tets.rows)) == host.get("mesh.tets"));
+    lacuna_interpreter* const handle = lacuna_open(nullptr);
+    CHECK(lacuna_set_number(handle, "size", 0.2) == LACUNA_OK);
+    REQUIRE(lacuna_run_string(handle, kCorner, std::strlen(kCorner), nullptr) == LACUNA_OK);
+    lacuna_buffer same;
+    REQUIRE(lacuna_get_buffer(handle, "tets", &same) == LACUNA_OK);
+    REQUIRE(same.rows == tets.rows);
+    CHECK(std::memcmp(same.data, tets.data, tets.rows * 4 * sizeof(std::int32_t)) == 0);
+
+    host.set("size", 0.015);
+    using Clock = std::chrono::steady_clock;
+    std::atomic<Clock::time_point> asked{};
+    std::thread canceller([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(400));
+        asked = Clock::now();
+        host.cancel();
+    });
+    CHECK_THROWS_AS(host.run_string(kCorner), Cancelled);
+    canceller.join();
+    CHECK(Clock::now() - asked.load() < std::chrono::milliseconds(500));
+
+    const char* const refused = "require('lacuna').synthetic.prism {}:open_volume {}\n"
+                                "  :sweep_to('a.msh', { fallback = 'mixed' })";
+    CHECK(lacuna_run_string(handle, refused, std::strlen(refused), nullptr) == LACUNA_FAILED);
+    CHECK(std::string(lacuna_error_message(handle)).find("use sweep and write") != std::string::npos);
+    lacuna_close(handle);
+}
+#endif
 
 TEST_CASE("the sandbox has no files and no processes")
 {

@@ -12,6 +12,16 @@ static const char recipe[] = "local lacuna = require 'lacuna'\n"
                              "print(mesh)\n"
                              "nodes, cells = mesh:coordinates(), mesh:cells()\n";
 
+/* The corner of a cube, cut off, which has no ends to sweep between. */
+static const char corner[] =
+    "local corner = require('lacuna').model()\n"
+    "local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }\n"
+    "for _, points in ipairs { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } } do\n"
+    "  corner:add_face { points = points, cells = { { 1, 2, 3 } } }\n"
+    "end\n"
+    "mesh = corner:open_volume {}:sweep { size = 0.2, fallback = 'mixed' }\n"
+    "tets = mesh:cells 'tet'\n";
+
 static void print(void* user, const char* text, size_t length)
 {
     ++*(int*)user;
@@ -48,6 +58,13 @@ int main(void)
     const int32_t* first = cells.data; /* numbers of nodes count from 1 */
     printf("lacuna %s: %zu nodes, %zu cells; the first corner is at %g %g %g\n", lacuna_version(), nodes.rows,
            cells.rows, at[3 * (first[0] - 1)], at[3 * (first[0] - 1) + 1], at[3 * (first[0] - 1) + 2]);
+
+    lacuna_buffer tets = {0};
+    if (lacuna_run_string(recipes, corner, strlen(corner), "corner") == LACUNA_OK)
+        lacuna_get_buffer(recipes, "tets", &tets);
+    else if (strcmp(lacuna_error_code(recipes), "cad.no_worker") != 0) /* lacuna-cad makes them */
+        return 1;
+    printf("%zu tetrahedra in C\n", tets.rows);
 
     const char wrong[] = "mesh:write 'nowhere/at/all/x.msh'";
     const lacuna_status status = lacuna_run_string(recipes, wrong, strlen(wrong), "recipe");

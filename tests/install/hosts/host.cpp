@@ -19,6 +19,17 @@ mesh = void:sweep { layers = 12, size = 4 }
 nodes, cells, quality = mesh:coordinates(), mesh:cells(), mesh:quality()
 )lua";
 
+// The corner of a cube, cut off, which has no ends to sweep between.
+const char* const kCorner = R"lua(
+local corner = require("lacuna").model()
+local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
+for _, points in ipairs { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } } do
+  corner:add_face { points = points, cells = { { 1, 2, 3 } } }
+end
+mesh = corner:open_volume {}:sweep { size = 0.2, fallback = "mixed" }
+tets = mesh:cells "tet"
+)lua";
+
 struct Result {
     std::size_t nodes = 0, hexes = 0;
     double lowest = 0, highest = 0; ///< of z
@@ -41,6 +52,20 @@ Result mesh_of(int sides)
     return result;
 }
 
+/// Tetrahedra that fill the corner; none without the program that makes them, `lacuna-cad`.
+std::size_t tets_of_corner()
+{
+    lacuna::Interpreter recipes;
+    try {
+        recipes.run_string(kCorner);
+    } catch (const lacuna::ScriptError& error) {
+        if (error.code() != "cad.no_worker") throw;
+        return 0;
+    }
+    const lacuna::BufferView tets = recipes.buffer("tets"); // four nodes each
+    return tets.columns == 4 ? tets.rows : 0;
+}
+
 } // namespace
 
 int main()
@@ -54,6 +79,8 @@ int main()
                   << " to " << result.highest << (result.certified ? ", all valid\n" : ", not all valid\n");
         if (!result.certified || result.highest - result.lowest < 59.9) return 1;
     }
+
+    std::cout << tets_of_corner() << " tetrahedra in C++\n";
 
     lacuna::Interpreter recipes;
     try {
