@@ -94,3 +94,7 @@ recipe("bottle", { picture("mesh", "bottle_inside",
     { cut = { point = { 0, 40, 0 }, normal = { 0, -1, 0 } }, colour = "region", view = low }) })
 recipe("both_sides", { picture("mesh", "both_sides", { colour = "region", view = low }) })
 recipe("boundary_layers", { picture("mesh", "boundary_layers", { view = { 0.3, -0.8, 1.2 } }) })
+recipe("bracket", { picture("mesh", "bracket", { colour = "region" }) })
+recipe("crossing_bores", { picture("mesh", "crossing_bores") })
+recipe("foam", { picture("mesh", "foam",
+    { cut = { point = { 0, 45, 0 }, normal = { 0, -1, 0 } }, view = low }) })
