@@ -24,11 +24,11 @@ local function place(i, j, k)
   return at[1] / N, at[2] / N, at[3] / N
 end
 
-local own = { body = {}, core = {} } -- cells
+local own = { body = {}, core = {}, shaft = {} } -- cells; the shaft leads from the void to the top
 for k = 0, N - 1 do
   for j = 0, N - 1 do
     for i = 0, N - 1 do
-      local cells = is_void(i, j, k) and own.core or own.body
+      local cells = is_void(i, j, k) and own.core or i == 2 and j == 2 and k > 2 and own.shaft or own.body
       cells[#cells + 1] = { node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
         node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1) }
     end
@@ -58,24 +58,20 @@ local function deck(parts)
   return table.concat(lines, "\n")
 end
 
--- The void, or cells that are left out on loading: what fills them takes their place.
-for name, parts in pairs { void = { "body" }, replaced = { "body", "core" } } do
-  local path = ("%s/%s.inp"):format(params.scratch, name)
-  check.write(path, deck(parts))
-  local model = lacuna.load(path, { without = parts[2] })
-  local room = 0.5 / N
-  local void = model:open_volume {
-    faces = model:faces { box = { { room, room, room }, { 1 - room, 1 - room, 1 - room } } },
-    name = "core", material = "steel",
-  }
-  check.equal(void:is_watertight(), true)
-  local mesh = void:sweep { size = 1 / N, fallback = "mixed" }
-  check.that(mesh.pyramids > 0 and mesh.tets > 0, mesh.hexes .. " hexahedra")
-  local hexes = #own.body + mesh.hexes
+--- The faces of a box of cells [low, high).
+local function faces_in(model, low, high)
+  local box, room = { {}, {} }, 0.5 / N
+  for axis = 1, 3 do box[1][axis], box[2][axis] = low[axis] / N - room, high[axis] / N + room end
+  return model:faces { box = box }
+end
 
+--- The joined mesh in every format; as an Abaqus deck, with the nodes and cells that were given, solved.
+local function judge(name, mesh, with)
+  local hexes = mesh.hexes
+  for _, part in ipairs(with.parts) do hexes = hexes + #own[part] end
   for _, ending in ipairs { "inp", "bdf", "msh", "vtu", "exo", "unv" } do
     local out = ("%s/joined_%s.%s"):format(params.scratch, name, ending)
-    mesh:write(out, { with = model })
+    mesh:write(out, { with = with.model })
     local quality = lacuna.check(out)
     check.equal(quality.certified, true, ending)
     check.equal(quality.pyramids, mesh.pyramids, ending)
@@ -83,10 +79,9 @@ for name, parts in pairs { void = { "body" }, replaced = { "body", "core" } } do
     check.equal(quality.hexes, hexes, ending)
     check.near(quality.volume, 1, 1e-7)
   end
-
   local text = block.read(("%s/joined_%s.inp"):format(params.scratch, name))
   local nodes, cells = block.deck(text)
-  local before, kept = block.deck(deck { "body" })
+  local before, kept = block.deck(deck(with.parts))
   for tag, at in pairs(before) do
     for axis = 1, 3 do check.equal(nodes[tag][axis], at[axis]) end
   end
@@ -100,5 +95,38 @@ for name, parts in pairs { void = { "body" }, replaced = { "body", "core" } } do
     local points = block.solve(name, text, nodes)
     check.equal(points, 8 * (hexes + mesh.pyramids) + mesh.tets)
   end
+end
+
+-- The void, or cells that are left out on loading: what fills them takes their place.
+for name, parts in pairs { void = { "body", "shaft" }, replaced = { "body", "shaft", "core" } } do
+  local path = ("%s/%s.inp"):format(params.scratch, name)
+  check.write(path, deck(parts))
+  local model = lacuna.load(path, { without = parts[3] })
+  local void = model:open_volume { faces = faces_in(model, { 1, 1, 1 }, { 4, 4, 3 }), name = "core",
+    material = "steel" }
+  check.equal(void:is_watertight(), true)
+  local mesh = void:sweep { size = 1 / N, fallback = "mixed" }
+  check.that(mesh.pyramids > 0 and mesh.tets > 0, mesh.hexes .. " hexahedra")
+  judge(name, mesh, { model = model, parts = { "body", "shaft" } })
+end
+
+-- The shaft is missing too. It is swept, and the void below it gets a pyramid on its quad.
+do
+  local path = params.scratch .. "/shaft.inp"
+  check.write(path, deck { "body" })
+  local model = lacuna.load(path)
+  local is_of_shaft, void = {}, {}
+  local shaft = faces_in(model, { 2, 2, 3 }, { 3, 3, 5 })
+  for _, face in ipairs(shaft) do is_of_shaft[face.tag] = true end
+  for _, face in ipairs(faces_in(model, { 1, 1, 1 }, { 4, 4, 3 })) do
+    if not is_of_shaft[face.tag] then void[#void + 1] = face end
+  end
+  local mesh = lacuna.assembly {
+    model:open_volume { walls = shaft, name = "shaft", material = "steel" },
+    model:open_volume { faces = void, name = "core", material = "steel" },
+  }:sweep { size = 1 / N, fallback = "mixed" }
+  check.equal(mesh.hexes, 2)
+  check.that(mesh.pyramids > 0 and mesh.tets > 0, "no tetrahedra")
+  judge("several", mesh, { model = model, parts = { "body" } })
 end
 check.done()
