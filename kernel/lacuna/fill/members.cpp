@@ -10,7 +10,6 @@
 #include <lacuna/fill/detail/tets.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/walls.h>
-#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
@@ -259,10 +258,9 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
         };
         if (part.left_out || !do_or_leave_out(ready.left_out, region, *part.asked, close_part)) continue;
         ready.materials.push_back(part.volume.material);
-        const bool unswept = mixed && (part.volume.no_roles || !closure::has_ends(part.volume.volume));
-        if (unswept) topology::orient_skin(part.volume.volume.model, context); // neighbours are told by it
         ready.members.push_back(member_of(part, region, alone));
-        ready.members.back().unswept = unswept;
+        ready.members.back().unswept = mixed &&
+                                       (part.volume.no_roles || !closure::has_ends(part.volume.volume));
         ready.parts.push_back(&part);
     }
     return ready;
