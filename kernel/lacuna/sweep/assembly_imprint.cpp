@@ -51,7 +51,7 @@ public:
     {
         std::vector<Index> stops;
         for (const Vec3& p : line) {
-            const Index stop = point_at(p);
+            const Index stop = point_on_face(model_, face_, p);
             if (stop < 0) return {};
             if (stops.empty() || stops.back() != stop) stops.push_back(stop);
         }
@@ -63,84 +63,6 @@ public:
 
 private:
     [[nodiscard]] Face& face() { return model_[face_]; }
-    [[nodiscard]] Vec2 uv_of(std::size_t t, std::size_t k)
-    {
-        return face().uv.empty() ? Vec2::Zero() : face().uv[t][k];
-    }
-
-    Index add_point(Vec3 place, Vec2 uv)
-    {
-        if (face().surface) face().surface->project({&place, 1}, {&uv, 1}, {});
-        model_.points.push_back(place);
-        return static_cast<Index>(model_.points.size()) - 1;
-    }
-
-    void add_facet(const ParamFacet& facet)
-    {
-        face().triangles.push_back(facet.corner);
-        if (!face().uv.empty() || face().surface) face().uv.push_back(facet.uv);
-    }
-
-    /// The facet point at a position: a corner, or a new point on a side or inside a facet.
-    Index point_at(const Vec3& p)
-    {
-        geometry::FacetTree::Hit best;
-        for (std::size_t t = 0; t < face().triangles.size(); ++t) {
-            const Triangle& c = face().triangles[t];
-            const geometry::FacetTree::Hit hit = geometry::closest_on_triangle(
-                p, {model_.at(c[0]), model_.at(c[1]), model_.at(c[2])});
-            if (hit.distance2 >= best.distance2) continue;
-            best = hit;
-            best.triangle = static_cast<Index>(t);
-        }
-        const std::size_t t = index(best.triangle);
-        const Triangle corner = face().triangles[t];
-        for (const Index c : corner)
-            if ((model_.at(c) - best.point).norm() <= tolerance_) return c;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Index a = corner[k], b = corner[(k + 1) % 3];
-            const double f = fraction_along(best.point, model_.at(a), model_.at(b));
-            if ((best.point - ((1 - f) * model_.at(a) + f * model_.at(b))).norm() <= tolerance_)
-                return split_side(a, b, f);
-        }
-        std::array<Vec2, 3> uv;
-        Vec2 own = Vec2::Zero();
-        for (std::size_t k = 0; k < 3; ++k) {
-            uv[k] = uv_of(t, k);
-            own += best.barycentric[static_cast<int>(k)] * uv[k];
-        }
-        const Index made = add_point(best.point, own);
-        for (std::size_t k = 1; k < 3; ++k)
-            add_facet({{corner[k], corner[(k + 1) % 3], made}, {uv[k], uv[(k + 1) % 3], own}});
-        face().triangles[t] = {corner[0], corner[1], made};
-        if (!face().uv.empty()) face().uv[t] = {uv[0], uv[1], own};
-        return made;
-    }
-
-    /// Insert a point on a side between two facets of the face. @return  -1 on the face's rim, which keeps
-    /// its points.
-    Index split_side(Index a, Index b, double fraction)
-    {
-        int beside = 0;
-        Vec2 uv = Vec2::Zero();
-        for (std::size_t t = 0; t < face().triangles.size(); ++t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (edge_key(face().triangles[t][k], face().triangles[t][(k + 1) % 3]) != edge_key(a, b))
-                    continue;
-                ++beside;
-                const bool along = face().triangles[t][k] == a;
-                const double f = along ? fraction : 1 - fraction;
-                uv = (1 - f) * uv_of(t, k) + f * uv_of(t, (k + 1) % 3);
-            }
-        }
-        if (beside < 2) return -1;
-        const Index made = add_point((1 - fraction) * model_.at(a) + fraction * model_.at(b), uv);
-        SidePoints sides;
-        sides.add(a, b, {made});
-        cut_at_sides(model_.points, face(), sides);
-        return made;
-    }
-
     /// Cut along a straight line from one point to another, along the facets.
     bool cut_between(Index from, Index to, std::vector<Index>& chain)
     {
@@ -176,7 +98,7 @@ private:
             const double f = ha / (ha - hb);
             const Vec3 there = (1 - f) * model_.at(a) + f * model_.at(b);
             if ((there - start).dot(way) <= 0) continue;
-            return split_side(a, b, f);
+            return point_on_side(model_, face_, a, b, f);
         }
         return -1;
     }

@@ -42,6 +42,19 @@ void cut(std::span<const Vec3> points, const ParamFacet& facet, std::array<bool,
     result.push_back(facet);
 }
 
+/// Surface parameters at a corner of a facet; zero without a surface.
+Vec2 uv_of(const Face& face, std::size_t facet, std::size_t corner)
+{
+    return face.uv.empty() ? Vec2::Zero() : face.uv[facet][corner];
+}
+
+Index add_point(ModelBuilder& model, FaceId face, Vec3 place, Vec2 uv)
+{
+    if (model[face].surface) model[face].surface->project({&place, 1}, {&uv, 1}, {});
+    model.points.push_back(place);
+    return static_cast<Index>(model.points.size()) - 1;
+}
+
 } // namespace
 
 bool erase_facets(Face& face, const std::function<bool(std::size_t facet)>& gone)
@@ -104,6 +117,65 @@ void cut_at_sides(std::span<const Vec3> points, Face& face, const SidePoints& si
     }
     face.triangles = std::move(triangles);
     face.uv = std::move(uv);
+}
+
+Index point_on_side(ModelBuilder& model, FaceId id, Index a, Index b, double fraction)
+{
+    Face& face = model[id];
+    int beside = 0;
+    Vec2 uv = Vec2::Zero();
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (edge_key(face.triangles[t][k], face.triangles[t][(k + 1) % 3]) != edge_key(a, b)) continue;
+            ++beside;
+            const double f = face.triangles[t][k] == a ? fraction : 1 - fraction;
+            uv = (1 - f) * uv_of(face, t, k) + f * uv_of(face, t, (k + 1) % 3);
+        }
+    }
+    if (beside < 2) return -1;
+    const Index made = add_point(model, id, (1 - fraction) * model.at(a) + fraction * model.at(b), uv);
+    SidePoints sides;
+    sides.add(a, b, {made});
+    cut_at_sides(model.points, face, sides);
+    return made;
+}
+
+Index point_on_face(ModelBuilder& model, FaceId id, const Vec3& place)
+{
+    Face& face = model[id];
+    geometry::FacetTree::Hit best;
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+        const Triangle& c = face.triangles[t];
+        const geometry::FacetTree::Hit hit = geometry::closest_on_triangle(
+            place, {model.at(c[0]), model.at(c[1]), model.at(c[2])});
+        if (hit.distance2 >= best.distance2) continue;
+        best = hit;
+        best.triangle = static_cast<Index>(t);
+    }
+    const auto t = static_cast<std::size_t>(best.triangle);
+    const Triangle corner = face.triangles[t];
+    for (const Index c : corner)
+        if ((model.at(c) - best.point).norm() <= model.tolerance) return c;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Index a = corner[k], b = corner[(k + 1) % 3];
+        const double f = fraction_along(best.point, model.at(a), model.at(b));
+        if ((best.point - ((1 - f) * model.at(a) + f * model.at(b))).norm() <= model.tolerance)
+            return point_on_side(model, id, a, b, f);
+    }
+    std::array<Vec2, 3> uv;
+    Vec2 own = Vec2::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+        uv[k] = uv_of(face, t, k);
+        own += best.barycentric[static_cast<int>(k)] * uv[k];
+    }
+    const Index made = add_point(model, id, best.point, own);
+    for (std::size_t k = 1; k < 3; ++k) {
+        face.triangles.push_back({corner[k], corner[(k + 1) % 3], made});
+        if (!face.uv.empty() || face.surface) face.uv.push_back({uv[k], uv[(k + 1) % 3], own});
+    }
+    face.triangles[t] = {corner[0], corner[1], made};
+    if (!face.uv.empty()) face.uv[t] = {uv[0], uv[1], own};
+    return made;
 }
 
 std::vector<NearSegment> near_segments(std::span<const Vec3> points,

@@ -45,6 +45,15 @@ bool repeats(std::span<const Index> corners);
 /// Split the facets of a face; its given quads do not change.
 void cut_at_sides(std::span<const Vec3> points, Face& face, const SidePoints& sides);
 
+/// Insert a point into the side of two facets of a face, on its exact surface if there is one.
+/// @return  the point; -1 on the face's rim, which keeps its points.
+Index point_on_side(ModelBuilder& model, FaceId face, Index a, Index b, double fraction);
+
+/// The point of a face's facets closest to a place: a corner within the tolerance, or a new point on a side
+/// or inside a facet, as by `point_on_side()`.
+/// @note  O(facets).
+Index point_on_face(ModelBuilder& model, FaceId face, const Vec3& place);
+
 /// A point close to a segment.
 struct NearSegment {
     Index point = -1;   ///< in the list passed in
