@@ -319,7 +319,7 @@ function Model:picture(path, options) end
 ---@class lacuna.CutOptions
 ---@field plane? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal
 ---@field face? lacuna.FaceRef a Face of any model, or one of the volume's own
----@field auto? boolean where pieces result that can be swept
+---@field auto? boolean where pieces result that can be swept: planes beside concave edges, or blocks at the vertices
 
 ---@class lacuna.Volume
 ---@field class lacuna.Class as the volume was given

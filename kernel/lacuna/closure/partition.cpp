@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/partition.h>
 
+#include <lacuna/closure/detail/midpoint.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
@@ -133,6 +134,21 @@ std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const Can
     return std::move(best->parts);
 }
 
+/// Divide a volume at its middle; empty if that is not possible, or makes more than `most` pieces.
+std::vector<StepPiece> divided_at_middle(const OpenVolume& volume, std::size_t most,
+                                         const CanSweep& can_sweep, const RunContext& context)
+{
+    // Refused: an edge is too short to be split.
+    auto blocks = unless_refused([&] { return midpoint_blocks(volume, most, context); });
+    std::vector<StepPiece> made;
+    if (!blocks) return made;
+    for (OpenVolume& block : *blocks) {
+        made.push_back({std::move(block)});
+        if (!find_ends(made.back(), can_sweep, context)) return {};
+    }
+    return made;
+}
+
 } // namespace
 
 bool has_ends(const OpenVolume& piece)
@@ -160,9 +176,19 @@ std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_s
         std::ranges::move(made, std::back_inserter(parts));
     }
     std::vector<StepPiece> pieces;
+    if (!std::ranges::all_of(parts, &CutPart::has_ends))
+        pieces = divided_at_middle(volume, kMostPieces, can_sweep, context);
+    if (!pieces.empty()) return pieces;
     for (CutPart& part : parts) {
-        if (!part.has_ends) std::ranges::fill(part.piece.volume.role, Role::wall);
-        pieces.push_back(std::move(part.piece));
+        std::vector<StepPiece> blocks;
+        if (!part.has_ends) {
+            std::ranges::fill(part.piece.volume.role, Role::wall);
+            if (parts.size() > 1)
+                blocks = divided_at_middle(part.piece.volume, kMostPieces - pieces.size(), can_sweep,
+                                           context);
+        }
+        if (blocks.empty()) blocks.push_back(std::move(part.piece));
+        std::ranges::move(blocks, std::back_inserter(pieces));
     }
     return pieces;
 }

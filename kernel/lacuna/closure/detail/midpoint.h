@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <cstddef>
+#include <vector>
+
+/// Midpoint subdivision. Internal to this folder.
+namespace lacuna::closure {
+
+/// Divide a sealed volume into one block with six four-sided faces at each vertex @cite li_1995_midpoint:
+/// lines run from the middles of edges to the middles of their faces, and from these to the middle of the
+/// volume.
+///
+/// Middles start at centroids and are moved on their face, or in space, while the corners of the blocks
+/// become better. Given faces are split along plane sections; void faces between two blocks are bilinear.
+/// A volume whose vertices have other numbers of edges than three, or whose blocks would be folded, is first
+/// divided into cones from its centroid over triangles: its three-sided faces, and the others split from
+/// their vertices to their centroids. Each cone is then divided with the middles of its faces at their
+/// centroids.
+/// @param most  number of blocks.
+/// @return  the blocks, whose faces are walls; empty if a face is not bounded by one loop of at least three
+///          edges between different faces or keeps a mesh, if there would be more blocks, if a line would
+///          leave its face, or if the scaled Jacobian at a corner of a block would be below 0.1.
+/// @throw InvalidInput  an edge is too short to be split. Cancelled
+/// @note  O(edges · facets).
+std::vector<topology::OpenVolume> midpoint_blocks(const topology::OpenVolume& volume, std::size_t most,
+                                                  const RunContext& context = {});
+
+} // namespace lacuna::closure
