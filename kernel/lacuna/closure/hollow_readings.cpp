@@ -40,6 +40,7 @@ std::optional<Reading> read_bowl(const Model& model, const std::vector<FaceId>& 
                   bowl->depth, entity_of(bowl->volume.model, bowl->mouth)));
     reading.roles.value = reading.classification.value;
     reading.roles.reasons = reading.classification.reasons;
+    reading.others = std::make_shared<const OtherSweeps>(OtherSweeps{*filled, {}});
     reading.volume = std::move(bowl->volume);
     reading.closure = std::move(filled->closure);
     reading.enclosed = enclosed_volume(reading.volume);

@@ -19,7 +19,8 @@ struct SealedVolume : Closed {
     matching::Match match;
 };
 
-/// A sealed void and its sweep directions, best first, without the one of its reading.
+/// A sealed void and its sweep directions, best first, without the one of its reading. If that separates the
+/// bottom from the walls, there is no other, and the faces of the void are whole.
 struct OtherSweeps : Closed {
     std::vector<topology::RoleCandidate> ways; ///< in faces of `volume`
 };

@@ -145,7 +145,7 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
         options.size = surface::even_size(surface::default_size(volume.volume).length);
         options.gap = std::max(options.gap, sweep::kDefaultGap);
     }
-    Volume sealed = volume.volume.full_turn ? volume : close(volume, {}, context);
+    Volume sealed = sealed_whole(volume, context);
     std::vector<closure::StepPiece> pieces = pieces_of(sealed.volume, mixed, context);
     const bool swept = pieces.size() > 1 &&
                        (mixed || std::ranges::all_of(pieces, closure::has_ends, &closure::StepPiece::volume));
@@ -194,6 +194,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
     std::exception_ptr first;
     std::optional<Message> why; // message of `first`
     std::optional<Volume> other;
+    const std::size_t ways = volume.others ? volume.others->ways.size() : 0;
     const bool mixed = asked.options.fallback == sweep::Fallback::mixed;
     if (mixed) request.options.fallback = sweep::Fallback::none;
     // Roles that the user named are not replaced by those of pieces, unless asked for.
@@ -202,10 +203,10 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
         const Volume& now = other ? *other : volume;
         const bool pieces = closure::has_pieces(now.volume, context);
         const auto note_failure = [&](const Error& error) {
-            if (!first && !volume.others && !may_cut) throw;
+            if (!first && ways == 0 && !may_cut) throw;
             if (!first) first = std::current_exception();
             if (!why) why = error.message();
-            if (!volume.others) return;
+            if (ways == 0) return;
             failed.push_back(formatted("roles: swept {} it fails: {} [{}]", ends_in_words(now.volume),
                                        error.what(), error.code()));
             log_line(context, failed.back());
@@ -223,7 +224,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
         } catch (const NotClosed& error) {
             note_failure(error);
         }
-        if (!volume.others || next == volume.others->ways.size()) {
+        if (next == ways) {
             std::optional<Filled> filled;
             if (may_cut) filled = sweep_in_pieces(volume, *why, asked, context);
             if (!filled) std::rethrow_exception(first);

@@ -126,6 +126,14 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
     return volume;
 }
 
+Volume sealed_whole(const Volume& volume, const RunContext& context)
+{
+    if (volume.volume.full_turn) return volume;
+    Volume sealed = close(volume, {}, context);
+    if (sealed.others && sealed.others->ways.empty()) sealed.volume = sealed.others->volume;
+    return sealed;
+}
+
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name)
 {
     Volume volume;
@@ -143,7 +151,7 @@ std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext
 {
     std::vector<closure::StepPiece> cut;
     if (where.automatic) {
-        cut = partition(volume.volume.full_turn ? volume.volume : close(volume, {}, context).volume, context);
+        cut = partition(sealed_whole(volume, context).volume, context);
     } else if (where.plane) {
         cut = closure::cut_by_plane(volume.volume, *where.plane, context);
     } else if (where.model != nullptr) {

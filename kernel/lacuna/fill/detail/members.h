@@ -31,6 +31,10 @@ auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 /// @param region  name of the region, for messages.
 Volume close_to_sweep(const Volume& volume, const std::string& region, const RunContext& context);
 
+/// Seal a volume that is to be cut or filled: its bottom is not separated from its walls, which only a sweep
+/// needs.
+Volume sealed_whole(const Volume& volume, const RunContext& context);
+
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name);
 
