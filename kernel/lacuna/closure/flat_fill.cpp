@@ -5,8 +5,10 @@
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
+#include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/split_loop.h>
+#include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/shared/criteria.h>
@@ -48,22 +50,53 @@ std::vector<Coplanar> by_plane(const Model& model, const std::vector<Loop>& loop
     return planes;
 }
 
+/// Loops that pass no vertex twice. Where two missing faces touch in a vertex, one loop runs round both.
+std::vector<Rim> simple_loops(const Model& model, const std::vector<Rim>& loops)
+{
+    std::vector<Rim> simple;
+    for (const Rim& loop : loops) {
+        std::vector<EdgeUse> path;
+        for (const EdgeUse& use : loop.uses) {
+            path.push_back(use);
+            const auto start = std::ranges::find(path, use_to(model, use),
+                                                 [&](const EdgeUse& u) { return use_from(model, u); });
+            if (start == path.end()) continue;
+            simple.push_back({{start, path.end()}});
+            path.erase(start, path.end());
+        }
+    }
+    return simple;
+}
+
 /// The free loops of the faces, loops in several planes already split.
 struct ToFill {
     std::vector<Loop> flat, bent;
 };
 
-std::optional<ToFill> loops_to_fill(FlatFilling& filling)
+/// The kinds of missing faces that are looked for.
+enum class Missing { flat, any };
+
+std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const RunContext& context)
 {
     Model& model = filling.volume.model;
     ToFill result;
-    for (const Rim& rim : free_loops(filling.volume)) {
+    std::vector<Rim> loops = free_loops(filling.volume);
+    if (missing == Missing::any) loops = add_tubes(filling, simple_loops(model, loops), context);
+    for (const Rim& rim : loops) {
         if (is_flat(model, rim)) {
             result.flat.push_back({rim.uses});
             continue;
         }
         const std::size_t edges = model.edges.size();
+        if (missing == Missing::any && tells_face(model, {rim.uses})) {
+            result.bent.push_back({rim.uses});
+            continue;
+        }
         auto split = split_loop(model, rim);
+        if (missing == Missing::any && !split) {
+            auto parts = split_touching(model, rim, context);
+            split = SplitLoop{parts ? std::move(*parts) : std::vector<Loop>{{rim.uses}}};
+        }
         if (!split) return std::nullopt;
         for (std::size_t e = edges; e < model.edges.size(); ++e) filling.closure.void_edges.emplace_back(e);
         for (Loop& part : split->parts)
@@ -93,8 +126,8 @@ void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunCo
     }
 }
 
-/// `fill_flat_loops()` without the final check.
-std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<FaceId>& faces,
+/// Fill the free loops of some faces, without the final check.
+std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<FaceId>& faces, Missing missing,
                                       const RunContext& context)
 {
     FlatFilling result;
@@ -102,17 +135,22 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
     volume.model = extract(model, faces);
     orient_consistently(volume.model);
     volume.role.assign(faces.size(), Role::wall);
-    const std::optional<ToFill> loops = loops_to_fill(result);
-    if (!loops) return std::nullopt;
-    // Refused: a ridge across a notch, whose straight edge would be outside the rim.
-    return unless_refused([&] {
-        fill_flat(result, loops->flat, context);
-        for (const Loop& loop : loops->bent) {
-            VoidFilling filling = fill(volume, {loop}, nullptr, {"the missing wall"}, context);
-            result.closure.void_faces.push_back(add_void_face(volume, std::move(filling), Role::wall));
-        }
-        return std::move(result);
-    });
+    // Refused: a ridge across a notch, whose straight edge would be outside the rim; a bent face that folds.
+    return unless_refused([&]() -> std::optional<FlatFilling> {
+               const std::optional<ToFill> loops = loops_to_fill(result, missing, context);
+               if (!loops) return std::nullopt;
+               fill_flat(result, loops->flat, context);
+               for (const Loop& loop : loops->bent) {
+                   std::optional<VoidFilling> filling;
+                   if (missing == Missing::any && !is_ruled_between_alike(volume.model, loop))
+                       filling = fill_round_patch(volume.model, loop, context);
+                   if (!filling) filling = fill(volume, {loop}, nullptr, {"the missing wall"}, context);
+                   result.closure.void_faces.push_back(
+                       add_void_face(volume, std::move(*filling), Role::wall));
+               }
+               return std::move(result);
+           })
+        .value_or(std::nullopt);
 }
 
 /// Whether a filling is sealed and does not cross itself.
@@ -185,9 +223,19 @@ bool has_flat_loops(const Model& model, FaceId face)
 std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector<FaceId>& faces,
                                            const RunContext& context)
 {
-    auto filled = fill_loops(model, faces, context);
+    auto filled = fill_loops(model, faces, Missing::flat, context);
     if (!filled || !prove(*filled, context)) return std::nullopt;
     note_closed_holes(model, faces, filled->volume, filled->closure);
+    return filled;
+}
+
+std::optional<FlatFilling> fill_all_loops(const Model& model, const std::vector<FaceId>& faces,
+                                          const RunContext& context)
+{
+    auto filled = fill_loops(model, faces, Missing::any, context);
+    if (!filled || !prove(*filled, context)) return std::nullopt;
+    note_closed_holes(model, faces, filled->volume, filled->closure);
+    note_open_rims(filled->volume, RolesBy::finding, filled->closure);
     return filled;
 }
 
@@ -196,7 +244,7 @@ std::optional<FlatFilling> fill_missing_end(const OpenVolume& volume, const RunC
     if (std::ranges::any_of(free_loops(volume),
                             [&](const Rim& rim) { return lies_on_round_face(volume.model, rim); }))
         return std::nullopt;
-    auto filled = fill_loops(volume.model, all_faces(volume.model), context);
+    auto filled = fill_loops(volume.model, all_faces(volume.model), Missing::flat, context);
     if (!filled || filled->each_alone || filled->channel || !prove(*filled, context)) return std::nullopt;
     const bool flat = std::ranges::all_of(
         filled->closure.void_faces, [&](FaceId face) { return has_flat_loops(filled->volume.model, face); });

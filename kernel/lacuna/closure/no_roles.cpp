@@ -179,7 +179,8 @@ std::optional<Reading> read_walls_alone(const Model& model, const std::vector<Fa
         has_branches(open, context))
         return std::nullopt;
     std::vector<Reading> readings = find_readings(model, walls, context);
-    if (readings.size() != 1 || !(take_guess || !readings.front().guess)) return std::nullopt;
+    if (readings.size() != 1 || readings.front().no_roles || !(take_guess || !readings.front().guess))
+        return std::nullopt;
     const RoleCandidate& roles = readings.front().roles;
     log_line(context, formatted("note: the walls, named without ends, are no tube between two missing ends; "
                                 "taken as {}",

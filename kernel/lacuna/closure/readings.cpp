@@ -2,9 +2,13 @@
 #include <lacuna/closure/readings.h>
 
 #include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/four_corners.h>
+#include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/hollow_readings.h>
+#include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/no_roles.h>
 #include <lacuna/closure/detail/sealed_voids.h>
+#include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/segment.h>
@@ -42,6 +46,22 @@ bool detours(const Void& v)
     });
 }
 
+/// A void sealed by its free loops.
+/// @param sweeps  of its skin, at least one
+Void void_of(FlatFilling filled, const std::vector<FaceId>& faces, const std::vector<RoleCandidate>& sweeps,
+             std::string how)
+{
+    Void found;
+    found.first.roles.walls = faces;
+    found.cost = kFilled + std::ranges::min_element(sweeps, {}, &RoleCandidate::cost)->cost;
+    found.sealed.volume = std::move(filled.volume);
+    found.sealed.closure = std::move(filled.closure);
+    found.sealed.enclosed = enclosed_volume(found.sealed.volume);
+    found.filled = std::move(how);
+    found.channel = filled.channel;
+    return found;
+}
+
 /// The void that flat faces close, if these are not simply one per free loop, or if the ends are congruent.
 /// @param told  whether a void without ambiguous bends is known; then the faces are not taken for a channel
 std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, bool told,
@@ -51,17 +71,80 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
     if (!filled || filled->each_alone || (told && filled->channel)) return std::nullopt;
     const std::vector<RoleCandidate> sweeps = best_sweeps(filled->volume.model, context);
     if (sweeps.empty()) return std::nullopt;
-    Void found;
-    found.first.roles.walls = faces;
-    const auto likeliest = std::ranges::min_element(sweeps, {}, &RoleCandidate::cost);
-    found.cost = kFilled + likeliest->cost;
-    found.sealed.volume = std::move(filled->volume);
-    found.sealed.closure = std::move(filled->closure);
-    found.sealed.enclosed = enclosed_volume(found.sealed.volume);
-    found.filled = filled->channel ? "sealed by two congruent ends and a wall between them"
-                                   : "sealed by flat faces in its free loops";
-    found.channel = filled->channel;
-    return found;
+    const char* how = filled->channel ? "sealed by two congruent ends and a wall between them"
+                                      : "sealed by flat faces in its free loops";
+    return void_of(std::move(*filled), faces, sweeps, how);
+}
+
+/// A sealed void without ends. @return  empty if it encloses nothing, as a face that is closed by itself.
+std::optional<Reading> without_ends(FlatFilling filled, Message why)
+{
+    Reading reading;
+    reading.volume = std::move(filled.volume);
+    reading.closure = std::move(filled.closure);
+    reading.enclosed = enclosed_volume(reading.volume);
+    double area = 0;
+    for (const FaceId face : all_faces(reading.volume.model)) area += face_area(reading.volume.model, face);
+    if (!(reading.enclosed > reading.volume.model.tolerance * area)) return std::nullopt;
+    reading.no_roles = std::move(why);
+    return reading;
+}
+
+/// The void that is closed at each free loop as its rim tells.
+std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
+                                   const RunContext& context)
+{
+    auto filled = fill_all_loops(model, faces, context);
+    if (!filled || filled->channel || filled->closure.void_faces.empty()) return std::nullopt;
+    auto untold = guess_of_bent(filled->volume, filled->closure, RolesBy::finding);
+    if (!untold) untold = untold_face(filled->volume, filled->closure);
+    const std::vector<RoleCandidate> sweeps = best_sweeps(filled->volume.model, context);
+    std::optional<Reading> reading;
+    if (!sweeps.empty()) {
+        std::vector<Void> found{
+            void_of(std::move(*filled), faces, sweeps, "sealed by the faces that its rims determine")};
+        reading = read(model, found, found.front(), context);
+    } else {
+        reading = without_ends(std::move(*filled), why_no_roles(model, faces, context));
+    }
+    if (reading && !reading->guess) reading->guess = std::move(untold);
+    return reading;
+}
+
+/// Whether a void face is blended between sides that have corners of their own, where it may be several faces.
+bool has_corners_inside_sides(const Model& model, const Closure& closure)
+{
+    return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
+        return model[face].geometry == Geometry::transfinite && !is_about_flat(model, face) &&
+               sharp_corners(model, model[face].loops.front()).size() > 4;
+    });
+}
+
+/// The sealed state of a reading; empty if no faces are missing.
+std::optional<Closed> sealed_state(const Reading& reading)
+{
+    if (reading.closure) return Closed{reading.volume, *reading.closure};
+    if (reading.sealed) return static_cast<const Closed&>(*reading.sealed);
+    return std::nullopt;
+}
+
+/// Take the void closed as its rims tell instead of an ambiguous one, or one with a void face that its rim
+/// does not determine, if that has more void faces or a membrane.
+void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& reading,
+                 const RunContext& context)
+{
+    const auto sealed = sealed_state(reading);
+    auto untold = sealed ? untold_face(sealed->volume, sealed->closure) : std::nullopt;
+    if (!untold && !reading.guess) return;
+    auto told = read_filled(model, faces, context);
+    const bool is_sure = told && !told->guess && told->closure->assumptions.empty();
+    if (is_sure &&
+        (reading.guess || (!same_volume(told->enclosed, reading.enclosed) &&
+                           (told->closure->void_faces.size() < sealed->closure.void_faces.size() ||
+                            !membranes(sealed->volume.model, sealed->closure.void_faces).empty()))))
+        reading = std::move(*told);
+    else if (!reading.guess && has_corners_inside_sides(sealed->volume.model, sealed->closure))
+        reading.guess = std::move(untold);
 }
 
 /// Whether all void faces of a reading are flat.
@@ -72,7 +155,7 @@ bool closes_flat(const Reading& reading)
                                [&](FaceId face) { return has_flat_loops(model, face); });
 }
 
-/// A void without ends: a ring, which is swept as a full turn, or one that flat faces in its free loops seal.
+/// A closed skin without ends: a ring, which is swept as a full turn, or one for pieces or tetrahedra.
 Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
 {
     OpenVolume open = open_volume(model, {{}, {}, faces}, context);
@@ -86,20 +169,10 @@ Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const Ru
         return ring;
     }
     Message why = why_no_roles(model, faces, context);
-    auto filled = fill_flat_loops(model, faces, context);
-    Reading reading;
-    if (filled && !filled->channel) {
-        reading.volume = std::move(filled->volume);
-        reading.closure = std::move(filled->closure);
-        orient_skin(reading.volume.model, context);
-        reading.enclosed = enclosed_volume(reading.volume);
-    }
-    double area = 0;
-    for (const FaceId face : all_faces(reading.volume.model)) area += face_area(reading.volume.model, face);
-    // A face that is closed by itself encloses nothing.
-    if (!(reading.enclosed > reading.volume.model.tolerance * area)) throw InvalidInput(std::move(why));
-    reading.no_roles = std::move(why);
-    return reading;
+    auto filled = free_edges(open).empty() ? fill_flat_loops(model, faces, context) : std::nullopt;
+    auto reading = filled ? without_ends(std::move(*filled), why) : std::nullopt;
+    if (!reading) throw InvalidInput(std::move(why));
+    return std::move(*reading);
 }
 
 } // namespace
@@ -133,6 +206,11 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     if (readings.empty()) {
         if (auto bowl = read_bowl(model, faces, context)) readings.push_back(std::move(*bowl));
     }
+    if (readings.empty()) {
+        if (auto filled = read_filled(model, faces, context)) readings.push_back(std::move(*filled));
+    } else if (readings.size() == 1) {
+        prefer_told(model, faces, readings.front(), context);
+    }
     return readings;
 }
 
@@ -143,7 +221,7 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
         throw InvalidInput(Message("topology.no_faces", "the model has no faces to form a volume")
                                .remedy("load a file that has some, or add_face{{ points =, cells = }}"));
     std::vector<Reading> readings = find_readings(model, faces, context);
-    if (readings.empty()) return read_skin(model, faces, context);
+    if (readings.empty()) readings.push_back(read_skin(model, faces, context));
     if (number == 0) {
         if (auto open = leave_holes_open(model, readings, faces, context)) return std::move(*open);
     }

@@ -25,6 +25,11 @@ struct FlatFilling : Closed {
 std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const std::vector<FaceId>& faces,
                                            const RunContext& context);
 
+/// The same, and round walls between two loops, see `add_tubes()`. Any other loop gets one face, of the shape
+/// that its rim determines; see `guess_of_bent()` for those that do not.
+std::optional<FlatFilling> fill_all_loops(const topology::Model& model, const std::vector<FaceId>& faces,
+                                          const RunContext& context);
+
 /// Fill the free loops of a volume without a target as `fill_flat_loops()` does. New faces that face away
 /// from the source, or slope by at most 60°, are the target; the others are walls, the risers of a target at
 /// several heights.

@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/round_walls.h>
+
+#include <lacuna/closure/detail/guesses.h>
+#include <lacuna/closure/detail/outline.h>
+#include <lacuna/closure/detail/transfinite_fill.h>
+#include <lacuna/closure/detail/void_entities.h>
+#include <lacuna/closure/detail/void_faces.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/dense_solve.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/topology/shared/cone_shape.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/use_places.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// A rim that runs once round an axis at one distance.
+struct RoundRim {
+    std::size_t loop = 0;
+    geometry::Plane base; ///< across the axis, at the centre of the rim
+    double radius = 0;
+    bool flat = false;       ///< whether the rim is planar
+    bool needs_wall = false; ///< whether no face inside the rim can close it
+    std::set<FaceId> beside; ///< the given faces at the rim
+    double along = 0;        ///< position on the axis of its group
+};
+
+/// Turn of a place round the axis of a rim [radian].
+double angle_at(const geometry::Plane& base, const Vec3& place)
+{
+    const Vec2 flat = geometry::to_plane(base, place);
+    return std::atan2(flat.y(), flat.x());
+}
+
+/// The angle from `a` to `b`, in (-π, π].
+double turn_between(double a, double b) { return std::remainder(b - a, 2 * std::numbers::pi); }
+
+/// The turn of a closed chain round the axis: ±2π if it runs round it once.
+double turn_round(const geometry::Plane& base, const std::vector<Vec3>& places)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        sum += turn_between(angle_at(base, places[i]), angle_at(base, places[(i + 1) % places.size()]));
+    return sum;
+}
+
+double distance_to_axis(const geometry::Plane& base, const Vec3& place)
+{
+    return geometry::to_plane(base, place).norm();
+}
+
+/// Whether all places have one distance from the axis.
+bool is_round(const geometry::Plane& base, double radius, const std::vector<Vec3>& places)
+{
+    return std::ranges::all_of(places, [&](const Vec3& p) {
+        return std::abs(distance_to_axis(base, p) - radius) <= kOffShape * radius;
+    });
+}
+
+/// Whether a given face at a rim is a part of the round wall through it.
+bool is_of_wall(const Model& model, const RoundRim& rim, FaceId face)
+{
+    return !plane_of(model, face) &&
+           is_round(rim.base, rim.radius, places_at(model, corner_points(model[face])));
+}
+
+/// The circle that some places in one plane lie on.
+struct Circle {
+    geometry::Plane base; ///< at its centre
+    double radius = 0;
+};
+
+/// The circle through the projections of places on their mean plane; empty if they are off it.
+std::optional<Circle> circle_through(const std::vector<Vec3>& places)
+{
+    const geometry::Plane plane = geometry::newell_plane({&places, 1});
+    // |p|² = 2 c·p + (r² - |c|²) is linear in the unknowns.
+    const auto count = static_cast<Eigen::Index>(places.size());
+    Eigen::MatrixXd left(count, 3);
+    Eigen::VectorXd right(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Vec2 flat = geometry::to_plane(plane, places[static_cast<std::size_t>(i)]);
+        left.row(i) << 2 * flat.x(), 2 * flat.y(), 1;
+        right(i) = flat.squaredNorm();
+    }
+    const Eigen::VectorXd fit = geometry::least_squares(left, right);
+    const Circle circle{geometry::plane_across(geometry::from_plane(plane, fit.head<2>()), plane.normal),
+                        std::sqrt(std::max(0.0, fit(2) + fit.head<2>().squaredNorm()))};
+    if (!(circle.radius > 0) || !is_round(circle.base, circle.radius, places)) return std::nullopt;
+    return circle;
+}
+
+std::optional<RoundRim> round_rim(const Model& model, const Rim& rim, std::size_t loop)
+{
+    const std::vector<Vec3> places = loop_places(model, rim.uses);
+    const std::optional<Circle> circle = circle_through(places);
+    if (!circle || std::abs(std::abs(turn_round(circle->base, places)) - 2 * std::numbers::pi) > kParallel)
+        return std::nullopt;
+    RoundRim round;
+    round.loop = loop;
+    round.base = circle->base;
+    round.radius = circle->radius;
+    for (const EdgeUse& use : rim.uses) round.beside.insert(model.uses_of_edge(use.edge).front().face);
+    round.flat = is_flat(model, rim);
+    round.needs_wall = std::ranges::all_of(round.beside, [&](FaceId face) {
+        return round.flat ? lies_in_plane(model, face, round.base) : !is_of_wall(model, round, face);
+    });
+    return round;
+}
+
+/// Whether a wall between two rims may be missing: they have one axis, and no given face at them continues
+/// the wall.
+bool may_join(const Model& model, const RoundRim& a, const RoundRim& b)
+{
+    const Vec3 apart = b.base.origin - a.base.origin;
+    const double radius = std::max(a.radius, b.radius);
+    if (a.base.normal.cross(b.base.normal).norm() > kVisible ||
+        apart.cross(a.base.normal).norm() > kVisible * std::max(radius, apart.norm()))
+        return false;
+    const auto continues = [&](const RoundRim& rim) {
+        return std::ranges::any_of(rim.beside, [&](FaceId face) { return is_of_wall(model, rim, face); });
+    };
+    return std::abs(a.radius - b.radius) <= kOffShape * radius && !continues(a) && !continues(b);
+}
+
+/// Pairs of rims between which walls are missing, from the rims on one axis with one radius.
+std::vector<std::pair<RoundRim, RoundRim>> pairs_of(std::vector<RoundRim> group,
+                                                    const std::vector<std::size_t>& part)
+{
+    const auto along = [&](const RoundRim& rim) {
+        return (rim.base.origin - group.front().base.origin).dot(group.front().base.normal);
+    };
+    for (RoundRim& rim : group) rim.along = along(rim);
+    std::ranges::stable_sort(group, {}, &RoundRim::along);
+    std::vector<RoundRim> needy, other;
+    for (const RoundRim& rim : group) (rim.needs_wall ? needy : other).push_back(rim);
+    const auto total = [](const std::vector<RoundRim>& rims) {
+        double sum = 0;
+        for (std::size_t i = 0; i + 1 < rims.size(); i += 2) sum += rims[i + 1].along - rims[i].along;
+        return sum;
+    };
+    if (needy.size() % 2 != 0) {
+        std::vector<RoundRim> best;
+        for (const RoundRim& one : other) {
+            std::vector<RoundRim> with = needy;
+            with.insert(std::ranges::upper_bound(with, one.along, {}, &RoundRim::along), one);
+            if (best.empty() || total(with) < total(best)) best = std::move(with);
+        }
+        needy = std::move(best);
+    }
+    const auto part_of = [&](const RoundRim& rim) { return part[rim.beside.begin()->index()]; };
+    if (needy.empty() && other.size() == 2 && part_of(other[0]) != part_of(other[1])) needy = other;
+    std::vector<std::pair<RoundRim, RoundRim>> pairs;
+    for (std::size_t i = 0; i + 1 < needy.size(); i += 2) pairs.emplace_back(needy[i], needy[i + 1]);
+    return pairs;
+}
+
+/// Indices of the uses of two loops that start at the same angle; both loops run the same way round.
+std::vector<std::pair<std::size_t, std::size_t>> aligned(const Model& model, const RoundRim& axis,
+                                                         const std::vector<EdgeUse>& a,
+                                                         const std::vector<EdgeUse>& b)
+{
+    const auto angle = [&](EdgeUse use) {
+        return angle_at(axis.base, model.at(model[use_from(model, use)].point));
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t j = 0; j < b.size(); ++j)
+            if (std::abs(turn_between(angle(a[i]), angle(b[j]))) <= kOffShape) pairs.emplace_back(i, j);
+    return pairs;
+}
+
+/// The uses of a loop from one index to another; the whole loop if they are equal.
+std::vector<EdgeUse> stretch(const std::vector<EdgeUse>& loop, std::size_t from, std::size_t to)
+{
+    std::vector<EdgeUse> uses;
+    do {
+        uses.push_back(loop[from]);
+        from = (from + 1) % loop.size();
+    } while (from != to);
+    return uses;
+}
+
+/// Add the wall between two rims. @return  false if no vertices of the rims are at the same angle.
+bool add_tube(FlatFilling& filling, const RoundRim& from, const std::vector<EdgeUse>& a,
+              std::vector<EdgeUse> b, const RunContext& context)
+{
+    Model& model = filling.volume.model;
+    const auto sense = [&](const std::vector<EdgeUse>& uses) {
+        return turn_round(from.base, loop_places(model, uses)) > 0;
+    };
+    if (sense(a) != sense(b)) b = closure::reversed({b}).uses;
+    const auto pairs = aligned(model, from, a, b);
+    if (pairs.empty()) return false;
+    std::vector<EdgeId> rungs;
+    for (const auto& [i, j] : pairs)
+        rungs.push_back(add_void_edge_through(model, use_from(model, a[i]), use_from(model, b[j])));
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+        const std::size_t next = (p + 1) % pairs.size();
+        std::vector<std::vector<EdgeUse>> sides(4);
+        sides[0] = stretch(a, pairs[p].first, pairs[next].first);
+        sides[1] = {{rungs[next], false}};
+        sides[2] = closure::reversed({stretch(b, pairs[p].second, pairs[next].second)}).uses;
+        sides[3] = {{rungs[p], true}};
+        VoidFilling wall = fill_transfinite(model, sides, nullptr, context);
+        Loop& loop = wall.loops.emplace_back();
+        for (const std::vector<EdgeUse>& side : sides)
+            loop.uses.insert(loop.uses.end(), side.begin(), side.end());
+        filling.closure.void_faces.push_back(add_void_face(filling.volume, std::move(wall), Role::wall));
+    }
+    filling.closure.void_edges.insert(filling.closure.void_edges.end(), rungs.begin(), rungs.end());
+    return true;
+}
+
+/// The image of a rim, along its axis, on the nearest missing flat face that it falls into; its edges and
+/// vertices are added to the model.
+std::optional<Rim> add_mouth(Model& model, const RoundRim& rim, const std::vector<Rim>& loops,
+                             const RunContext& context)
+{
+    check_cancelled(context);
+    const Vec3& way = rim.base.normal;
+    const auto image = [&](const geometry::Plane& plane, const Vec3& p) -> Vec3 {
+        return p - geometry::height(plane, p) / plane.normal.dot(way) * way;
+    };
+    std::optional<geometry::Plane> mouth;
+    double nearest = kInfinity;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        if (l == rim.loop || !is_flat(model, loops[l])) continue;
+        const std::vector<Vec3> round = loop_places(model, loops[l].uses);
+        const geometry::Plane plane = geometry::newell_plane({&round, 1});
+        if (std::abs(plane.normal.dot(way)) <= kParallel) continue;
+        const double away = (image(plane, rim.base.origin) - rim.base.origin).norm();
+        const std::vector<Vec2> flat = flat_places(plane, round);
+        const bool inside = std::ranges::all_of(loop_places(model, loops[rim.loop].uses), [&](const Vec3& p) {
+            return geometry::lies_inside(flat, geometry::to_plane(plane, image(plane, p)));
+        });
+        if (!inside || away >= nearest || away <= model.tolerance) continue;
+        nearest = away;
+        mouth = plane;
+    }
+    if (!mouth) return std::nullopt;
+    ModelBuilder builder(std::move(model));
+    std::map<Index, Index> moved;
+    const auto move = [&](Index p) {
+        const auto [known, fresh] = moved.try_emplace(p, static_cast<Index>(builder.points.size()));
+        if (fresh) builder.points.push_back(image(*mouth, builder.at(p)));
+        return known->second;
+    };
+    std::map<VertexId, VertexId> vertices;
+    Rim result;
+    for (const EdgeUse& use : loops[rim.loop].uses) {
+        std::vector<Index> chain = use_points(builder, use);
+        for (Index& p : chain) p = move(p);
+        const VertexId from = use_from(builder, use), to = use_to(builder, use);
+        for (const VertexId v : {from, to})
+            if (!vertices.contains(v)) vertices[v] = builder.add_void_vertex(move(builder[v].point));
+        result.uses.push_back(
+            {builder.add_void_edge(vertices.at(from), vertices.at(to), std::move(chain)), false});
+    }
+    model = std::move(builder).finish();
+    return result;
+}
+
+/// A surface of revolution with a straight section: the distance from the axis is linear in the height.
+struct RoundWall {
+    geometry::Plane base; ///< across the axis
+    double radius = 0, slope = 0;
+    double step = 0; ///< length of the facets' sides that its arc has [model length]
+
+    [[nodiscard]] double radius_at(double height) const { return radius + slope * height; }
+};
+
+/// The round wall on which all of a loop lies, and one of its edges as an arc round the axis.
+std::optional<RoundWall> wall_through(const Model& model, const Loop& loop)
+{
+    const std::vector<Vec3> places = loop_places(model, loop.uses);
+    for (const EdgeUse& use : loop.uses) {
+        const std::vector<Vec3> arc = use_places(model, use);
+        if (arc.size() < 4) continue; // any three points lie on a circle
+        const std::optional<Circle> circle = circle_through(arc);
+        const auto is_flat_arc = [&](const Vec3& p) {
+            return std::abs(geometry::height(circle->base, p)) <= kVisible * circle->radius;
+        };
+        if (!circle || !std::ranges::all_of(arc, is_flat_arc)) continue;
+        const auto count = static_cast<Eigen::Index>(places.size());
+        Eigen::MatrixXd left(count, 2);
+        Eigen::VectorXd right(count);
+        for (Eigen::Index i = 0; i < count; ++i) {
+            const Vec3& p = places[static_cast<std::size_t>(i)];
+            left.row(i) << 1, geometry::height(circle->base, p);
+            right(i) = distance_to_axis(circle->base, p);
+        }
+        const Eigen::VectorXd fit = geometry::least_squares(left, right);
+        const double off = (left * fit - right).cwiseAbs().maxCoeff(), least = right.minCoeff();
+        if (off > kVisible * circle->radius || !(least > kOffShape * circle->radius) ||
+            std::abs(turn_round(circle->base, places)) > kParallel)
+            continue;
+        return RoundWall{circle->base, fit(0), fit(1),
+                         geometry::length(arc) / static_cast<double>(arc.size() - 1)};
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<VoidFilling> fill_round_patch(const Model& model, const Loop& loop, const RunContext& context)
+{
+    const std::optional<RoundWall> wall = wall_through(model, loop);
+    if (!wall) return std::nullopt;
+    const std::vector<Vec3> places = loop_places(model, loop.uses);
+    std::vector<Vec2> unrolled;
+    double turn = angle_at(wall->base, places.front());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (i > 0) turn += turn_between(turn, angle_at(wall->base, places[i]));
+        unrolled.emplace_back(turn * wall->radius, geometry::height(wall->base, places[i]));
+    }
+    Outline outline;
+    outline.add_loop(unrolled, loop_points(model, loop.uses));
+    if (geometry::find_crossing(outline.flat, outline.loops)) return std::nullopt;
+    constexpr double kFacets = 64; // at most so many along the diagonal of the outline
+    Eigen::AlignedBox2d box;
+    for (const Vec2& place : outline.flat) box.extend(place);
+    geometry::TriangulateOptions fine;
+    fine.size = [size = std::max(wall->step, box.diagonal().norm() / kFacets)](const Vec2&) { return size; };
+    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops, fine, context);
+    VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) -> Vec3 {
+        const double angle = flat.points[i].x() / wall->radius, height = flat.points[i].y();
+        const double radius = wall->radius_at(height);
+        return geometry::from_plane(wall->base, radius * Vec2(std::cos(angle), std::sin(angle)), height);
+    });
+    result.loops = {loop};
+    result.geometry = Geometry::transfinite;
+    result.algorithm = "Algorithm 6";
+    return result;
+}
+
+std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const RunContext& context)
+{
+    const Model model = filling.volume.model;
+    std::vector<std::vector<RoundRim>> groups;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        const auto rim = round_rim(model, loops[l], l);
+        if (!rim) continue;
+        const auto group = std::ranges::find_if(
+            groups, [&](const auto& other) { return may_join(model, other.front(), *rim); });
+        if (group != groups.end())
+            group->push_back(*rim);
+        else
+            groups.push_back({*rim});
+    }
+    std::vector<std::size_t> part(model.faces.size());
+    const std::vector<std::vector<FaceId>> parts = connected_parts(model, all_faces(model));
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        for (const FaceId face : parts[p]) part[face.index()] = p;
+    std::set<std::size_t> joined;
+    for (const std::vector<RoundRim>& group : groups) {
+        for (const auto& [from, to] : pairs_of(group, part)) {
+            check_cancelled(context);
+            if (!add_tube(filling, from, loops[from.loop].uses, loops[to.loop].uses, context)) continue;
+            joined.insert({from.loop, to.loop});
+            const std::vector<FaceId> faces{*from.beside.begin(), *to.beside.begin()};
+            assume(filling.closure,
+                   {"closure.round_wall", "the rims of {} are joined by a straight round wall",
+                    entities_of(model, faces)},
+                   from.needs_wall && to.needs_wall ? 0 : 1);
+        }
+    }
+    std::vector<Rim> left, mouths;
+    for (const std::vector<RoundRim>& group : groups) {
+        for (const RoundRim& rim : group) {
+            if (!rim.flat || !rim.needs_wall || joined.contains(rim.loop)) continue;
+            auto mouth = add_mouth(filling.volume.model, rim, loops, context);
+            if (!mouth || !add_tube(filling, rim, loops[rim.loop].uses, mouth->uses, context)) continue;
+            joined.insert(rim.loop);
+            assume(filling.closure,
+                   Message("closure.round_wall",
+                           "a straight round wall is assumed from the rim of {} to the missing flat face",
+                           entity_of(model, *rim.beside.begin()))
+                       .remedy("if there is another, give it"),
+                   1);
+            mouths.push_back({closure::reversed(*mouth).uses});
+        }
+    }
+    for (std::size_t l = 0; l < loops.size(); ++l)
+        if (!joined.contains(l)) left.push_back(std::move(loops[l]));
+    std::ranges::move(mouths, std::back_inserter(left));
+    return left;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/touching_faces.h>
+
+#include <lacuna/closure/detail/flat_fill.h>
+#include <lacuna/closure/detail/four_corners.h>
+#include <lacuna/closure/detail/membranes.h>
+#include <lacuna/closure/detail/outline.h>
+#include <lacuna/closure/detail/rim_quadrics.h>
+#include <lacuna/closure/detail/round_walls.h>
+#include <lacuna/closure/detail/void_entities.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/topology/shared/cone_shape.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/use_places.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Longest loop that is split; the splits into three faces grow with the third power.
+constexpr std::size_t kMostSides = 48;
+
+// --- one face ---------------------------------------------------------------------------------------------
+
+/// Whether one chain is the other, scaled and shifted; both run in the same direction.
+bool are_similar(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
+{
+    constexpr std::size_t kPieces = 16;
+    const double scale = (b.back() - b.front()).norm() / (a.back() - a.front()).norm();
+    if (!std::isfinite(scale)) return false;
+    const std::vector<Vec3> from = geometry::even_places(a, kPieces), to = geometry::even_places(b, kPieces);
+    const double allowed = kVisible * geometry::length(b);
+    for (std::size_t i = 0; i <= kPieces; ++i)
+        if ((scale * (from[i] - from[0]) - (to[i] - to[0])).norm() > allowed) return false;
+    return true;
+}
+
+/// Whether the given faces beside a loop are one, or parts of one cylinder or sphere: the loop is then a hole
+/// in them, which a face of the same shape would close without a trace.
+bool is_hole_in_round_face(const Model& model, const Loop& loop)
+{
+    std::set<FaceId> beside;
+    for (const EdgeUse& use : loop.uses)
+        for (const FaceUse& by : model.uses_of_edge(use.edge)) beside.insert(by.face);
+    std::optional<RoundShape> first;
+    return std::ranges::all_of(beside, [&](FaceId face) {
+        const auto shape = round_shape(model, face);
+        if (!shape) return beside.size() == 1 && !plane_of(model, face);
+        if (!first) first = shape;
+        return std::abs(shape->radius - first->radius) <= kOffShape * first->radius &&
+               shape->is_sphere() == first->is_sphere() &&
+               (shape->is_sphere() || shape->axis->cross(*first->axis).norm() <= kParallel);
+    });
+}
+
+bool lies_on_round_face(const Model& model, const Loop& loop)
+{
+    const std::vector<Vec3> places = loop_places(model, loop.uses);
+    return std::ranges::any_of(shapes_of_rim(model, {loop}, geometry::newell_plane({&places, 1})).told,
+                               [](const QuadricSheet& sheet) { return !is_pair_of_planes(sheet.quadric); });
+}
+
+// --- several faces ----------------------------------------------------------------------------------------
+
+/// A side of a missing face: an edge of the free loop, or one between missing faces.
+struct FaceSide {
+    std::vector<Vec3> points; ///< in walking order, both ends included
+    EdgeUse given;            ///< invalid for an edge that is to be made
+    VertexId from, to;        ///< invalid for the vertex where three missing faces meet
+};
+using FaceChain = std::vector<FaceSide>;
+
+std::vector<Vec3> points_along(const FaceChain& chain)
+{
+    std::vector<Vec3> points{chain.front().points.front()};
+    for (const FaceSide& side : chain)
+        points.insert(points.end(), side.points.begin() + 1, side.points.end());
+    return points;
+}
+
+/// Some consecutive sides of a loop.
+FaceChain part_of(const FaceChain& loop, std::size_t from, std::size_t to)
+{
+    FaceChain part;
+    for (; from != to; from = (from + 1) % loop.size()) part.push_back(loop[from]);
+    return part;
+}
+
+FaceSide turned(FaceSide side)
+{
+    std::ranges::reverse(side.points);
+    std::swap(side.from, side.to);
+    return side;
+}
+
+std::vector<Vec3> inner_points(const FaceSide& side)
+{
+    return {side.points.begin() + 1, side.points.end() - 1};
+}
+
+Vec3 end_to_end(const std::vector<Vec3>& points) { return points.back() - points.front(); }
+
+std::size_t count_turns(const std::vector<Vec3>& chain)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 1; i + 1 < chain.size(); ++i)
+        count += geometry::angle_between(chain[i] - chain[i - 1], chain[i + 1] - chain[i]) > kVisible ? 1 : 0;
+    return count;
+}
+
+/// A way to split a loop into the loops of faces.
+using FaceSplit = std::vector<FaceChain>;
+
+class TouchingFaces {
+public:
+    TouchingFaces(const Model& model, const RunContext& context) : model_(model), context_(context) {}
+
+    /// The splits of a loop into two faces, of which one is flat.
+    [[nodiscard]] std::vector<FaceSplit> in_two(const FaceChain& loop) const
+    {
+        std::vector<FaceSplit> found;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            check_cancelled(context_);
+            for (std::size_t j = 0; j < loop.size(); ++j) {
+                if (i == j) continue;
+                const FaceChain flat = part_of(loop, i, j), rest = part_of(loop, j, i);
+                const bool flat_there = plane_of_run(flat).has_value();
+                const bool both = flat_there && plane_of_run(rest);
+                if (both && i > j) continue; // found from the other side
+                const bool told = flat_there && (count_turns(points_along(flat)) > 1 ||
+                                                 (both && count_turns(points_along(rest)) > 1));
+                const FaceSide chord = across(rest);
+                const auto image = both ? std::nullopt : image_of_opposite(rest);
+                if (image && tells_face(closed(rest, *image)) && tells_face(closed(flat, turned(*image))))
+                    found.push_back({closed(flat, turned(*image)), closed(rest, *image)});
+                else if ((told || (both && loop.size() == 4)) && fits(chord, flat, rest) &&
+                         (both || tells_face(closed(rest, chord))))
+                    found.push_back({closed(flat, turned(chord)), closed(rest, chord)});
+            }
+        }
+        return found;
+    }
+
+    /// The splits into three faces: a flat one and two others, or three flat ones that meet in a vertex.
+    [[nodiscard]] std::vector<FaceSplit> in_three(const FaceChain& loop) const
+    {
+        std::vector<FaceSplit> found;
+        const std::size_t sides = loop.size();
+        std::vector<Run> runs;
+        for (std::size_t i = 0; i < sides; ++i) {
+            check_cancelled(context_);
+            for (std::size_t j = 0; j < sides; ++j) {
+                Run& run = runs.emplace_back();
+                if (i == j) continue;
+                run.sides = part_of(loop, i, j);
+                run.plane = plane_of_run(run.sides);
+            }
+        }
+        const auto run = [&](std::size_t i, std::size_t j) -> const Run& { return runs[i * sides + j]; };
+        for (std::size_t i = 0; i < sides; ++i) {
+            for (std::size_t j = 0; j < sides; ++j) {
+                const FaceChain &flat = run(i, j).sides, &rest = run(j, i).sides;
+                if (!run(i, j).plane) continue;
+                const FaceSide chord = across(rest);
+                if (rest.size() > 1 && count_turns(points_along(flat)) > 1 && fits(chord, flat, rest)) {
+                    for (FaceSplit split : in_two(closed(rest, chord))) {
+                        split.push_back(closed(flat, turned(chord)));
+                        if (!is_known(found, split)) found.push_back(std::move(split));
+                    }
+                }
+                for (std::size_t k = j + 1; i < j && k < sides; ++k)
+                    if (auto split = round_vertex({&run(i, j), &run(j, k), &run(k, i)}))
+                        found.push_back(std::move(*split));
+            }
+        }
+        return found;
+    }
+
+private:
+    /// A run of sides, and its plane if it has one.
+    struct Run {
+        FaceChain sides;
+        std::optional<geometry::Plane> plane;
+    };
+
+    /// The plane of a run of sides, which the face of the run lies in; empty if the run is not flat or
+    /// straight, if the face would cross itself, or if it would double the given faces along the run.
+    [[nodiscard]] std::optional<geometry::Plane> plane_of_run(const FaceChain& run) const
+    {
+        std::vector<Vec3> points = points_along(run);
+        const double length = geometry::length(points);
+        if ((points.back() - points.front()).norm() <= model_.tolerance) points.pop_back();
+        const geometry::Plane plane = geometry::newell_plane({&points, 1});
+        if (!(geometry::newell_vector(points).norm() > kVisible * length * length)) return std::nullopt;
+        if (std::ranges::any_of(points, [&](const Vec3& p) {
+                return std::abs(geometry::height(plane, p)) >
+                       std::max(model_.tolerance, kFileAccuracy * length);
+            }))
+            return std::nullopt;
+        const bool doubles = std::ranges::all_of(run, [&](const FaceSide& side) {
+            return side.given.edge.valid() &&
+                   lies_in_plane(model_, model_.uses_of_edge(side.given.edge).front().face, plane);
+        });
+        Outline outline;
+        outline.add_loop(flat_places(plane, points));
+        if (doubles || geometry::find_crossing(outline.flat, outline.loops)) return std::nullopt;
+        return plane;
+    }
+
+    /// The straight edge from the end of a run to its start.
+    static FaceSide across(const FaceChain& run)
+    {
+        return straight(run.back().to, run.back().points.back(), run.front().from,
+                        run.front().points.front());
+    }
+
+    static FaceSide straight(VertexId from, const Vec3& start, VertexId to, const Vec3& end)
+    {
+        return {{start, end}, {}, from, to};
+    }
+
+    static FaceChain closed(FaceChain run, FaceSide last)
+    {
+        run.push_back(std::move(last));
+        return run;
+    }
+
+    /// Whether a straight edge may separate two runs: it goes from the end of `rest` to its start, and is
+    /// neither an edge already nor in line with the sides at its ends.
+    [[nodiscard]] bool fits(const FaceSide& chord, const FaceChain& flat, const FaceChain& rest) const
+    {
+        const Vec3 way = end_to_end(chord.points).stableNormalized();
+        for (const FaceChain* run : {&flat, &rest})
+            for (const FaceSide* side : {&run->front(), &run->back()}) {
+                const std::vector<Vec3>& points = side->points;
+                const Vec3 along = side == &run->front() ? points[1] - points[0]
+                                                         : points.back() - points[points.size() - 2];
+                if (along.stableNormalized().cross(way).norm() <= kParallel) return false;
+            }
+        return std::ranges::none_of(model_.edges, [&](const Edge& edge) {
+            return std::minmax(edge.from, edge.to) == std::minmax(chord.from, chord.to) &&
+                   count_turns(places_at(model_, edge.points)) == 0;
+        });
+    }
+
+    /// Whether the loop of a face determines its shape.
+    [[nodiscard]] bool tells_face(const FaceChain& chain) const
+    {
+        if (plane_of_run(chain)) return true;
+        Model model = model_;
+        Loop loop;
+        for (const FaceSide& side : chain) {
+            EdgeUse use = side.given;
+            if (!use.edge.valid()) {
+                if (!side.from.valid() || !side.to.valid()) return false;
+                use = {add_void_edge_through(model, side.from, side.to, inner_points(side)), false};
+            }
+            loop.uses.push_back(use);
+        }
+        return closure::tells_face(model, loop, context_);
+    }
+
+    /// The edge from the end of a run to its start that has the shape of the run between its first and last
+    /// side, if these are straight, parallel and of one length.
+    [[nodiscard]] static std::optional<FaceSide> image_of_opposite(const FaceChain& run)
+    {
+        if (run.size() < 3) return std::nullopt;
+        const Vec3 up = end_to_end(run.front().points), down = end_to_end(run.back().points);
+        if (count_turns(run.front().points) > 0 || count_turns(run.back().points) > 0 ||
+            (up + down).norm() > kVisible * up.norm())
+            return std::nullopt;
+        FaceSide image;
+        const std::vector<Vec3> opposite = points_along({run.begin() + 1, run.end() - 1});
+        for (const Vec3& p : opposite) image.points.push_back(p - up);
+        image.points.front() = run.front().points.front();
+        image.points.back() = run.back().points.back();
+        image.from = run.front().from;
+        image.to = run.back().to;
+        return turned(std::move(image));
+    }
+
+    /// Three flat runs whose planes meet in a point.
+    [[nodiscard]] std::optional<FaceSplit> round_vertex(const std::array<const Run*, 3>& runs) const
+    {
+        if (!std::ranges::all_of(runs, [](const Run* run) { return run->plane.has_value(); }))
+            return std::nullopt;
+        const auto normal = [&](std::size_t r) -> const Vec3& { return runs[r % 3]->plane->normal; };
+        const double volume = normal(0).dot(normal(1).cross(normal(2)));
+        if (std::abs(volume) <= kParallel) return std::nullopt;
+        Vec3 place = Vec3::Zero();
+        for (std::size_t r = 0; r < 3; ++r)
+            place += normal(r).dot(runs[r]->plane->origin) / volume * normal(r + 1).cross(normal(r + 2));
+        const double near = kVisible * (runs[0]->sides.front().points.front() - place).norm();
+        if (std::ranges::any_of(model_.vertices,
+                                [&](const Vertex& v) { return (model_.at(v.point) - place).norm() <= near; }))
+            return std::nullopt;
+        FaceSplit split;
+        for (std::size_t r = 0; r < 3; ++r) {
+            const FaceChain& run = runs[r]->sides;
+            const FaceSide in = straight(run.back().to, run.back().points.back(), {}, place);
+            const FaceSide out = straight({}, place, run.front().from, run.front().points.front());
+            if (!fits(out, runs[(r + 2) % 3]->sides, run)) return std::nullopt;
+            split.push_back(closed(closed(run, in), out));
+            if (!plane_of_run(split.back())) return std::nullopt;
+        }
+        return split;
+    }
+
+    /// Whether a split with the same new edges is known.
+    [[nodiscard]] static bool is_known(const std::vector<FaceSplit>& splits, const FaceSplit& split)
+    {
+        const auto made = [](const FaceSplit& one) {
+            std::set<std::pair<VertexId, VertexId>> ends;
+            for (const FaceChain& chain : one)
+                for (const FaceSide& side : chain)
+                    if (!side.given.edge.valid()) ends.insert(std::minmax(side.from, side.to));
+            return ends;
+        };
+        return std::ranges::any_of(splits,
+                                   [&](const FaceSplit& other) { return made(other) == made(split); });
+    }
+
+    const Model& model_;
+    const RunContext& context_;
+};
+
+/// Add the edges and the vertex of a split to the model.
+std::vector<Loop> add_split(Model& model, const FaceSplit& split)
+{
+    std::vector<Loop> loops;
+    VertexId middle;
+    std::map<std::pair<VertexId, VertexId>, EdgeId> made;
+    const auto vertex = [&](VertexId known, const Vec3& place) {
+        if (known.valid() || middle.valid()) return known.valid() ? known : middle;
+        ModelBuilder builder(std::move(model));
+        builder.points.push_back(place);
+        middle = builder.add_void_vertex(static_cast<Index>(builder.points.size()) - 1);
+        model = std::move(builder).finish();
+        return middle;
+    };
+    for (const FaceChain& chain : split) {
+        Loop& loop = loops.emplace_back();
+        for (const FaceSide& side : chain) {
+            if (side.given.edge.valid()) {
+                loop.uses.push_back(side.given);
+                continue;
+            }
+            const VertexId from = vertex(side.from, side.points.front()),
+                           to = vertex(side.to, side.points.back());
+            const auto known = made.find({to, from});
+            if (known == made.end()) {
+                made[{from, to}] = add_void_edge_through(model, from, to, inner_points(side));
+                loop.uses.push_back({made.at({from, to}), false});
+            } else {
+                loop.uses.push_back({known->second, true});
+            }
+        }
+    }
+    return loops;
+}
+
+} // namespace
+
+bool is_ruled_between_alike(const Model& model, const Loop& loop)
+{
+    const auto sides = four_corners(model, loop);
+    for (std::size_t s = 0; s + 2 < sides.size(); ++s) {
+        if (!is_straight(model, sides[s]) || !is_straight(model, sides[s + 2])) continue;
+        std::vector<Vec3> opposite = use_places(model, sides[(s + 3) % 4]);
+        std::ranges::reverse(opposite);
+        if (are_similar(use_places(model, sides[s + 1]), opposite)) return true;
+    }
+    return false;
+}
+
+bool tells_face(const Model& model, const Loop& loop, const RunContext& context)
+{
+    return is_ruled_between_alike(model, loop) ||
+           (!is_hole_in_round_face(model, loop) &&
+            (lies_on_round_face(model, loop) || fill_round_patch(model, loop, context)));
+}
+
+std::optional<std::vector<Loop>> split_touching(Model& model, const Rim& rim, const RunContext& context)
+{
+    if (rim.uses.size() > kMostSides) return std::nullopt;
+    FaceChain loop;
+    for (const EdgeUse& use : rim.uses)
+        loop.push_back({use_places(model, use), use, use_from(model, use), use_to(model, use)});
+    const TouchingFaces faces(model, context);
+    std::vector<FaceSplit> splits = faces.in_two(loop);
+    if (splits.empty()) splits = faces.in_three(loop);
+    if (splits.size() != 1) return std::nullopt;
+    return add_split(model, splits.front());
+}
+
+std::optional<Message> untold_face(const OpenVolume& sealed, const Closure& closure)
+{
+    const Model& model = sealed.model;
+    for (const FaceId face : closure.void_faces) {
+        if (has_flat_loops(model, face) || is_about_flat(model, face) || round_shape(model, face) ||
+            cone_shape(model, face) || tells_face(model, model[face].loops.front()))
+            continue;
+        std::vector<NamedEntity> beside;
+        for (const FaceId other : faces_beside(model, face))
+            if (model[other].origin == Origin::given) beside.push_back(entity_of(model, other));
+        return Message("topology.shape_open",
+                       "the shape of the missing face beside {} is ambiguous: its rim does not determine it",
+                       beside);
+    }
+    return std::nullopt;
+}
+
+} // namespace lacuna::closure
