@@ -4,7 +4,6 @@
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
-#include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/sealing.h>
 #include <lacuna/closure/detail/split_loop.h>
@@ -190,14 +189,6 @@ bool can_be_swept_to(const OpenVolume& volume, const std::vector<FaceId>& source
            connected_parts(volume.model, target).size() > 1;
 }
 
-/// Whether a loop lies on a sphere, a circular cylinder or a cone.
-bool lies_on_round_face(const Model& model, const Rim& rim)
-{
-    const std::vector<Vec3> places = loop_places(model, rim.uses);
-    return std::ranges::any_of(shapes_of_rim(model, {{rim.uses}}, geometry::newell_plane({&places, 1})).told,
-                               [](const QuadricSheet& sheet) { return !is_pair_of_planes(sheet.quadric); });
-}
-
 } // namespace
 
 bool is_flat(const Model& model, const Rim& rim)
@@ -242,7 +233,7 @@ std::optional<FlatFilling> fill_all_loops(const Model& model, const std::vector<
 std::optional<FlatFilling> fill_missing_end(const OpenVolume& volume, const RunContext& context)
 {
     if (std::ranges::any_of(free_loops(volume),
-                            [&](const Rim& rim) { return lies_on_round_face(volume.model, rim); }))
+                            [&](const Rim& rim) { return lies_on_round_face(volume.model, {rim.uses}); }))
         return std::nullopt;
     auto filled = fill_loops(volume.model, all_faces(volume.model), Missing::flat, context);
     if (!filled || filled->each_alone || filled->channel || !prove(*filled, context)) return std::nullopt;

@@ -46,22 +46,6 @@ bool detours(const Void& v)
     });
 }
 
-/// A void sealed by its free loops.
-/// @param sweeps  of its skin, at least one
-Void void_of(FlatFilling filled, const std::vector<FaceId>& faces, const std::vector<RoleCandidate>& sweeps,
-             std::string how)
-{
-    Void found;
-    found.first.roles.walls = faces;
-    found.cost = kFilled + std::ranges::min_element(sweeps, {}, &RoleCandidate::cost)->cost;
-    found.sealed.volume = std::move(filled.volume);
-    found.sealed.closure = std::move(filled.closure);
-    found.sealed.enclosed = enclosed_volume(found.sealed.volume);
-    found.filled = std::move(how);
-    found.channel = filled.channel;
-    return found;
-}
-
 /// The void that flat faces close, if these are not simply one per free loop, or if the ends are congruent.
 /// @param told  whether a void without ambiguous bends is known; then the faces are not taken for a channel
 std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, bool told,
@@ -71,9 +55,17 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
     if (!filled || filled->each_alone || (told && filled->channel)) return std::nullopt;
     const std::vector<RoleCandidate> sweeps = best_sweeps(filled->volume.model, context);
     if (sweeps.empty()) return std::nullopt;
-    const char* how = filled->channel ? "sealed by two congruent ends and a wall between them"
-                                      : "sealed by flat faces in its free loops";
-    return void_of(std::move(*filled), faces, sweeps, how);
+    Void found;
+    found.first.roles.walls = faces;
+    const auto likeliest = std::ranges::min_element(sweeps, {}, &RoleCandidate::cost);
+    found.cost = kFilled + likeliest->cost;
+    found.sealed.volume = std::move(filled->volume);
+    found.sealed.closure = std::move(filled->closure);
+    found.sealed.enclosed = enclosed_volume(found.sealed.volume);
+    found.filled = filled->channel ? "sealed by two congruent ends and a wall between them"
+                                   : "sealed by flat faces in its free loops";
+    found.channel = filled->channel;
+    return found;
 }
 
 /// A sealed void without ends. @return  empty if it encloses nothing, as a face that is closed by itself.
@@ -90,24 +82,31 @@ std::optional<Reading> without_ends(FlatFilling filled, Message why)
     return reading;
 }
 
-/// The void that is closed at each free loop as its rim tells.
+/// The void that is closed at each free loop as its rim tells. Its skin is then read as a whole body.
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
     auto filled = fill_all_loops(model, faces, context);
     if (!filled || filled->channel || filled->closure.void_faces.empty()) return std::nullopt;
-    auto untold = guess_of_bent(filled->volume, filled->closure, RolesBy::finding);
-    if (!untold) untold = untold_face(filled->volume, filled->closure);
-    const std::vector<RoleCandidate> sweeps = best_sweeps(filled->volume.model, context);
-    std::optional<Reading> reading;
-    if (!sweeps.empty()) {
-        std::vector<Void> found{
-            void_of(std::move(*filled), faces, sweeps, "sealed by the faces that its rims determine")};
-        reading = read(model, found, found.front(), context);
-    } else {
-        reading = without_ends(std::move(*filled), why_no_roles(model, faces, context));
+    const Model skin = filled->volume.model;
+    const std::vector<Reading> whole = find_readings(skin, all_faces(skin), context);
+    auto reading = without_ends(std::move(*filled), why_no_roles(model, faces, context));
+    if (!reading) return std::nullopt;
+    reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
+    if (!reading->guess) reading->guess = untold_face(reading->volume, *reading->closure);
+    if (whole.empty()) return reading;
+    reading->no_roles.reset();
+    reading->roles = whole.front().roles;
+    reading->others = whole.front().others;
+    set_ends(reading->volume, reading->roles.roles);
+    Roles& roles = reading->roles.roles; // in faces of the model
+    for (std::vector<FaceId>* list : {&roles.source, &roles.target, &roles.walls}) {
+        std::erase_if(*list, [&](FaceId face) { return face.index() >= faces.size(); });
+        for (FaceId& face : *list) face = faces[face.index()];
     }
-    if (reading && !reading->guess) reading->guess = std::move(untold);
+    reading->classification = class_as_given(model, roles);
+    reading->roles.value = reading->classification.value;
+    reading->roles.reasons.push_back("sealed by the faces that its rims determine");
     return reading;
 }
 

@@ -20,8 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <map>
 #include <numbers>
 #include <set>
 
@@ -229,55 +227,6 @@ bool add_tube(FlatFilling& filling, const RoundRim& from, const std::vector<Edge
     return true;
 }
 
-/// The image of a rim, along its axis, on the nearest missing flat face that it falls into; its edges and
-/// vertices are added to the model.
-std::optional<Rim> add_mouth(Model& model, const RoundRim& rim, const std::vector<Rim>& loops,
-                             const RunContext& context)
-{
-    check_cancelled(context);
-    const Vec3& way = rim.base.normal;
-    const auto image = [&](const geometry::Plane& plane, const Vec3& p) -> Vec3 {
-        return p - geometry::height(plane, p) / plane.normal.dot(way) * way;
-    };
-    std::optional<geometry::Plane> mouth;
-    double nearest = kInfinity;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        if (l == rim.loop || !is_flat(model, loops[l])) continue;
-        const std::vector<Vec3> round = loop_places(model, loops[l].uses);
-        const geometry::Plane plane = geometry::newell_plane({&round, 1});
-        if (std::abs(plane.normal.dot(way)) <= kParallel) continue;
-        const double away = (image(plane, rim.base.origin) - rim.base.origin).norm();
-        const std::vector<Vec2> flat = flat_places(plane, round);
-        const bool inside = std::ranges::all_of(loop_places(model, loops[rim.loop].uses), [&](const Vec3& p) {
-            return geometry::lies_inside(flat, geometry::to_plane(plane, image(plane, p)));
-        });
-        if (!inside || away >= nearest || away <= model.tolerance) continue;
-        nearest = away;
-        mouth = plane;
-    }
-    if (!mouth) return std::nullopt;
-    ModelBuilder builder(std::move(model));
-    std::map<Index, Index> moved;
-    const auto move = [&](Index p) {
-        const auto [known, fresh] = moved.try_emplace(p, static_cast<Index>(builder.points.size()));
-        if (fresh) builder.points.push_back(image(*mouth, builder.at(p)));
-        return known->second;
-    };
-    std::map<VertexId, VertexId> vertices;
-    Rim result;
-    for (const EdgeUse& use : loops[rim.loop].uses) {
-        std::vector<Index> chain = use_points(builder, use);
-        for (Index& p : chain) p = move(p);
-        const VertexId from = use_from(builder, use), to = use_to(builder, use);
-        for (const VertexId v : {from, to})
-            if (!vertices.contains(v)) vertices[v] = builder.add_void_vertex(move(builder[v].point));
-        result.uses.push_back(
-            {builder.add_void_edge(vertices.at(from), vertices.at(to), std::move(chain)), false});
-    }
-    model = std::move(builder).finish();
-    return result;
-}
-
 /// A surface of revolution with a straight section: the distance from the axis is linear in the height.
 struct RoundWall {
     geometry::Plane base; ///< across the axis
@@ -382,25 +331,9 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
                    from.needs_wall && to.needs_wall ? 0 : 1);
         }
     }
-    std::vector<Rim> left, mouths;
-    for (const std::vector<RoundRim>& group : groups) {
-        for (const RoundRim& rim : group) {
-            if (!rim.flat || !rim.needs_wall || joined.contains(rim.loop)) continue;
-            auto mouth = add_mouth(filling.volume.model, rim, loops, context);
-            if (!mouth || !add_tube(filling, rim, loops[rim.loop].uses, mouth->uses, context)) continue;
-            joined.insert(rim.loop);
-            assume(filling.closure,
-                   Message("closure.round_wall",
-                           "a straight round wall is assumed from the rim of {} to the missing flat face",
-                           entity_of(model, *rim.beside.begin()))
-                       .remedy("if there is another, give it"),
-                   1);
-            mouths.push_back({closure::reversed(*mouth).uses});
-        }
-    }
+    std::vector<Rim> left;
     for (std::size_t l = 0; l < loops.size(); ++l)
         if (!joined.contains(l)) left.push_back(std::move(loops[l]));
-    std::ranges::move(mouths, std::back_inserter(left));
     return left;
 }
 

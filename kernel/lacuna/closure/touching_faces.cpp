@@ -55,22 +55,19 @@ bool is_hole_in_round_face(const Model& model, const Loop& loop)
     std::set<FaceId> beside;
     for (const EdgeUse& use : loop.uses)
         for (const FaceUse& by : model.uses_of_edge(use.edge)) beside.insert(by.face);
-    std::optional<RoundShape> first;
-    return std::ranges::all_of(beside, [&](FaceId face) {
+    std::vector<RoundShape> shapes;
+    for (const FaceId face : beside) {
         const auto shape = round_shape(model, face);
-        if (!shape) return beside.size() == 1 && !plane_of(model, face);
-        if (!first) first = shape;
-        return std::abs(shape->radius - first->radius) <= kOffShape * first->radius &&
-               shape->is_sphere() == first->is_sphere() &&
-               (shape->is_sphere() || shape->axis->cross(*first->axis).norm() <= kParallel);
+        if (!shape) return beside.size() == 1;
+        shapes.push_back(*shape);
+    }
+    if (shapes.empty()) return false;
+    const RoundShape& first = shapes.front();
+    return std::ranges::all_of(shapes, [&](const RoundShape& shape) {
+        return std::abs(shape.radius - first.radius) <= kOffShape * first.radius &&
+               shape.is_sphere() == first.is_sphere() &&
+               (first.is_sphere() || shape.axis->cross(*first.axis).norm() <= kParallel);
     });
-}
-
-bool lies_on_round_face(const Model& model, const Loop& loop)
-{
-    const std::vector<Vec3> places = loop_places(model, loop.uses);
-    return std::ranges::any_of(shapes_of_rim(model, {loop}, geometry::newell_plane({&places, 1})).told,
-                               [](const QuadricSheet& sheet) { return !is_pair_of_planes(sheet.quadric); });
 }
 
 // --- several faces ----------------------------------------------------------------------------------------
@@ -384,6 +381,13 @@ bool is_ruled_between_alike(const Model& model, const Loop& loop)
         if (are_similar(use_places(model, sides[s + 1]), opposite)) return true;
     }
     return false;
+}
+
+bool lies_on_round_face(const Model& model, const Loop& loop)
+{
+    const std::vector<Vec3> places = loop_places(model, loop.uses);
+    return std::ranges::any_of(shapes_of_rim(model, {loop}, geometry::newell_plane({&places, 1})).told,
+                               [](const QuadricSheet& sheet) { return !is_pair_of_planes(sheet.quadric); });
 }
 
 bool tells_face(const Model& model, const Loop& loop, const RunContext& context)

@@ -15,9 +15,9 @@ namespace lacuna::closure {
 ///
 /// A rim needs such a wall if a flat face in it would lie in the plane of the given faces round it, or if it
 /// is not planar and these faces do not continue the wall. Rims on one axis with equal radii are paired along
-/// it; a rim left over is paired with one that a flat face might close as well, or its wall goes on to the
-/// next missing flat face. Rims of two unconnected parts are paired too.
-/// @return  the free loops that are left, among them those of new walls.
+/// it; a rim left over is paired with one that a flat face might close as well. Rims of two unconnected parts
+/// are paired too.
+/// @return  the free loops that are left.
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);
 

@@ -13,6 +13,9 @@ namespace lacuna::closure {
 /// fill it.
 bool is_ruled_between_alike(const topology::Model& model, const topology::Loop& loop);
 
+/// Whether a loop lies on a ball, a circular cylinder or a cone.
+bool lies_on_round_face(const topology::Model& model, const topology::Loop& loop);
+
 /// Whether the rim of one missing face determines its shape: straight lines fill it, or it lies on one ball,
 /// cylinder or cone of which the given faces beside it are no part.
 bool tells_face(const topology::Model& model, const topology::Loop& loop, const RunContext& context = {});

@@ -1,0 +1,109 @@
+-- SPDX-License-Identifier: MIT
+-- CAD bodies with one to three faces taken away at random: what their rims tell is sealed and meshed as the
+-- whole body is, and no other shape is made without a note.
+-- usage: lacuna missing_faces.lua shared=FOLDER scratch=FOLDER
+local lacuna = require "lacuna"
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local params = lacuna.params { shared = "", scratch = "." }
+local whole = os.getenv "LACUNA_WHOLE_FAMILIES"
+
+local folder = params.shared .. "/data/bodies/"
+if params.shared == "" or not check.exists(folder .. "bodies.json") then
+  print("skipped: " .. folder .. "bodies.json is not here")
+  return
+end
+
+--- Bodies that are drawn from, and the least number of draws that are sealed right and swept.
+local few = { ["n08o_pentapyr.geo"] = true, ["s02o_prism.geo"] = true,
+  ["s14o_cube_corner_sub_sphere.stp"] = true, ["s12o_cube_rounded_1.stp"] = true }
+local draws, least = whole and 4 or 1, whole and { sealed = 76, swept = 30 } or { sealed = 3, swept = 0 }
+
+--- The volume that the facets of a binary or text file enclose.
+local function enclosed(path)
+  local file <close> = assert(io.open(path, "rb"))
+  local text, sum, corners = file:read "a", 0, {}
+  local function add(x, y, z)
+    corners[#corners + 1] = { x, y, z }
+    if #corners < 3 then return end
+    local a, b, c = corners[1], corners[2], corners[3]
+    sum = sum + a[1] * (b[2] * c[3] - b[3] * c[2]) + a[2] * (b[3] * c[1] - b[1] * c[3])
+        + a[3] * (b[1] * c[2] - b[2] * c[1])
+    corners = {}
+  end
+  if #text == 84 + 50 * ("<I4"):unpack(text, 81) then
+    for at = 85, #text, 50 do
+      local v = { ("<fffffffff"):unpack(text, at + 12) }
+      for k = 1, 9, 3 do add(v[k], v[k + 1], v[k + 2]) end
+    end
+  else
+    for x, y, z in text:gmatch "vertex%s+(%S+)%s+(%S+)%s+(%S+)" do
+      add(tonumber(x), tonumber(y), tonumber(z))
+    end
+  end
+  return sum / 6
+end
+
+--- Whether closing noted an assumption.
+local function has_note(void)
+  for line in void:describe():match("sealed:(.*)"):gmatch "\n  ([^\n]+)" do
+    if not line:find "^Algorithm" then return true end
+  end
+  return false
+end
+
+--- Some of the faces, chosen at random, and whether a bent one of them touches another: an edge between
+--- missing faces leaves no trace if one is bent.
+local function draw(model, random)
+  local faces = model:faces()
+  local taken, count = {}, math.min(#faces - 1, math.floor(random(1, 4 - 1e-9)))
+  while count > 0 do
+    local face = faces[math.floor(random(1, #faces + 1 - 1e-9))]
+    if not taken[face.tag] then taken[face.tag], count = face, count - 1 end
+  end
+  local left, traceless = {}, false
+  for _, face in ipairs(faces) do
+    if not taken[face.tag] then left[#left + 1] = face.tag end
+  end
+  for _, face in pairs(taken) do
+    for _, beside in ipairs(model:faces { touching = face }) do
+      traceless = traceless or (face.kind ~= "plane" and beside.tag ~= face.tag and taken[beside.tag] ~= nil)
+    end
+  end
+  return left, traceless
+end
+
+local sealed, swept, all = 0, 0, 0
+local bodies <close> = assert(io.open(folder .. "bodies.json"))
+for name, volume in bodies:read("a"):gmatch '"file": "([^"]+)".-"volume": ([^,]+),' do
+  local wanted = tonumber(volume)
+  if (whole or few[name]) and not name:find "^s16o" then -- s16o is a single face
+    local model, random = lacuna.load(folder .. name), check.random(#name)
+    for number = 1, draws do
+      local left, traceless = draw(model, random)
+      local what = ("%s, draw %d, of faces %s"):format(name, number, table.concat(left, " "))
+      all = all + 1
+      local fine, found = pcall(function()
+        local void = model:open_volume { faces = left }
+        void:close()
+        void:write_facets(params.scratch .. "/sealed.stl")
+        return void
+      end)
+      if fine then
+        local right = math.abs(enclosed(params.scratch .. "/sealed.stl") / wanted - 1) <= 0.02
+        check.that(right or traceless or has_note(found), what .. ": another shape, without a note")
+        sealed = sealed + (right and 1 or 0)
+        local meshed, mesh = pcall(function() return whole and found:sweep() end)
+        if meshed and mesh then
+          local off = math.abs(mesh:quality().volume / wanted - 1)
+          check.that(not right or off <= 0.02, what .. ": volume of the mesh")
+          swept = swept + (right and 1 or 0)
+        end
+      else
+        check.that(found.code and #found.message > 20, what .. ": " .. tostring(found))
+      end
+    end
+  end
+end
+print(("%d of %d draws are sealed right, %d of these are swept"):format(sealed, all, swept))
+check.that(sealed >= least.sealed and swept >= least.swept, "fewer than before")
+check.done()
