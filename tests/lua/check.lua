@@ -27,6 +27,18 @@ function check.near(found, expected, tolerance)
   end
 end
 
+-- Whether all members of families are run; else a script runs some of them.
+check.whole = os.getenv "LACUNA_WHOLE_FAMILIES" ~= nil
+
+-- runs() is true for every step-th member of a family, the first among them, or for all.
+function check.members_to_run(step)
+  local at = -1
+  return function()
+    at = at + 1
+    return check.whole or at % step == 0
+  end
+end
+
 -- random(low, high) for families: the same numbers on every machine.
 function check.random(seed)
   local state = seed

@@ -3,7 +3,7 @@
 local lacuna = require "lacuna"
 local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
-local params = lacuna.params { members = 60 }
+local params = lacuna.params { members = check.whole and 60 or 15 }
 
 local function open(model)
   return model:open_volume { source = "source", target = "target", walls = "auto" }

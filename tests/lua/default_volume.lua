@@ -193,10 +193,14 @@ for steps = 2, 4 do
   member("dome 12 of " .. steps,
     { sides = 12, radius = 1, length = 2, rows = 1, rise = 0.4, steps = steps }, domed)
 end
+local runs, run = check.members_to_run(11), 0 -- nine of 92
 for _, m in ipairs(members) do
+  if not runs() then goto next end
+  run = run + 1
   for order = 1, 2 do
     local volume, exact = m.make(m.o)
     judge(m.what .. " of order " .. order, exact, volume:sweep { order = order })
   end
+  ::next::
 end
-check.done(#members .. " members, off by at most " .. string.format("%.2f %%", 100 * worst))
+check.done(run .. " members, off by at most " .. string.format("%.2f %%", 100 * worst))
