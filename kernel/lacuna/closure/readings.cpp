@@ -69,11 +69,12 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
 }
 
 /// A sealed void without ends. @return  empty if it encloses nothing, as a face that is closed by itself.
-std::optional<Reading> without_ends(FlatFilling filled, Message why)
+std::optional<Reading> without_ends(FlatFilling filled, Message why, const RunContext& context)
 {
     Reading reading;
     reading.volume = std::move(filled.volume);
     reading.closure = std::move(filled.closure);
+    orient_skin(reading.volume.model, context);
     reading.enclosed = enclosed_volume(reading.volume);
     double area = 0;
     for (const FaceId face : all_faces(reading.volume.model)) area += face_area(reading.volume.model, face);
@@ -90,7 +91,7 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     if (!filled || filled->channel || filled->closure.void_faces.empty()) return std::nullopt;
     const Model skin = filled->volume.model;
     const std::vector<Reading> whole = find_readings(skin, all_faces(skin), context);
-    auto reading = without_ends(std::move(*filled), why_no_roles(model, faces, context));
+    auto reading = without_ends(std::move(*filled), why_no_roles(model, faces, context), context);
     if (!reading) return std::nullopt;
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
     if (!reading->guess) reading->guess = untold_face(reading->volume, *reading->closure);
@@ -169,7 +170,7 @@ Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const Ru
     }
     Message why = why_no_roles(model, faces, context);
     auto filled = free_edges(open).empty() ? fill_flat_loops(model, faces, context) : std::nullopt;
-    auto reading = filled ? without_ends(std::move(*filled), why) : std::nullopt;
+    auto reading = filled ? without_ends(std::move(*filled), why, context) : std::nullopt;
     if (!reading) throw InvalidInput(std::move(why));
     return std::move(*reading);
 }
