@@ -111,7 +111,8 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     return reading;
 }
 
-/// Whether a void face is blended between sides that have corners of their own, where it may be several faces.
+/// Whether a void face is blended between sides that have corners of their own, where it may be several
+/// faces.
 bool has_corners_inside_sides(const Model& model, const Closure& closure)
 {
     return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
