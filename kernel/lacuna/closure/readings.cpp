@@ -9,6 +9,7 @@
 #include <lacuna/closure/detail/no_roles.h>
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/detail/touching_faces.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/segment.h>
@@ -69,7 +70,7 @@ std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& fac
 }
 
 /// A sealed void without ends. @return  empty if it encloses nothing, as a face that is closed by itself.
-std::optional<Reading> without_ends(FlatFilling filled, Message why, const RunContext& context)
+std::optional<Reading> without_ends(FlatFilling filled, const RunContext& context)
 {
     Reading reading;
     reading.volume = std::move(filled.volume);
@@ -79,7 +80,6 @@ std::optional<Reading> without_ends(FlatFilling filled, Message why, const RunCo
     double area = 0;
     for (const FaceId face : all_faces(reading.volume.model)) area += face_area(reading.volume.model, face);
     if (!(reading.enclosed > reading.volume.model.tolerance * area)) return std::nullopt;
-    reading.no_roles = std::move(why);
     return reading;
 }
 
@@ -90,13 +90,18 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     auto filled = fill_all_loops(model, faces, context);
     if (!filled || filled->channel || filled->closure.void_faces.empty()) return std::nullopt;
     const Model skin = filled->volume.model;
-    const std::vector<Reading> whole = find_readings(skin, all_faces(skin), context);
-    auto reading = without_ends(std::move(*filled), why_no_roles(model, faces, context), context);
+    // Refused: a skin whose bottom cannot be parted from its walls; it has no ends then.
+    const std::vector<Reading> whole = unless_refused([&] {
+                                           return find_readings(skin, all_faces(skin), context);
+                                       }).value_or(std::vector<Reading>());
+    auto reading = without_ends(std::move(*filled), context);
     if (!reading) return std::nullopt;
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
     if (!reading->guess) reading->guess = untold_face(reading->volume, *reading->closure);
-    if (whole.empty()) return reading;
-    reading->no_roles.reset();
+    if (whole.empty()) {
+        reading->no_roles = why_no_roles(model, faces, context);
+        return reading;
+    }
     reading->roles = whole.front().roles;
     reading->others = whole.front().others;
     set_ends(reading->volume, reading->roles.roles);
@@ -111,8 +116,7 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     return reading;
 }
 
-/// Whether a void face is blended between sides that have corners of their own, where it may be several
-/// faces.
+/// Whether a void face is blended between sides that have corners of their own: it may be several faces.
 bool has_corners_inside_sides(const Model& model, const Closure& closure)
 {
     return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
@@ -171,8 +175,9 @@ Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const Ru
     }
     Message why = why_no_roles(model, faces, context);
     auto filled = free_edges(open).empty() ? fill_flat_loops(model, faces, context) : std::nullopt;
-    auto reading = filled ? without_ends(std::move(*filled), why, context) : std::nullopt;
+    auto reading = filled ? without_ends(std::move(*filled), context) : std::nullopt;
     if (!reading) throw InvalidInput(std::move(why));
+    reading->no_roles = std::move(why);
     return std::move(*reading);
 }
 

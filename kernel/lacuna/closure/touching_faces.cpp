@@ -207,14 +207,20 @@ private:
                        std::max(model_.tolerance, kFileAccuracy * length);
             }))
             return std::nullopt;
-        const bool doubles = std::ranges::all_of(run, [&](const FaceSide& side) {
-            return side.given.edge.valid() &&
-                   lies_in_plane(model_, model_.uses_of_edge(side.given.edge).front().face, plane);
-        });
+        const auto is_given = [](const FaceSide& side) { return side.given.edge.valid(); };
+        const bool doubles = std::ranges::any_of(run, is_given) &&
+                             std::ranges::all_of(run, [&](const FaceSide& side) {
+                                 return !is_given(side) || lies_in_plane(model_, face_beside(side), plane);
+                             });
         Outline outline;
         outline.add_loop(flat_places(plane, points));
         if (doubles || geometry::find_crossing(outline.flat, outline.loops)) return std::nullopt;
         return plane;
+    }
+
+    [[nodiscard]] FaceId face_beside(const FaceSide& side) const
+    {
+        return model_.uses_of_edge(side.given.edge).front().face;
     }
 
     /// The straight edge from the end of a run to its start.
