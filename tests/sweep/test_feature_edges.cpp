@@ -757,8 +757,8 @@ TEST_CASE("an end that goes on far up a tube is refused, not laid on the other a
         }
         CAPTURE(depth);
         sweep::SweepOptions options;
-        options.layers.count = 4;
-        options.size = [](const Vec3&) { return 0.5; };
+        options.layers.count = 2;
+        options.size = [](const Vec3&) { return 1.0; };
         try {
             (void)sweep::sweep(faces.volume(), options);
             FAIL("swept");
