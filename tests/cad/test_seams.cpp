@@ -147,7 +147,7 @@ topology::OpenVolume sealed(const topology::Model& model, const topology::Roles&
 TEST_CASE("faces with seams, poles and tips are filled with quads on the exact surface, at any size")
 {
     const test::TempFolder folder;
-    test::MembersToRun run(5);
+    test::MembersToRun run(11);
     for (const Seamed& shape : seamed()) {
         for (const double size : {1e-3, 1.0, 1e3}) {
             CAPTURE(shape.name);

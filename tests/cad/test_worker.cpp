@@ -529,7 +529,7 @@ TEST_CASE("a CAD process that lies does no harm")
     }
     {
         const Fake fake("noise"); // replies with bytes changed, another way every time
-        test::MembersToRun run(5);
+        test::MembersToRun run(11);
         for (int i = 0; i < 300; ++i)
             if (run.next()) (void)failure([&] { (void)cad::load({path}); });
     }
@@ -596,11 +596,16 @@ TEST_CASE("damaged CAD files are errors that name the file, or sound readings, a
         MESSAGE("left out: there is no " << hostile.string());
         return;
     }
-    std::size_t files = 0, read = 0;
+    std::set<std::string> paths;
     for (const auto& entry : fs::directory_iterator(hostile)) {
-        const std::string path = entry.path().string();
         const std::string ending = entry.path().extension();
-        if (ending != ".step" && ending != ".iges" && ending != ".brep" && ending != ".geo") continue;
+        if (ending == ".step" || ending == ".iges" || ending == ".brep" || ending == ".geo")
+            paths.insert(entry.path());
+    }
+    std::size_t files = 0, read = 0;
+    test::MembersToRun run(9); // some of the files that never end take all the time they may
+    for (const std::string& path : paths) {
+        if (!run.next()) continue;
         CAPTURE(path);
         ++files;
         const auto start = std::chrono::steady_clock::now();

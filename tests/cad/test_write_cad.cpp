@@ -182,6 +182,7 @@ const std::vector<RealCase> kRealCases{
 TEST_CASE("volumes opened in real CAD files come back as one solid of the volume they had")
 {
     const test::TempFolder folder;
+    test::MembersToRun run(5); // every fifth case in each format
     for (const RealCase& c : kRealCases) {
         const std::string path = kSharedFiles + "cad/" + c.file;
         if (!std::filesystem::exists(path)) {
@@ -189,8 +190,12 @@ TEST_CASE("volumes opened in real CAD files come back as one solid of the volume
             continue;
         }
         CAPTURE(c.name);
+        std::vector<std::string> endings;
+        for (const std::string ending : {".step", ".brep"})
+            if (run.next()) endings.push_back(ending);
+        if (endings.empty()) continue;
         const topology::OpenVolume volume = sealed(cad::load({path}), c.tags);
-        for (const std::string ending : {".step", ".brep"}) {
+        for (const std::string& ending : endings) {
             const std::string file = folder.path(c.name + ending);
             const auto start = std::chrono::steady_clock::now();
             try {

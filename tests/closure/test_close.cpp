@@ -396,7 +396,7 @@ TEST_CASE("round ends whose vertices were cut at random close to the volume of t
 TEST_CASE("curved ends and walls close watertight, and near the volume of the whole")
 {
     int combinations = 0;
-    test::MembersToRun run(5);
+    test::MembersToRun run(11);
     for (const int sides : {3, 4, 6}) {
         for (const int holes : {0, 1}) {
             for (const double twist : {0.0, 20.0}) {

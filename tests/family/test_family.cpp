@@ -69,7 +69,7 @@ std::string in_lines(const std::vector<std::string>& faults)
 void try_class(VolumeClass value)
 {
     std::map<std::string, int> count;
-    for (const Member& member : test::members_to_run(test::members(value), 7)) {
+    for (const Member& member : test::members_to_run(test::members(value), 11)) {
         const std::string name = member.name();
         CAPTURE(name);
         const Ending ending = test::run(member);

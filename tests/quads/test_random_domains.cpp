@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/plane_domains.h"
+#include "support/whole_families.h"
 
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/triangulate.h>
@@ -21,9 +22,9 @@ namespace {
 constexpr double kFlat = 0.02, kOfTriangles = 0.2;
 
 /// A sweep of loops of up to 400 edges, as many as LACUNA_RANDOM_DOMAINS says from LACUNA_RANDOM_FIRST on;
-/// else 40 of smaller ones, which take seconds.
+/// else 14 of smaller ones, which take seconds, or 40 where whole families are run.
 struct Sweep {
-    std::uint32_t first = 0, count = 40;
+    std::uint32_t first = 0, count = test::whole_families() ? 40 : 14;
     int most_edges = 32;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 /// Members of the whole family, and the step between those that are run where it is not asked for.
 constexpr int kMembers = 520;
-constexpr std::size_t kStep = 10;
+constexpr std::size_t kStep = 37;
 
 sweep::Swept swept(const test::StressMember& member, const topology::OpenVolume& volume, int threads)
 {

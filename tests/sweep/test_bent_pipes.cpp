@@ -148,7 +148,7 @@ TEST_CASE("columns of bent pipes keep their angles in the frame that is moved wi
         {"ring, a face a leg, with seams", {.bore = 0.5, .faces_of_legs = true, .seams = true}},
     };
     int members = 0;
-    test::MembersToRun run(5);
+    test::MembersToRun run(11);
     for (const auto& [way, legs] : test::bent_axes()) {
         for (const auto& [kind, options] : kinds) {
             if (!run.next()) continue;

@@ -130,10 +130,12 @@ TEST_CASE("a domed source is meshed as fine as it is curved")
 TEST_CASE("opposite rims of thin rings never come near each other, whatever the size")
 {
     int rings = 0;
+    test::MembersToRun run(5);
     for (const double inner : {0.8, 0.95, 0.98}) {
         for (const double off : {0.0, 0.3, 0.6}) {
             for (const int per_turn : {0, 12}) {
                 for (const double size : {0.1, 0.5, 5.0}) {
+                    if (!run.next()) continue;
                     const double width = 1 - inner, shift = off * width;
                     const auto volume = test::sealed(
                         {.sides = 0, .hole_sides = 0, .hole_list = {{Vec2(shift, 0), inner}}, .cuts = 16});
@@ -257,11 +259,13 @@ TEST_CASE("elbows and cones with holes are swept with eight sides for a full tur
 {
     int shapes = 0;
     double worst = 1;
+    test::MembersToRun run(3); // seven of 20
     for (const int holes : {0, 1, 2}) {
         for (const int hole_sides : {0, 4}) {
             for (const double bend : {0.0, 90.0}) {
                 for (const double taper : {1.0, 0.6}) {
                     if (holes == 0 && hole_sides == 4) continue;
+                    if (!run.next()) continue;
                     const auto volume = test::sealed({.sides = 0,
                                                       .height = 4,
                                                       .holes = holes,
@@ -390,7 +394,7 @@ TEST_CASE("layers that are counted go where a rod bends, within limits, and lose
 TEST_CASE("where layers drawn to the bends are refused, even ones are taken, and the report says so")
 {
     int tried = 0, kept = 0;
-    test::MembersToRun run(5);
+    test::MembersToRun run(7);                    // four of 24
     for (const double radius : {1.0, 1.6, 1.9}) { // beside the bend's radius of two
         for (const int layers : {4, 5, 6, 8}) {
             for (const double leg : {1.0, 4.0}) {
