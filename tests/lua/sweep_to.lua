@@ -285,16 +285,15 @@ local function peak(layers, size, order)
   return tonumber(hexes), tonumber(kilobytes) * 1024
 end
 if io.open("/proc/self/status") then
-  local times = check.whole and 4 or 2
   local few_cells, low = peak(60, 0.01)
-  local many_cells, high = peak(times * 60, 0.01)
-  check.equal(many_cells, times * few_cells)
+  local many_cells, high = peak(240, 0.01)
+  check.equal(many_cells, 4 * few_cells)
   -- Rims and the skin's quads grow with the layers: well below the 24 bytes a cell of the nodes alone.
   check.that(high - low < 6 * (many_cells - few_cells),
     ("%d cells took %d bytes, %d took %d"):format(few_cells, low, many_cells, high))
   -- Of order 2 a cell has eight nodes of its own: 192 bytes.
   few_cells, low = peak(60, 0.02, 2)
-  many_cells, high = peak(times * 60, 0.02, 2)
+  many_cells, high = peak(240, 0.02, 2)
   check.that(high - low < 48 * (many_cells - few_cells),
     ("%d cells of order 2 took %d bytes, %d took %d"):format(few_cells, low, many_cells, high))
   if params.cells > 0 then
