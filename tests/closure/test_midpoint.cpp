@@ -84,9 +84,10 @@ TEST_CASE("a volume with other vertices, with holes, closed edges or folded bloc
     // A cone's tip and closed edges; holes; a wall of two pieces, whose common edge is flat; a corner that is
     // nearly flat.
     const std::vector<Vec2> flat{{-1, -1}, {1, -1}, {1.02, 0}, {1, 1}, {-1, 1}};
-    for (const auto& options : {test::PrismOptions{.sides = 0}, test::PrismOptions{.sides = 4, .holes = 1},
-                                test::PrismOptions{.sides = 4, .pieces = 2},
-                                test::PrismOptions{.outline = flat, .feature_angle = 1}}) {
+    for (const auto& options :
+         {test::PrismOptions{.sides = 0}, test::PrismOptions{.sides = 4, .holes = 1, .hole_sides = 0},
+          test::PrismOptions{.sides = 4, .pieces = 2},
+          test::PrismOptions{.outline = flat, .feature_angle = 1}}) {
         const OpenVolume volume = test::prism(options).open();
         const std::vector<StepPiece> pieces = divided(volume);
         REQUIRE(pieces.size() == 1);

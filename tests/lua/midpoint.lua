@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Volumes that are divided at their middle, because no single sweep fills them: one block for each vertex with
--- three edges, or for each corner of cones over the faces.
+-- Volumes that are divided at their middle, because no single sweep fills them: one block for each vertex
+-- with three edges, or for each corner of cones over the faces.
 local lacuna = require "lacuna"
 local folder = arg[0]:match("^(.*/)") or "./"
 local check = dofile(folder .. "check.lua")

@@ -159,8 +159,9 @@ bool has_ends(const OpenVolume& piece)
 std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_sweep,
                                  const RunContext& context)
 {
+    Concave concave = concave_edges(volume, context);
     std::vector<CutPart> parts;
-    parts.push_back({{volume}, concave_edges(volume, context)});
+    parts.push_back({{volume}, std::move(concave)});
     for (std::size_t tried = 0; tried < kMostCuts && parts.size() < kMostPieces;) {
         check_cancelled(context);
         const auto next = std::ranges::max_element(
