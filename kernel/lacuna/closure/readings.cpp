@@ -12,8 +12,11 @@
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/segment.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/hollows.h>
+#include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -47,12 +50,40 @@ bool detours(const Void& v)
     });
 }
 
+double void_area(const Model& model, const Closure& closure)
+{
+    double area = 0;
+    for (const FaceId face : closure.void_faces) area += face_area(model, face);
+    return area;
+}
+
+/// Drop the voids whose new faces are larger than a flat face in each free loop, if these close the faces:
+/// they are bent, or lead from loop to loop. Flat faces are likelier, even if no sweep fills what they close.
+/// @return  whether some were dropped
+bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& filled,
+                 const RunContext& context)
+{
+    if (!filled || !filled->each_alone || found.empty()) return false;
+    const Model& model = filled->volume.model;
+    // Flat faces between parts would separate them, and one that continues its neighbour encloses nothing.
+    std::vector<FaceId> given = all_faces(model);
+    std::erase_if(given, [&](FaceId face) { return model[face].origin != Origin::given; });
+    if (connected_parts(model, given).size() != 1) return false;
+    const std::vector<double> angle = angles_across(model, context);
+    for (const FaceId face : filled->closure.void_faces)
+        for (const EdgeUse& use : uses_of(model[face]))
+            if (angle[use.edge.index()] < kCreaseAngle) return false;
+    const double flat = (1 + kVolumeNoted) * void_area(model, filled->closure);
+    return std::erase_if(found, [&](const Void& v) {
+               return void_area(v.sealed.volume.model, v.sealed.closure) > flat;
+           }) > 0;
+}
+
 /// The void that flat faces close, if these are not simply one per free loop, or if the ends are congruent.
 /// @param told  whether a void without ambiguous bends is known; then the faces are not taken for a channel
-std::optional<Void> fill_flat(const Model& model, const std::vector<FaceId>& faces, bool told,
+std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vector<FaceId>& faces, bool told,
                               const RunContext& context)
 {
-    auto filled = fill_flat_loops(model, faces, context);
     if (!filled || filled->each_alone || (told && filled->channel)) return std::nullopt;
     const std::vector<RoleCandidate> sweeps = best_sweeps(filled->volume.model, context);
     if (sweeps.empty()) return std::nullopt;
@@ -202,14 +233,16 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
     if (found.empty()) // the likeliest do not seal; less likely ones may
         found = voids(model, less_likely(model, faces, kMostTried, seals, context), kMostSealed, context);
     if (floor && (found.empty() || leaves_open(found.front().sealed))) return {std::move(*floor)};
+    auto flat = fill_flat_loops(model, faces, context);
+    const bool dropped = prefer_flat(found, flat, context);
     const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });
-    if (auto filled = fill_flat(model, faces, told, context)) add_filled(found, std::move(*filled));
+    if (auto filled = fill_flat(std::move(flat), faces, told, context)) add_filled(found, std::move(*filled));
     take_moved(model, faces, found, context);
     std::vector<Reading> readings;
     for (Void& now : found) {
         if (auto reading = read(model, found, now, context)) readings.push_back(std::move(*reading));
     }
-    if (readings.empty()) {
+    if (readings.empty() && !dropped) {
         if (auto bowl = read_bowl(model, faces, context)) readings.push_back(std::move(*bowl));
     }
     if (readings.empty()) {
