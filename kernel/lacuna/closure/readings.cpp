@@ -9,7 +9,6 @@
 #include <lacuna/closure/detail/no_roles.h>
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/detail/touching_faces.h>
-#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
@@ -121,15 +120,12 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     auto filled = fill_all_loops(model, faces, context);
     if (!filled || filled->channel || filled->closure.void_faces.empty()) return std::nullopt;
     const Model skin = filled->volume.model;
-    // Refused: a skin whose bottom cannot be parted from its walls; it has no ends then.
-    const std::vector<Reading> whole = unless_refused([&] {
-                                           return find_readings(skin, all_faces(skin), context);
-                                       }).value_or(std::vector<Reading>());
+    const std::vector<Reading> whole = find_readings(skin, all_faces(skin), context);
     auto reading = without_ends(std::move(*filled), context);
     if (!reading) return std::nullopt;
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
     if (!reading->guess) reading->guess = untold_face(reading->volume, *reading->closure);
-    if (whole.empty()) {
+    if (whole.empty() || whole.front().closure) { // the latter parts faces, see read_bowl()
         reading->no_roles = why_no_roles(model, faces, context);
         return reading;
     }
