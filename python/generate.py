@@ -217,12 +217,14 @@ class Language:
             return f"Literal[{type_[1]}]"
         if kind == "list":
             of = self.hint(type_[1], given, name)
-            array = " | numpy.ndarray" if given and of in ("Vector", "Sequence[int]") else ""
-            return f"{'Sequence' if given else 'list'}[{of}]{array}"
+            array = " | numpy.ndarray" if given and of in ("Vector", "Sequence[int]", "Iterable[int]") else ""
+            return f"{'Iterable' if given else 'list'}[{of}]{array}"
         if kind == "tuple":
             hints = " | ".join(dict.fromkeys(self.hint(part, given) for part in type_[1:]))
             return f"{'Sequence' if given else 'list'}[{hints}]"
         if kind == "map":
+            if not given and "MetricName" in str(type_[1]):  # see "rows" in `shape`
+                return f"dict[MetricName, {self.hint(type_[2], given)}]"
             hints = ", ".join(self.hint(part, given) for part in type_[1:])
             return f"{'Mapping' if given else 'dict'}[{hints}]"
         if kind == "record":
@@ -255,7 +257,7 @@ class Language:
         text = self.hint(type_, given)
         text = re.sub(r"Literal\[([^]]*)\]", lambda found: found[1].replace(", ", " | "), text)
         text = text.replace("Mapping[str, Any]", "dict").replace("Mapping[", "dict[")
-        text = re.sub(r"\bVector\b", "(x, y, z)", text.replace("Sequence[", "list["))
+        text = re.sub(r"\bVector\b", "(x, y, z)", text.replace("Sequence[", "list[").replace("Iterable[", "list["))
         for name, alias in self.aliases.items():
             if re.search(rf"\b{name}\b", text):
                 short = "str" if len(alias) > 9 else self.words(alias, given)
@@ -468,8 +470,10 @@ class Writer:
         listed = [language.entry(field, type_, text, False) for field, (_, type_, text) in fields.items()]
         shapes = {field: language.shape(type_) for field, (_, type_, _) in fields.items()}
         shapes = {field: shape for field, shape in shapes.items() if shape}
+        lacking = [field for field, (optional, _, _) in fields.items() if optional]
+        lacking = textwrap.fill(f"    _optional = {lacking}", WIDTH, subsequent_indent=" " * 17)
         self.code.append(f"class {name}(Table):\n{docstring(own.doc, listed, '    ')}\n\n    __slots__ = ()\n"
-                         f"    _shapes = {shapes}")
+                         f"    _shapes = {shapes}\n{lacking}")
 
 
 def results(language):
@@ -495,6 +499,11 @@ def results(language):
 def make():
     """@return the text of every file, by name."""
     language = Language(*read_stub(STUB.read_text()))
+    whole = language.classes["WriteOptions"]  # of an assembly `quality` is an error
+    own = language.classes["AssemblyWriteOptions"] = Class(whole.base, whole.doc)
+    own.fields = {name: field for name, field in whole.fields.items() if name != "quality"}
+    write = language.classes["AssemblyMesh"].methods["write"]
+    write.params[-1] = (*write.params[-1][:2], ("name", "lacuna.AssemblyWriteOptions"), write.params[-1][3])
     api = Writer(language)
     for name in results(language):
         api.record(name)
@@ -506,14 +515,15 @@ def make():
     names = [*results(language), *OBJECTS, *functions]
     exported = fold("__all__ = ", [f'"{name}"' for name in names], "", "").replace("(", "[", 1)[:-1] + "]"
     table = "classes.update(" + ", ".join(f"{name}={name}" for name in [*results(language), *OBJECTS]) + ")"
-    table = textwrap.fill(table, WIDTH, subsequent_indent="               ")
+    table = textwrap.fill(table, WIDTH, subsequent_indent="               ") \
+        + '\n\nfor made in classes.values():\n    made.__module__ = "lacuna"'
     code = HEAD + '"""Classes and functions, as lacuna.d.lua has them."""\n' \
         "from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, loaded,\n" \
         "                       options_of, shaped)\n\n" + exported
     aliases = "\n".join(f"{name} = Union[{language.hint(type_, True).replace(' | ', ', ')}"
                         f"{', numpy.ndarray' if name == 'Vector' else ''}]"
                         for name, type_ in language.aliases.items() if name != "Drop")
-    stub = HEAD + "import os\nfrom collections.abc import Callable, Mapping, Sequence\n" \
+    stub = HEAD + "import os\nfrom collections.abc import Callable, Iterable, Mapping, Sequence\n" \
         "from typing import Any, Literal, Protocol, Union\n\nimport numpy\n\n" \
         "from ._objects import AnyFace, AnyMesh, Object, Shown\nfrom ._wire import Report, Table\n\n" \
         "class OtherMesh(Protocol):  # of meshio or PyVista\n    points: Any\n\n" \
@@ -522,8 +532,8 @@ def make():
     for function in language.classes["Synthetic"].methods.values():
         synthetic.function(function, "synthetic.", "")
     doc = '"""Open volumes of any class and size, for trials: models whose faces have names."""\n'
-    head = "from collections.abc import Mapping, Sequence\nfrom typing import Any, Union\n\n" \
-        "from ._api import Model\n\nDrop = Union[str, Sequence[str]]\n\n"
+    head = "from collections.abc import Iterable, Mapping\nfrom typing import Any, Union\n\n" \
+        "from ._api import Model\n\nDrop = Union[str, Iterable[str]]\n\n"
     return {
         "_api.py": code + "\n\n\n" + spaced(api.code) + "\n\n\n" + table + "\n",
         "_api.pyi": stub + "\n" + "\n".join(api.stub) + "\n",

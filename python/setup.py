@@ -11,7 +11,11 @@ import tempfile
 
 from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
-from wheel.bdist_wheel import bdist_wheel
+
+try:
+    from setuptools.command.bdist_wheel import bdist_wheel  # from setuptools 70.1 on
+except ImportError:
+    from wheel.bdist_wheel import bdist_wheel
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = pathlib.Path(os.environ.get("LACUNA_BUILD", PROJECT / "build" / "release"))

@@ -26,6 +26,7 @@ class ModelInfo(Table):
 
     __slots__ = ()
     _shapes = {'faces': ('list', ('of', 'FaceInfo')), 'cavities': ('list', ('of', 'Cavity'))}
+    _optional = []
 
 
 class FaceInfo(Table):
@@ -56,6 +57,8 @@ class FaceInfo(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = ['radius', 'axis', 'fits', 'centre', 'apex', 'half_angle', 'least_radius', 'largest_radius',
+                 'cavity']
 
 
 class Cavity(Table):
@@ -67,6 +70,7 @@ class Cavity(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = []
 
 
 class Classification(Table):
@@ -79,6 +83,7 @@ class Classification(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = []
 
 
 class Match(Table):
@@ -91,6 +96,7 @@ class Match(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = []
 
 
 class Closure(Table):
@@ -104,6 +110,7 @@ class Closure(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = []
 
 
 class FreeEdge(Table):
@@ -115,6 +122,7 @@ class FreeEdge(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = []
 
 
 class LeftOut(Table):
@@ -125,6 +133,7 @@ class LeftOut(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = []
 
 
 class Fidelity(Table):
@@ -139,6 +148,7 @@ class Fidelity(Table):
 
     __slots__ = ()
     _shapes = {'faces': ('map', ('of', 'FaceFidelity'))}
+    _optional = []
 
 
 class FaceFidelity(Table):
@@ -150,6 +160,7 @@ class FaceFidelity(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = []
 
 
 class AssemblyFidelity(Table):
@@ -164,6 +175,7 @@ class AssemblyFidelity(Table):
 
     __slots__ = ()
     _shapes = {'regions': ('map', ('of', 'Fidelity'))}
+    _optional = []
 
 
 class WorstCell(Table):
@@ -175,6 +187,7 @@ class WorstCell(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = ['layer']
 
 
 class MetricSummary(Table):
@@ -192,6 +205,7 @@ class MetricSummary(Table):
 
     __slots__ = ()
     _shapes = {}
+    _optional = ['acceptable']
 
 
 class Model(Shown):
@@ -894,8 +908,6 @@ class AssemblyMesh(AnyMesh):
     def write(self, path, options=None, /, **keywords):
         """version: float
         binary: bool
-        quality: bool | str | list[str]; metrics that go along for every cell, as $ElementData or cell arrays;
-            True: the scaled Jacobian; default True, but False for version 2.2
         with_: Model | list[Model]; loaded from finite element meshes, that the mesh is joined to; the
             volume's first
         without: str | int | list[str | int]; regions, properties, sets or parts of these models that are left
@@ -1064,3 +1076,6 @@ classes.update(ModelInfo=ModelInfo, FaceInfo=FaceInfo, Cavity=Cavity, Classifica
                FaceFidelity=FaceFidelity, AssemblyFidelity=AssemblyFidelity, WorstCell=WorstCell,
                MetricSummary=MetricSummary, Model=Model, Face=Face, Volume=Volume, Mesh=Mesh,
                Assembly=Assembly, AssemblyMesh=AssemblyMesh, Quality=Quality)
+
+for made in classes.values():
+    made.__module__ = "lacuna"

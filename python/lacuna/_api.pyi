@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Made by python/generate.py from lua/lacuna.d.lua.
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, Protocol, Union
 
 import numpy
@@ -16,7 +16,7 @@ Path = Union[str, os.PathLike[str]]
 Vector = Union[Sequence[float], numpy.ndarray]
 Class = Union[Literal["I", "II", "III", "IV", "V", "closed"]]
 FaceRef = Union[Face, int, str, Mapping[str, Any]]
-FaceRefs = Union[FaceRef, Sequence[FaceRef]]
+FaceRefs = Union[FaceRef, Iterable[FaceRef]]
 MetricName = Union[Literal["scaled_jacobian", "scaled_jacobian_with_centre", "jacobian", "shape", "shear", "condition", "max_aspect_frobenius", "med_aspect_frobenius", "oddy", "skew", "taper", "max_edge_ratio", "edge_ratio", "full_edge_ratio", "stretch", "diagonal", "dimension", "volume", "distortion", "relative_size_squared", "shape_and_size", "shear_and_size"]]
 
 class ModelInfo(Table):
@@ -125,7 +125,7 @@ class Model(Shown):
     @property
     def diagonal(self) -> float: ...
     def faces(
-            self, selector: Mapping[str, Any] | None = None, /, *, tags: int | Sequence[int] | None = ...,
+            self, selector: Mapping[str, Any] | None = None, /, *, tags: int | Iterable[int] | None = ...,
             name: str | None = ...,
             kind: Literal["plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"] | None = ...,
             facing: Vector | None = ..., normal_within: float | None = ..., near: Vector | None = ...,
@@ -134,7 +134,7 @@ class Model(Shown):
             radius: Sequence[float] | None = ..., area: Sequence[float] | None = ...,
     ) -> list[Face]: ...
     def face(
-            self, which: FaceRef | None = None, /, *, tags: int | Sequence[int] | None = ...,
+            self, which: FaceRef | None = None, /, *, tags: int | Iterable[int] | None = ...,
             name: str | None = ...,
             kind: Literal["plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"] | None = ...,
             facing: Vector | None = ..., normal_within: float | None = ..., near: Vector | None = ...,
@@ -147,7 +147,7 @@ class Model(Shown):
             free: bool | None = ...,
     ) -> Face: ...
     def add_face(
-            self, points: Sequence[Vector] | numpy.ndarray, cells: Sequence[Sequence[int]] | numpy.ndarray, *,
+            self, points: Iterable[Vector] | numpy.ndarray, cells: Iterable[Iterable[int]] | numpy.ndarray, *,
             name: str | None = ..., keep_mesh: bool | None = ...,
     ) -> Face: ...
     def open_volume(
@@ -202,14 +202,14 @@ class Volume(Shown):
     def override_class(self, class_: Class) -> Volume: ...
     def match(
             self, options: Mapping[str, Any] | None = None, /, *,
-            vertices: Sequence[Sequence[int]] | numpy.ndarray | None = ...,
-            loops: Sequence[Sequence[int]] | numpy.ndarray | None = ..., flip: Sequence[int] | None = ...,
+            vertices: Iterable[Sequence[int]] | numpy.ndarray | None = ...,
+            loops: Iterable[Sequence[int]] | numpy.ndarray | None = ..., flip: Iterable[int] | None = ...,
             method: Literal["aligned", "nearest"] | None = ...,
     ) -> Match: ...
     def close(
             self, options: Mapping[str, Any] | None = None, /, *,
             edge_shape: Literal["auto", "straight", "follow", "smooth"] | None = ...,
-            void_edges: Sequence[Sequence[int | Sequence[Vector] | numpy.ndarray]] | None = ...,
+            void_edges: Iterable[Sequence[int | Iterable[Vector] | numpy.ndarray]] | None = ...,
             cap: Literal["auto", "flat", "parallel"] | None = ...,
             holes: Literal["cover", "through"] | None = ...,
     ) -> Closure: ...
@@ -233,14 +233,14 @@ class Volume(Shown):
     def model(self) -> Model: ...
     def sweep(
             self, options: Mapping[str, Any] | None = None, /, *,
-            layers: int | Sequence[float] | Mapping[str, Any] | None = ...,
+            layers: int | Iterable[float] | Mapping[str, Any] | None = ...,
             size: float | Callable[[float, float, float], float] | None = ..., curvature: int | None = ...,
             gap: int | None = ..., max_deviation: float | None = ...,
             quads: Literal["auto", "paved", "mapped", "gmsh", "keep"] | None = ...,
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
-            boundary_layers: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None = ...,
-            intervals: Sequence[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
+            boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
             serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
             improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
@@ -248,14 +248,14 @@ class Volume(Shown):
     ) -> Mesh | AssemblyMesh: ...
     def sweep_to(
             self, path: Path, options: Mapping[str, Any] | None = None, /, *,
-            layers: int | Sequence[float] | Mapping[str, Any] | None = ...,
+            layers: int | Iterable[float] | Mapping[str, Any] | None = ...,
             size: float | Callable[[float, float, float], float] | None = ..., curvature: int | None = ...,
             gap: int | None = ..., max_deviation: float | None = ...,
             quads: Literal["auto", "paved", "mapped", "gmsh", "keep"] | None = ...,
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
-            boundary_layers: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None = ...,
-            intervals: Sequence[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
+            boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
             serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
             improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
@@ -298,12 +298,12 @@ class Mesh(AnyMesh):
     def wedge(self, i: int) -> tuple[int, ...]: ...
     def hex(self, i: int) -> tuple[int, ...]: ...
     def coordinates(self) -> numpy.ndarray: ...
-    def cells(self, kind: Literal["hex", "wedge"] | None = None) -> numpy.ndarray: ...
+    def cells(self, kind: Literal["hex", "wedge", "pyramid", "tet"] | None = None) -> numpy.ndarray: ...
     def write(
             self, path: Path, options: Mapping[str, Any] | None = None, /, *, version: float | None = ...,
-            binary: bool | None = ..., quality: bool | MetricName | Sequence[MetricName] | None = ...,
-            with_: Model | Sequence[Model] | None = ...,
-            without: str | int | Sequence[str | int] | None = ..., renumber: bool | None = ...,
+            binary: bool | None = ..., quality: bool | MetricName | Iterable[MetricName] | None = ...,
+            with_: Model | Iterable[Model] | None = ...,
+            without: str | int | Iterable[str | int] | None = ..., renumber: bool | None = ...,
             first_node: int | None = ..., first_cell: int | None = ..., element: str | None = ...,
             groups: Literal["one", "all"] | None = ..., gmsh_options: bool | None = ...,
             interfaces: bool | None = ..., partitions: int | Literal["processes"] | None = ...,
@@ -323,14 +323,14 @@ class Mesh(AnyMesh):
 class Assembly(Object):
     def sweep(
             self, options: Mapping[str, Any] | Mapping[Volume, Mapping[str, Any]] | None = None, /, *,
-            layers: int | Sequence[float] | Mapping[str, Any] | None = ...,
+            layers: int | Iterable[float] | Mapping[str, Any] | None = ...,
             size: float | Callable[[float, float, float], float] | None = ..., curvature: int | None = ...,
             gap: int | None = ..., max_deviation: float | None = ...,
             quads: Literal["auto", "paved", "mapped", "gmsh", "keep"] | None = ...,
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
-            boundary_layers: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None = ...,
-            intervals: Sequence[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
+            boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
             serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
             improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
@@ -338,14 +338,14 @@ class Assembly(Object):
     ) -> AssemblyMesh: ...
     def sweep_to(
             self, path: Path, options: Mapping[str, Any] | Mapping[Volume, Mapping[str, Any]] | None = None,
-            /, *, layers: int | Sequence[float] | Mapping[str, Any] | None = ...,
+            /, *, layers: int | Iterable[float] | Mapping[str, Any] | None = ...,
             size: float | Callable[[float, float, float], float] | None = ..., curvature: int | None = ...,
             gap: int | None = ..., max_deviation: float | None = ...,
             quads: Literal["auto", "paved", "mapped", "gmsh", "keep"] | None = ...,
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
-            boundary_layers: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None = ...,
-            intervals: Sequence[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
+            boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
             serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
             improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
@@ -385,9 +385,8 @@ class AssemblyMesh(AnyMesh):
     def tet(self, i: int) -> tuple[int, int, int, int]: ...
     def write(
             self, path: Path, options: Mapping[str, Any] | None = None, /, *, version: float | None = ...,
-            binary: bool | None = ..., quality: bool | MetricName | Sequence[MetricName] | None = ...,
-            with_: Model | Sequence[Model] | None = ...,
-            without: str | int | Sequence[str | int] | None = ..., renumber: bool | None = ...,
+            binary: bool | None = ..., with_: Model | Iterable[Model] | None = ...,
+            without: str | int | Iterable[str | int] | None = ..., renumber: bool | None = ...,
             first_node: int | None = ..., first_cell: int | None = ..., element: str | None = ...,
             groups: Literal["one", "all"] | None = ..., gmsh_options: bool | None = ...,
             interfaces: bool | None = ..., partitions: int | Literal["processes"] | None = ...,
@@ -430,17 +429,17 @@ class Quality(Object):
     @property
     def histogram(self) -> list[int]: ...
     @property
-    def metrics(self) -> dict[int | MetricName, MetricSummary]: ...
+    def metrics(self) -> dict[MetricName, MetricSummary]: ...
     @property
     def volume(self) -> float: ...
 def load(
-        path: Path | Sequence[Path] | OtherMesh, options: Mapping[str, Any] | None = None, /, *,
+        path: Path | Iterable[Path] | OtherMesh, options: Mapping[str, Any] | None = None, /, *,
         tolerance: float | None = ..., feature_angle: float | None = ..., keep_mesh: bool | None = ...,
         scale: float | None = ..., cad_seconds: float | None = ..., cad_megabytes: float | None = ...,
-        without: str | int | Sequence[str | int] | None = ...,
+        without: str | int | Iterable[str | int] | None = ...,
 ) -> Model: ...
 def model(options: Mapping[str, Any] | None = None, /, *, tolerance: float | None = ...) -> Model: ...
-def assembly(volumes: Sequence[Volume | Mesh | AssemblyMesh]) -> Assembly: ...
+def assembly(volumes: Iterable[Volume | Mesh | AssemblyMesh]) -> Assembly: ...
 def check(path: Path) -> Quality: ...
 def convert(
         from_: Path, to: Path, options: Mapping[str, Any] | None = None, /, *, version: float | None = ...,

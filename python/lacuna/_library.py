@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import _thread
+import atexit
 import ctypes
 import os
 import queue
 import threading
 import weakref
+
+from ._wire import plain
 
 VERSION = "0.1.0"
 _OK, _FAILED, _CANCELLED = 0, 1, 2
@@ -114,54 +117,77 @@ class _Job:
         self.progress = progress
         self.caller = _thread.get_ident()
         self.thread = None
-        self.inbox = queue.SimpleQueue()  # shares of stages; None: it has ended
+        self.inner = None  # a call that a callback of this one made
+        self.inbox = queue.SimpleQueue()  # notes, shares of stages; None: it has ended
         self.result = self.error = None
+        self.stopped = False
         self._guard = threading.Lock()
-        self._running = self._stopped = self._ended = False
+        self._running = self._ended = False
 
     def run(self):
-        own = self.interpreter
         self.thread = _thread.get_ident()
         try:
-            with own._lock:
-                own._job = self
-                try:
-                    with self._guard:
-                        self._running = not self._stopped
-                    if self._running:
-                        self.result = self.read(own._exchange(self.request))
-                except BaseException as error:  # goes on in the caller
-                    self.error = self.error or error
-                finally:
-                    with self._guard:
-                        self._running = False
-                    own._job = None
-                    own._settle(self._stopped)
+            self.interpreter._held(self._run)
+        except Error as error:
+            self.error = error
         finally:
             self._ended = True
             self.inbox.put(None)
 
+    def _run(self):
+        own = self.interpreter
+        outer, _local.job, own._job = getattr(_local, "job", None), self, self
+        own._holder = None  # a signal may have kept it
+        try:
+            with self._guard:
+                self._running = not self.stopped and not _ends(self.caller)
+            if self._running:
+                self.result = self.read(own._exchange(self.request))
+        except BaseException as error:  # goes on in the caller
+            self.error = self.error or error
+        finally:
+            with self._guard:
+                self._running = False
+            _local.job, own._job = outer, None
+            own._settle(self.stopped)
+
     def stop(self):
         with self._guard:
-            self._stopped = True
+            self.stopped = True
             if self._running:
                 _library.lacuna_cancel(self.interpreter._handle)
+            inner = self.inner
+        if inner is not None:
+            inner.stop()
+
+    def run_inside(self, outer):
+        """On this thread, in a callback of another job, which stops both."""
+        with outer._guard:
+            outer.inner, self.stopped = self, outer.stopped
+        self.run()
+        outer.inner = None
 
     def wait(self):
-        """The result. What a signal's handler or the progress callback raises stops the job and is raised."""
-        raised = None
+        """The result. What a signal's handler or the progress callback raises stops the job and is raised;
+        False from the callback stops it unless it is done before."""
+        raised, unwanted = None, False
         while True:
             try:
                 if self._ended and self.inbox.empty():  # a signal may come while the last item is taken
                     break
                 told = self.inbox.get()
-                if told is not None and raised is None and self.progress(*told) is False:
-                    raised = Error("stopped by the progress callback", "core.cancelled")
+                if isinstance(told, str):
+                    _note(told)
+                elif told is not None and raised is None and not unwanted \
+                        and plain(self.progress(*told)) is False:
+                    unwanted = True
                     self.stop()
             except BaseException as error:  # the job has to end first
                 raised = raised or error
                 self.stop()
         result, raised = self.result, raised or self.error
+        if raised is None and unwanted and not (result and result[0]):
+            raised = Error("stopped by the progress callback", "core.cancelled")
         self.result = self.error = None
         if raised is None:
             return result
@@ -181,15 +207,17 @@ class _Stand(weakref.ref):
 def _work(jobs, own):
     while True:
         job = jobs.get()
-        if job is None:
-            return
-        if isinstance(job, _Stand):
+        if isinstance(job, _Job):
+            job.run()
+        elif isinstance(job, _Stand):
             interpreter = own()
             if interpreter is not None:
                 interpreter._release(job)
             del interpreter
         else:
-            job.run()
+            handle, _ = job  # and the callbacks, which have to stay until here
+            _library.lacuna_close(handle)
+            return
         del job  # nothing of it stays while the thread waits
 
 
@@ -198,11 +226,15 @@ class Interpreter:
 
     def __init__(self):
         self._lock = threading.Lock()
+        self._holder = None  # the thread that looks something up
         self._job = None  # the one that runs
-        self._jobs = self._process = None
+        self._jobs = queue.SimpleQueue()
+        self._process = None  # in which a thread takes the jobs
+        self._lost = False  # the process was forked during a call
         self._stands = {}  # by id: they hash as what they stand for
+        self._notes = []
         own = weakref.ref(self)
-        self._callbacks = (_Text(lambda _, text, length: _note(ctypes.string_at(text, length))),
+        self._callbacks = (_Text(lambda _, text, length: own()._log(ctypes.string_at(text, length))),
                            _Progress(lambda _, stage, share: own()._tell(stage, share)),
                            _Function(lambda _, *arguments: own()._host(*arguments)))
         options = _Options()
@@ -217,35 +249,68 @@ class Interpreter:
         self._check(_library.lacuna_set_function(self._handle, b"lacuna_python.host", self._callbacks[2],
                                                  None))
 
+        _interpreters.add(self)
+
     def __del__(self):
-        if getattr(self, "_handle", None) and _library is not None:
-            _library.lacuna_close(self._handle)
-            if self._jobs:
-                self._jobs.put(None)
+        """The thread that takes jobs closes it, as it may be releasing an object: a weak reference still
+        gives what is being deleted."""
+        handle, self._handle = getattr(self, "_handle", None), None
+        if handle is None or _library is None:
+            return
+        if self._process == os.getpid():
+            self._jobs.put((handle, self._callbacks))
+        else:
+            _library.lacuna_close(handle)
 
     def call(self, request, callables, read, at_once):
         """Send a request, and return what `read` makes of the answer."""
         me = _thread.get_ident()
         running = self._job
-        if running is not None and me in (running.caller, running.thread):
-            remedy = "make the call when the one that runs is done"
-            raise Error(f"a callback cannot use objects of the thread that it is called for; {remedy}",
-                        "lua.busy", remedy=remedy)
-        if self._process != os.getpid():  # no thread yet, or none in a process that was forked
-            self._process, self._jobs = os.getpid(), queue.SimpleQueue()
-            _thread.start_new_thread(_work, (self._jobs, weakref.ref(self)))
-        if at_once:
-            with self._lock:
-                return read(self._exchange(request))
-        job = _Job(self, request, callables, read, getattr(_local, "progress", None))
-        self._jobs.put(job)
-        return job.wait()
+        if me == self._holder or running is not None and me in (running.caller, running.thread):
+            raise _busy("a callback cannot use objects of the thread that it is called for",
+                        "make the call when the one that runs is done")
+        if self._lost:
+            raise _busy("the process was forked while a call used these objects",
+                        "make them again in this process")
+        outer = getattr(_local, "job", None)  # this is a callback, on the thread of a job
+        try:
+            if self._process != os.getpid():
+                self._held(self._start)
+            if at_once and outer is None:
+                return self._held(self._look_up, request, read)
+            job = _Job(self, request, callables, read, getattr(_local, "progress", None))
+            if outer is None:
+                self._jobs.put(job)
+            else:
+                job.run_inside(outer)
+            return job.wait()
+        finally:
+            while self._notes:
+                _note(self._notes.pop(0))
+            if _ends(me):
+                _stay()
 
     def buffer(self, number):
         found = _Buffer()
-        with self._lock:
-            self._check(_library.lacuna_get_buffer(self._handle, b"lacuna_python.objects.%d" % number, found))
+        name = b"lacuna_python.objects.%d" % number
+        self._held(lambda: self._check(_library.lacuna_get_buffer(self._handle, name, found)))
         return found
+
+    def _held(self, work, *arguments):
+        """What `work` returns with the lock held. Callbacks do not wait for a job: two could wait for each
+        other. Look-ups and releases are short, and wait for nothing."""
+        if getattr(_local, "job", None) is None:
+            with self._lock:
+                return work(*arguments)
+        while not self._lock.acquire(timeout=0.01):
+            if self._job is None:
+                continue
+            raise _busy("another thread's call uses these objects, and a callback does not wait for it",
+                        "give each thread objects of its own")
+        try:
+            return work(*arguments)
+        finally:
+            self._lock.release()
 
     def stand(self, made, number):
         """`made` stands for an object from now on, which is released when it ends."""
@@ -261,6 +326,21 @@ class Interpreter:
             _library.lacuna_run_string(self._handle, text, len(text), None)
 
     # With the lock held:
+
+    def _start(self):
+        """A thread that takes jobs; there is none yet in a process that was forked."""
+        if self._process != os.getpid():
+            _thread.start_new_thread(_work, (self._jobs, weakref.ref(self)))
+            self._process = os.getpid()
+
+    def _look_up(self, request, read):
+        self._holder = _thread.get_ident()
+        try:
+            if _ends(self._holder):
+                raise Error("Python ends", "core.cancelled")
+            return read(self._exchange(request))
+        finally:
+            self._holder = None
 
     def _exchange(self, request):
         self._check(_library.lacuna_set_string(self._handle, b"lacuna_python.request", request, len(request)))
@@ -289,6 +369,13 @@ class Interpreter:
 
     # Called by the library, on the thread of the job:
 
+    def _log(self, line):
+        text = line.decode("utf-8", "replace")
+        if self._job is not None:
+            self._job.inbox.put(text)
+        else:
+            self._notes.append(text)
+
     def _tell(self, stage, share):
         job = self._job
         if job is not None and job.progress is not None:
@@ -297,32 +384,103 @@ class Interpreter:
 
     def _host(self, arguments, count, results, room):
         job = self._job
+        if job.stopped:
+            return -1
         try:
-            results[0] = job.callables[int(arguments[0])](*arguments[1:count])
+            function = job.callables[int(arguments[0])]
+            value = function(*arguments[1:count])
+            try:
+                results[0] = value
+            except TypeError:
+                name = getattr(function, "__name__", function)
+                raise TypeError(f"the function {name} has to return a number, found {value!r}") from None
             return 1
         except BaseException as error:  # goes on in the caller
             job.error = error
             return -1
 
 
-def _note(line):
+def _busy(what, remedy):
+    return Error(f"{what}; {remedy}", "lua.busy", remedy=remedy)
+
+
+def _note(text):
     """Notes are warnings, which logging shows on standard error unless the program says otherwise."""
     import logging
-    text = line.decode("utf-8", "replace")
     level = logging.WARNING if text.startswith("note: ") else logging.INFO
     logging.getLogger("lacuna").log(level, "%s", text)
 
+
+# --- forks and the end of Python --------------------------------------------------------------------------
+
+_interpreters = weakref.WeakSet()
+_ending = None  # the thread that ends Python
+_CALLBACKS_END = 5.0  # seconds; a callback that takes longer is left alone
+_held_for_fork = []
+
+
+def _ends(thread):
+    """Whether Python ends, and the thread's calls with it."""
+    return _ending not in (None, thread)
+
+
+def _stay():
+    """For threads that Python does not wait for: they end with the process."""
+    lock = threading.Lock()
+    lock.acquire()
+    lock.acquire()
+
+
+def _end():
+    """Callbacks are not called any more, so jobs of other threads have to end before Python does."""
+    global _ending
+    _ending = _thread.get_ident()
+    for own in list(_interpreters):
+        job = own._job
+        if job is not None:
+            job.stop()
+        if not own._lost and own._lock.acquire(timeout=_CALLBACKS_END):
+            own._lock.release()
+
+
+def _forks():
+    """Objects that were dropped are released first; a call that runs is not waited for."""
+    for own in list(_interpreters):
+        if own._job is None and own._holder is None and own._lock.acquire(timeout=_CALLBACKS_END):
+            _held_for_fork.append(own)
+
+
+def _forked_here():
+    while _held_for_fork:
+        _held_for_fork.pop()._lock.release()
+
+
+def _forked():
+    """In the new process no thread takes jobs, and those of other threads are not its own."""
+    _forked_here()
+    for own in list(_interpreters):
+        own._lost = own._lock.locked()
+        own._holder = None
+        waiting = []
+        while not own._jobs.empty():
+            waiting.append(own._jobs.get_nowait())
+        for item in waiting:
+            if isinstance(item, _Stand):
+                own._jobs.put(item)
+
+
+atexit.register(_end)
+os.register_at_fork(before=_forks, after_in_parent=_forked_here, after_in_child=_forked)
 
 _local = threading.local()
 
 
 def own_interpreter():
     """That of this thread."""
-    try:
-        return _local.interpreter
-    except AttributeError:
-        _local.interpreter = Interpreter()
-        return _local.interpreter
+    own = getattr(_local, "interpreter", None)
+    if own is None or own._lost:
+        own = _local.interpreter = Interpreter()
+    return own
 
 
 class progress:
@@ -334,11 +492,12 @@ class progress:
 
     def __init__(self, callback):
         self._callback = callback
+        self._before = []
 
     def __enter__(self):
-        self._before = getattr(_local, "progress", None)
+        self._before.append(getattr(_local, "progress", None))
         _local.progress = self._callback
         return self
 
     def __exit__(self, *_):
-        _local.progress = self._before
+        _local.progress = self._before.pop()

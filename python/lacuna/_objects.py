@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
-from ._library import Error, own_interpreter
+from ._library import Error, _note, own_interpreter
 from ._wire import Answer, Report, Request, Table
 
 classes = {}  # by the name that they have in Lua
@@ -36,6 +36,13 @@ class Object:
     def __hash__(self):
         return hash((id(self._interpreter), self._number))
 
+    def __copy__(self):
+        return self  # a second one would be the same object in the library
+
+    def __reduce__(self):
+        raise TypeError(f"a {type(self).__name__} lives in the library and is neither pickled nor copied; "
+                        "write it to a file, and load that")
+
     def _method(self, name, *arguments):
         return call("method", self, name, *arguments)
 
@@ -45,7 +52,11 @@ class Object:
     def _array(self, name, *arguments):
         """A view of a Buffer, which stays as long as the view."""
         numpy = _module("numpy", "python3-numpy")
-        return numpy.asarray(_Memory(self._method(name, *arguments)))
+        memory = _Memory(self._method(name, *arguments))
+        found = memory.__array_interface__
+        if 0 in found["shape"]:  # nothing to view
+            return numpy.empty(found["shape"], found["typestr"])
+        return numpy.asarray(memory)
 
 
 class AnyFace(Object):
@@ -78,7 +89,9 @@ class _Memory:
 def _module(name, package):
     try:
         return __import__(name)
-    except ImportError:
+    except ModuleNotFoundError as error:
+        if error.name != name:  # it lacks another one
+            raise
         raise ImportError(f"{name} is not installed: pip install {name}, or apt install {package}") from None
 
 
@@ -113,6 +126,9 @@ def call(*values, at_once=False):
 def loaded(path, options):
     """lacuna.load: meshes of meshio and PyVista go through a file, with groups where meshio has Gmsh's."""
     if hasattr(path, "cells_dict"):
+        if path.cell_sets and "gmsh:physical" not in path.cell_data:
+            _note("note: load: sets of cells are not read from a meshio.Mesh; of groups it takes those in "
+                  "cell_data['gmsh:physical']")
         ending = ".msh" if "gmsh:physical" in path.cell_data else ".vtu"
 
         def write(file):
@@ -154,8 +170,10 @@ def shaped(value, shape):
         return value
     record = classes[of]
     made = record(value)
+    for name in record._optional:
+        made.setdefault(name)
     for name, inner in record._shapes.items():
-        if name in made:
+        if name in made:  # None stays
             made[name] = shaped(made[name], inner)
     return made
 
@@ -198,6 +216,10 @@ class AnyMesh(Shown):
                 cells = self._array("cells", kind)
                 yield _VTK_TYPES[kind, cells.shape[1]], cells - 1
 
+    def _write_bare(self, path):
+        """Nodes, cells and groups alone: an assembly's mesh has no option for quality."""
+        self._method("write", path, {"quality": False} if isinstance(self, classes["Mesh"]) else None)
+
     def to_meshio(self):
         """A meshio.Mesh: nodes, cells, and the groups of faces and volumes as `cell_sets`, as meshio has them
         of an .msh file. Node 1 of Lacuna is node 0 of meshio."""
@@ -205,7 +227,7 @@ class AnyMesh(Shown):
         meshio = _module("meshio", "python3-meshio")
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "mesh.msh")
-            self._method("write", path, {"quality": False})
+            self._write_bare(path)
             return meshio.read(path)
 
     def to_pyvista(self):

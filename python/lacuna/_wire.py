@@ -2,6 +2,7 @@
 """Values of Python as bytes and back. The twin of this file is bridge.lua."""
 from __future__ import annotations
 
+import io
 import os
 import struct
 from collections.abc import Iterable, Mapping
@@ -33,12 +34,29 @@ class Report(list):
         return "\n".join(map(str, self))
 
 
+def plain(value):
+    """A scalar of numpy, or an array without dimensions, as a value of Python; others as they are."""
+    return value.item() if getattr(value, "ndim", None) == 0 and hasattr(value, "item") else value
+
+
+class _Refused(Exception):
+    """What no call takes, and where it stands: the keys and indices that lead to it."""
+
+    def __init__(self, what):
+        self.what = what
+        self.where = ""
+
+    def inside(self, place):
+        self.where = place + self.where
+
+
 class Request:
-    """The bytes of one call, and what they refer to."""
+    """The bytes of one call, and what they refer to. It lives until the answer is there."""
 
     def __init__(self, object_class):
         self.parts = []
         self.callables = []
+        self.objects = []  # those that a generator made have no other reference
         self.interpreter = None  # that of the objects among the arguments
         self._object_class = object_class
 
@@ -55,37 +73,64 @@ class Request:
         elif isinstance(value, float):
             parts.append(_NUMBER.pack(b"d", value))
         elif isinstance(value, int):
-            parts.append(_INTEGER.pack(b"i", value))
+            self._put_whole(value)
         elif isinstance(value, self._object_class):
             self._put_object(value)
         elif isinstance(value, Mapping):
-            parts.append(_INTEGER.pack(b"{", len(value)))
-            for key, item in value.items():
-                self.put(key)
-                self.put(item)
+            self._put_map(value)
         elif isinstance(value, (list, tuple)):
-            parts.append(_INTEGER.pack(b"[", len(value)))
-            for item in value:
-                self.put(item)
+            self._put_list(value)
         elif isinstance(value, os.PathLike):
             self._put_bytes(os.fsencode(value))
         elif isinstance(value, bytes):
             self._put_bytes(value)
+        elif type(plain(value)) is not type(value):
+            self.put(plain(value))
         elif hasattr(value, "__array_interface__") and getattr(value, "ndim", 0) > 0:
             self._put_array(value)
         elif callable(value):
             parts.append(_INTEGER.pack(b"f", len(self.callables)))
             self.callables.append(value)
+        elif isinstance(value, Iterable) and not isinstance(value, io.IOBase):
+            self._put_list(list(value))
         elif hasattr(value, "__index__"):
-            parts.append(_INTEGER.pack(b"i", value.__index__()))
+            self._put_whole(value.__index__())
         elif hasattr(value, "__float__"):
             parts.append(_NUMBER.pack(b"d", float(value)))
-        elif isinstance(value, Iterable):
-            self.put(list(value))
         else:
-            raise TypeError(f"Lacuna takes no {type(value).__name__}")
+            raise _Refused(f"Lacuna takes no {type(value).__name__}")
+
+    def _put_whole(self, value):
+        if not -2**63 <= value < 2**63:
+            raise _Refused(f"{value} is too large")
+        self.parts.append(_INTEGER.pack(b"i", value))
+
+    def _put_map(self, values):
+        self.parts.append(_INTEGER.pack(b"{", len(values)))
+        for key, item in values.items():
+            if key is None:
+                raise _Refused("None is no key")
+            self.put(key)
+            try:
+                self.put(item)
+            except _Refused as refused:
+                refused.inside(f".{key}")
+                raise
+
+    def _put_list(self, values):
+        self.parts.append(_INTEGER.pack(b"[", len(values)))
+        try:
+            for i, item in enumerate(values):
+                if item is None:  # in Lua the list would end here
+                    raise _Refused("a list cannot hold None")
+                self.put(item)
+        except _Refused as refused:
+            refused.inside(f"[{i}]")
+            raise
 
     def _put_bytes(self, data):
+        if 0 in data:
+            raise _Refused(f"no text can hold a zero byte, found {data!r}")
         self.parts.append(_INTEGER.pack(b"s", len(data)))
         self.parts.append(data)
 
@@ -93,13 +138,16 @@ class Request:
         if self.interpreter not in (None, value._interpreter):
             raise ValueError("these objects were made in different threads, and one call cannot take both")
         self.interpreter = value._interpreter
+        self.objects.append(value)
         self.parts.append(_INTEGER.pack(b"o", value._number))
 
     def _put_array(self, array):
         """A block of numbers; other arrays as lists."""
         kind = {"f": (b"<d", "<f8"), "i": (b"<i8", "<i8"), "u": (b"<i8", "<i8")}.get(array.dtype.kind)
-        if kind is None or array.ndim > 2 or 0 in array.shape:
-            self.put(array.tolist())
+        masked = getattr(array, "mask", False) is not False and array.mask.any()
+        if kind is None or array.ndim > 2 or 0 in array.shape or masked \
+                or array.dtype.kind == "u" and array.max() >= 2**63:
+            self._put_list(array.tolist())  # None where it is masked
             return
         rows, columns = array.shape[0], array.shape[1] if array.ndim == 2 else 0
         self.parts.append(b"a" + bytes([len(kind[0])]) + kind[0] + _COUNTS.pack(rows, columns))
@@ -107,8 +155,12 @@ class Request:
 
     def bytes(self, values):
         """A count, and the values."""
-        for value in values:
-            self.put(value)
+        try:
+            for value in values:
+                self.put(value)
+        except _Refused as refused:
+            where = refused.where.lstrip(".")
+            raise TypeError(f"{where}: {refused.what}" if where else refused.what) from None
         return _WHOLE.pack(len(values)) + b"".join(self.parts)
 
 

@@ -11,6 +11,7 @@ does so with a file. Needs Gmsh's module for Python (python3-gmsh), which is und
 """
 from __future__ import annotations
 
+import operator
 import os
 import sys
 import tempfile
@@ -18,6 +19,7 @@ import tempfile
 from . import _api
 from ._library import Error
 from ._objects import _module
+from ._wire import plain
 
 _CORNERS = {2: 3, 3: 4, 9: 3, 10: 4, 16: 4}  # of Gmsh's types of triangles and quads
 _ROLES = "source", "target", "walls", "faces"
@@ -37,25 +39,38 @@ def fill(*, source=None, target=None, walls=None, faces=None, name="volume", kee
     `wall:<surface>` and `void:<n>`. Nodes of quads that stay are those of the surfaces.
     """
     gmsh = _module("gmsh", "python3-gmsh")
-    roles = {role: tags for role, tags in zip(_ROLES, (source, target, walls, faces)) if tags is not None}
+    roles = {role: _tags(role, tags) for role, tags in zip(_ROLES, (source, target, walls, faces))
+             if tags is not None}
+    if not isinstance(plain(keep_mesh), bool):
+        keep_mesh = _tags("keep_mesh", keep_mesh)
     model, face_of, nodes = _model_of(gmsh, _surfaces(gmsh, roles), keep_mesh)
 
-    def named(tags):
-        if isinstance(tags, str):
-            return tags
-        return [face_of[tag] for tag in ([tags] if isinstance(tags, int) else tags)]
-
-    void = model.open_volume(name=name, **{role: named(tags) for role, tags in roles.items()})
+    void = model.open_volume(name=name, **{
+        role: tags if tags == "auto" else [face_of[tag] for tag in tags] for role, tags in roles.items()})
     mesh = void.sweep(**options)
     surface_of = {face.tag: tag for tag, face in face_of.items()}
     return _add(gmsh, mesh, nodes, surface_of)
+
+
+def _tags(role, tags):
+    """A list of tags of surfaces, of numbers of any kind; or "auto"."""
+    if role == "walls" and isinstance(tags, str) and tags == "auto":
+        return tags
+    try:
+        return [operator.index(tags)]
+    except TypeError:
+        pass
+    try:
+        return [operator.index(tag) for tag in tags]
+    except TypeError:
+        raise TypeError(f"{role} takes tags of Gmsh's surfaces, found {tags!r}") from None
 
 
 def _surfaces(gmsh, roles):
     """Tags of the surfaces that are taken: those named, and all with "auto" or without roles."""
     if not roles or "auto" in roles.values():
         return [tag for _, tag in gmsh.model.getEntities(2)]
-    return sorted({tag for tags in roles.values() for tag in ([tags] if isinstance(tags, int) else tags)})
+    return sorted({tag for tags in roles.values() for tag in tags})
 
 
 def _model_of(gmsh, surfaces, keep_mesh):
@@ -78,7 +93,7 @@ def _model_of(gmsh, surfaces, keep_mesh):
         if not cells:
             remedy = "mesh the surfaces first: gmsh.model.mesh.generate(2)"
             raise Error(f"surface {surface} has no mesh; {remedy}", "gmsh.no_mesh", remedy=remedy)
-        keep = keep_mesh if isinstance(keep_mesh, bool) else surface in keep_mesh
+        keep = surface in keep_mesh if isinstance(keep_mesh, list) else bool(keep_mesh)
         face_of[surface] = model.add_face(points, cells, name=gmsh.model.getEntityName(2, surface) or None,
                                           keep_mesh=keep and all(len(cell) == 4 for cell in cells))
     return model, face_of, nodes
@@ -91,7 +106,7 @@ def _add(gmsh, mesh, nodes, surface_of):
     parts, places = [], {}
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "mesh.msh")
-        mesh.write(path, quality=False)
+        mesh._write_bare(path)
         gmsh.model.add("lacuna")
         try:
             gmsh.merge(path)
@@ -139,9 +154,11 @@ def _add(gmsh, mesh, nodes, surface_of):
 
 
 def _value(text):
-    """Of a word key=value: a number, a list of them, or a text."""
+    """Of a word key=value: a number, a list of them, true or false, or a text."""
     if "," in text:
-        return [_value(part) for part in text.split(",")]
+        return [_value(part) for part in text.split(",") if part]
+    if text.lower() in ("true", "false"):
+        return text.lower() == "true"
     for read in int, float:
         try:
             return read(text)
@@ -159,6 +176,9 @@ def main(words):
     out = files[1] if len(files) == 2 else os.path.splitext(files[0])[0] + ".msh"
     if os.path.abspath(out) == os.path.abspath(files[0]):
         out = os.path.splitext(out)[0] + "_filled.msh"
+    if not os.path.exists(files[0]):
+        print(f"lacuna: {files[0]} is not there", file=sys.stderr)
+        return 1
     gmsh = _module("gmsh", "python3-gmsh")
     gmsh.initialize()
     try:
@@ -168,7 +188,7 @@ def main(words):
             gmsh.model.mesh.generate(2)
         fill(**{key: _value(text) for key, _, text in (word.partition("=") for word in words if "=" in word)})
         gmsh.write(out)
-    except Error as error:
+    except (Error, TypeError) as error:
         print(f"lacuna: {error}", file=sys.stderr)
         return 1
     finally:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 # Made by python/generate.py from lua/lacuna.d.lua.
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any, Union
 
 from ._api import Model
 
-Drop = Union[str, Sequence[str]]
+Drop = Union[str, Iterable[str]]
 
 def prism(
         options: Mapping[str, Any] | None = None, /, *, sides: int | None = ..., radius: float | None = ...,

@@ -43,12 +43,15 @@ class Gmsh(unittest.TestCase):
     def test_surfaces_of_triangles_are_a_shape(self):
         gmsh.model.occ.addBox(0, 0, 0, 4, 3, 2, 7)
         gmsh.model.occ.synchronize()
+        for wrong in "bottom", [None], 1.5:
+            with self.assertRaisesRegex(TypeError, "source takes tags of Gmsh's surfaces"):
+                lacuna.gmsh.fill(source=wrong)
         with self.assertRaises(lacuna.Error) as caught:
             lacuna.gmsh.fill()
         self.assertEqual(caught.exception.code, "gmsh.no_mesh")
         gmsh.model.mesh.generate(2)
         before = gmsh.model.getCurrent(), gmsh.model.getEntities(2)
-        volume = lacuna.gmsh.fill(source=5, walls=[1, 2, 3, 4], layers=4, size=0.5, name="foam")
+        volume = lacuna.gmsh.fill(source=numpy.int64(5), walls=(i for i in (1, 2, 3, 4)), layers=4, size=0.5, name="foam")
         self.assertEqual(gmsh.model.getCurrent(), before[0])
         self.assertLess(set(before[1]), set(gmsh.model.getEntities(2)))
         named = groups()
@@ -71,7 +74,7 @@ class Gmsh(unittest.TestCase):
         walls = [tag for _, tag in gmsh.model.getEntities(2) if tag not in ends]
         with self.assertRaisesRegex(lacuna.Error, "rows"):
             lacuna.gmsh.fill(source=source, walls=walls)
-        volume = lacuna.gmsh.fill(source=source, walls=walls, keep_mesh=[source])
+        volume = lacuna.gmsh.fill(source=source, walls=walls, keep_mesh=numpy.array([source]))
         _, (surface,) = groups()["source"]
         made = gmsh.model.mesh.getElementsByType(3, surface)[1].reshape(-1, 4)
         self.assertEqual({frozenset(quad) for quad in given.tolist()},
@@ -90,7 +93,7 @@ class Gmsh(unittest.TestCase):
             return subprocess.run([sys.executable, "-m", "lacuna.gmsh", path, *words], capture_output=True,
                                   text=True)
 
-        done = run("source=5", "target=6", "walls=1,2,3,4", "layers=3", "size=1")
+        done = run("source=5", "target=6", "walls=1,2,3,4", "layers=3", "size=1", "keep_mesh=False")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(lacuna.check(done.stdout.strip()).hexes, 36)
         done = run("source=5", "layers=0")

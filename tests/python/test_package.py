@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The package as a program in Python meets it: values, errors, callbacks, signals, threads, memory."""
+import copy
 import ctypes
 import gc
+import logging
 import os
 import pathlib
 import pickle
@@ -88,6 +90,19 @@ class Values(unittest.TestCase):
         self.assertEqual(whole.open_volume().class_, "closed")
         self.assertEqual(prism().free_edges()[0].from_, prism().free_edges()[0]["from"])
         self.assertRegex(lacuna.version, r"^\d+\.\d+\.\d+$")
+        self.assertIsNone(part.info().faces[0].half_angle)
+        self.assertEqual(type(void).__module__, "lacuna")
+
+    def test_a_generator_is_a_list(self):
+        part = lacuna.synthetic.prism(sides=6, drop=["wall_1"])
+        for walls in ((face for face in part.faces() if face.name.startswith("wall")),
+                      map(part.face, [f"wall_{i}" for i in range(2, 7)])):
+            void = part.open_volume(source="source", target="target", walls=walls)
+            self.assertIn("7 faces", str(void))
+
+    def test_scalars_of_numpy(self):
+        mesh = prism().sweep(layers=numpy.array(2), size=numpy.array(0.5), wedges=numpy.True_)
+        self.assertEqual(mesh.layers, 2)
 
     def test_faces_of_a_closed_volume_go_by_tag(self):
         mesh = lacuna.synthetic.barrel().open_volume().sweep(layers=3, size=0.8)
@@ -101,6 +116,11 @@ class Values(unittest.TestCase):
         self.assertEqual(sorted(mesh.layers.values()), [2, 4])
         self.assertEqual(set(mesh.fidelity.regions), set(mesh.regions))
         self.assertEqual(len(mesh.cells()), mesh.hexes)
+        nothing = mesh.cells("tet")
+        self.assertEqual((nothing.shape, len(mesh.cells("wedge"))), ((0, 4), 0))
+        with tempfile.TemporaryDirectory() as folder:
+            mesh._write_bare(os.path.join(folder, "a.msh"))
+            self.assertEqual(lacuna.check(os.path.join(folder, "a.msh")).hexes, mesh.hexes)
 
     def test_arrays_are_views_that_outlive_the_mesh(self):
         mesh = prism().sweep(layers=4, size=0.3)
@@ -225,6 +245,34 @@ class Errors(unittest.TestCase):
             with self.assertRaises(TypeError):
                 wrong()
 
+    def test_lists_hold_no_none_and_say_where(self):
+        part = lacuna.synthetic.prism(sides=4)
+        walls = [part.face(f"wall_{i}") for i in (1, 2, 3, 4)]
+        points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+        masked = numpy.ma.masked_array([0.5, 1], mask=[True, False])
+        for where, wrong in {
+                "walls[1]": lambda: part.open_volume(walls=[walls[0], None, *walls[1:]]),
+                "cells[0][3]": lambda: lacuna.model().add_face(points, [[1, 2, 3, None]]),
+                "[1]": lambda: lacuna.assembly([part.open_volume(), None]),
+                "layers[0]": lambda: prism().sweep(layers=masked, size=0.5),
+                "layers.count": lambda: prism().sweep(layers=dict(count=2**70)),
+                "without[0]": lambda: lacuna.load("a.msh", without=[object()])}.items():
+            with self.assertRaises(TypeError) as caught:
+                wrong()
+            self.assertTrue(str(caught.exception).startswith(where + ": "), caught.exception)
+        for wrong in (lambda: lacuna.load("a.stl\0.step"), lambda: prism().sweep({None: 1}),
+                      lambda: prism().sweep(layers=numpy.array([2**63], dtype=numpy.uint64)),
+                      lambda: lacuna.load(sys.stdin)):
+            with self.assertRaises(TypeError):
+                wrong()
+
+    def test_objects_are_neither_pickled_nor_copied(self):
+        void = prism()
+        self.assertIs(copy.copy(void), void)
+        for wrong in copy.deepcopy, pickle.dumps:
+            with self.assertRaisesRegex(TypeError, "write it to a file"):
+                wrong(void)
+
     def test_an_error_leaves_all_usable(self):
         void = prism()
         for _ in range(3):
@@ -249,7 +297,7 @@ class Callbacks(unittest.TestCase):
         void = prism()
         with self.assertRaises(ZeroDivisionError):
             void.sweep(layers=2, size=lambda x, y, z: 1 / 0)
-        with self.assertRaises(TypeError):
+        with self.assertRaisesRegex(TypeError, "<lambda> has to return a number, found None"):
             void.sweep(layers=2, size=lambda x, y, z: None)
         with self.assertRaises(TypeError):
             void.sweep(layers=2, size=lambda x: 1)
@@ -282,6 +330,80 @@ class Callbacks(unittest.TestCase):
             prism().sweep(layers=40, size=0.05)
         self.assertEqual(prism().sweep(layers=1, size=0.5).layers, 1)
 
+    def test_a_stop_that_comes_too_late_is_none(self):
+        part = lacuna.synthetic.prism(sides=6, drop="walls")
+        void = part.open_volume(source="source", target="target")
+        told = []
+
+        def late(stage, share):
+            told.append(stage)
+            time.sleep(0.2)  # the volume is closed meanwhile
+            return numpy.False_
+
+        with lacuna.progress(late):
+            try:
+                void.close()
+            except lacuna.Error as error:
+                self.assertEqual(error.code, "core.cancelled")
+                self.assertFalse(void.is_watertight())
+            else:
+                self.assertTrue(void.is_watertight())
+        self.assertEqual(len(told), 1)
+
+    def test_progress_may_be_entered_twice(self):
+        told = []
+        progress = lacuna.progress(lambda stage, share: told.append(stage))
+        with progress, progress:
+            pass
+        prism().sweep(layers=40, size=0.05)
+        self.assertEqual(told, [])
+
+    def test_a_size_function_sees_other_objects_and_waits_for_none(self):
+        other = []
+        thread = threading.Thread(target=lambda: other.append(prism()))
+        thread.start()
+        thread.join()
+        self.assertEqual(prism().sweep(layers=2, size=lambda x, y, z: len(other[0].class_)).layers, 2)
+        ready, codes = threading.Barrier(2), []
+        voids = [None, None]
+
+        def work(i):
+            voids[i] = prism()
+
+            ready.wait(10)
+            first = threading.Event()
+
+            def once(x, y, z):
+                if not first.is_set():
+                    first.set()
+                    ready.wait(10)  # both calls run
+                return 0.3 if voids[1 - i].class_ else 1
+
+            try:
+                voids[i].sweep(layers=2, size=once)
+            except lacuna.Error as error:
+                codes.append(error.code)
+
+        threads = [threading.Thread(target=work, args=(i,), daemon=True) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(20)
+            self.assertFalse(thread.is_alive())
+        self.assertEqual(set(codes), {"lua.busy"})
+
+    def test_notes_come_on_the_calling_thread(self):
+        void, threads = prism(sides=24, bend=60), []
+        handler = logging.Handler()
+        handler.emit = lambda record: threads.append(threading.get_ident())
+        logger = logging.getLogger("lacuna")
+        logger.addHandler(handler)
+        try:
+            void.sweep(layers=6, size=0.4)
+        finally:
+            logger.removeHandler(handler)
+        self.assertEqual(set(threads), {threading.get_ident()})
+
     def test_notes_are_warnings_of_logging(self):
         void = prism(sides=24, bend=60)
         with self.assertLogs("lacuna", "WARNING") as caught:
@@ -307,6 +429,20 @@ class Signals(unittest.TestCase):
             self.assertLess(time.process_time() - sent[0], 0.5, "seconds of one processor")
             timer.join()
         self.assertEqual(void.sweep(layers=2, size=0.5).layers, 2)
+
+    def test_ctrl_c_stops_a_size_function(self):
+        sent = []
+
+        def size(x, y, z):
+            if not sent:
+                sent.append(time.process_time())
+                os.kill(os.getpid(), signal.SIGINT)
+                time.sleep(0.05)  # the main thread takes it
+            return 0.01
+
+        with self.assertRaises(KeyboardInterrupt):
+            prism().sweep(layers=2, size=size)
+        self.assertLess(time.process_time() - sent[0], 0.5, "seconds of one processor")
 
     def test_what_any_handler_raises_stops_a_job(self):
         def late(*_):
@@ -402,6 +538,26 @@ class Threads(unittest.TestCase):
             lacuna.assembly([prism(), others[0]])
         self.assertEqual(others[0].class_, "I")
 
+    def test_a_thread_may_end_while_its_objects_are_released(self):
+        def work():
+            part = lacuna.synthetic.prism(sides=20)
+            return [part.faces() for _ in range(10)] and None
+
+        for _ in range(40):
+            thread = threading.Thread(target=work)
+            thread.start()
+            thread.join()
+
+    def test_python_ends_while_a_daemon_thread_meshes(self):
+        code = ("import lacuna, threading, time, atexit\n"
+                "atexit.register(lambda: print(void.sweep(layers=1, size=0.5).layers))\n"
+                "void = lacuna.synthetic.prism(sides=4).open_volume()\n"
+                "def work():\n    while True: void.sweep(layers=40, size=lambda x, y, z: 0.1)\n"
+                "threading.Thread(target=work, daemon=True).start()\ntime.sleep(0.2)\n")
+        for _ in range(2):
+            done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", "1\n"))
+
     def test_another_thread_runs_while_a_job_runs(self):
         turns, done = [], threading.Event()
 
@@ -419,12 +575,15 @@ class Threads(unittest.TestCase):
 
     def test_a_forked_process_has_an_interpreter_of_its_own(self):
         void = prism()
-        void.sweep(layers=1, size=0.5)
+        mesh = void.sweep(layers=1, size=0.5)
+        before = objects_left()
         child = os.fork()
         if child == 0:
             try:
                 counts = [each.sweep(layers=2, size=0.5).layers for each in (void, prism())]
-                os._exit(0 if counts == [2, 2] else 1)
+                del mesh
+                void.free_edges()  # what was dropped is released before it
+                os._exit(0 if (counts, objects_left()) == ([2, 2], before - 1) else 1)
             finally:
                 os._exit(1)
         self.assertEqual(os.waitpid(child, 0)[1], 0)
