@@ -486,8 +486,8 @@ def own_interpreter():
 class progress:
     """Calls made within report how far they are: `with lacuna.progress(callback): ...`
 
-    callback(stage, share)   the stage's name and its share done, from 0 to 1; on the calling thread.
-                             Returning False, or raising, stops the call.
+    callback(stage, share)   the stage's name when it begins, with the share 0, which rises to 1 while CAD is
+                             read; on the calling thread. Returning False, or raising, stops the call.
     """
 
     def __init__(self, callback):

@@ -51,7 +51,8 @@ class Gmsh(unittest.TestCase):
         self.assertEqual(caught.exception.code, "gmsh.no_mesh")
         gmsh.model.mesh.generate(2)
         before = gmsh.model.getCurrent(), gmsh.model.getEntities(2)
-        volume = lacuna.gmsh.fill(source=numpy.int64(5), walls=(i for i in (1, 2, 3, 4)), layers=4, size=0.5, name="foam")
+        volume = lacuna.gmsh.fill(source=numpy.int64(5), walls=(i for i in (1, 2, 3, 4)),
+                                  layers=4, size=0.5, name="foam")
         self.assertEqual(gmsh.model.getCurrent(), before[0])
         self.assertLess(set(before[1]), set(gmsh.model.getEntities(2)))
         named = groups()
