@@ -464,7 +464,7 @@ function Mesh:hex(i) end
 ---@return lacuna.Buffer
 function Mesh:coordinates() end
 --- Of every cell the numbers of its nodes, from 1; of order 2 the middle nodes too, in VTK's order.
----@param kind? "hex"|"wedge" default "hex"
+---@param kind? "hex"|"wedge"|"pyramid"|"tet" default "hex"
 ---@return lacuna.Buffer
 function Mesh:cells(kind) end
 ---@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, or a folder called polyMesh

@@ -17,8 +17,9 @@ static_assert(sizeof(Index) == 4, "hosts are told of int32");
 
 BufferState of_wholes(std::vector<Index> numbers, std::size_t columns)
 {
+    static constexpr Index kNone = 0; // a place for no numbers: that there is one tells the type
     const auto kept = std::make_shared<const std::vector<Index>>(std::move(numbers));
-    return {kept, nullptr, kept->data(), kept->size(), columns};
+    return {kept, nullptr, kept->empty() ? &kNone : kept->data(), kept->size(), columns};
 }
 
 BufferState of_points(std::vector<Vec3> points)
@@ -27,9 +28,14 @@ BufferState of_points(std::vector<Vec3> points)
     return {kept, kept->empty() ? nullptr : kept->front().data(), nullptr, 3 * kept->size(), 3};
 }
 
+/// Corners of each kind of cell.
+const Word<std::size_t> kKindsOfCells[] = {{"hex", 8}, {"wedge", 6}, {"pyramid", 5}, {"tet", 4}};
+
 /// Nodes of all cells of a kind, from 1, in the order of mesh:hex(i) and mesh:wedge(i).
-BufferState cells_of(const mesh::HexMesh& mesh, bool wedges)
+BufferState cells_of(const mesh::HexMesh& mesh, std::size_t corners)
 {
+    if (corners < 6) return of_wholes({}, corners); // only assemblies have pyramids and tetrahedra
+    const bool wedges = corners == 6;
     const mesh::CellKinds kinds(mesh);
     const std::size_t first = wedges ? mesh.hex_count() : 0;
     const std::size_t count = wedges ? mesh.wedge_count() : mesh.hex_count();
@@ -64,15 +70,14 @@ int coordinates(lua_State* L)
     return 1;
 }
 
-/// buffer = mesh:cells(["hex" | "wedge"]): node numbers from 1
+/// buffer = mesh:cells(["hex" | "wedge" | "pyramid" | "tet"]): node numbers from 1
 int cells(lua_State* L)
 {
     lua_settop(L, 2);
     const auto& mesh = hold<MeshState>(L, 1);
-    const Word<bool> kinds[] = {{"hex", false}, {"wedge", true}};
-    const bool wedges = !lua_isnil(L, 2) && read_word(L, 2, {"cells", nullptr}, kinds);
+    const std::size_t corners = lua_isnil(L, 2) ? 8 : read_word(L, 2, {"cells", nullptr}, kKindsOfCells);
     auto& box = new_box<BufferState>(L);
-    guard(L, [&] { box = std::make_shared<BufferState>(cells_of(mesh.swept.mesh, wedges)); });
+    guard(L, [&] { box = std::make_shared<BufferState>(cells_of(mesh.swept.mesh, corners)); });
     return 1;
 }
 
@@ -90,8 +95,7 @@ int assembly_cells(lua_State* L)
 {
     lua_settop(L, 2);
     const auto& mesh = hold<AssemblyMeshState>(L, 1);
-    const Word<std::size_t> kinds[] = {{"hex", 8}, {"wedge", 6}, {"pyramid", 5}, {"tet", 4}};
-    const std::size_t columns = lua_isnil(L, 2) ? 8 : read_word(L, 2, {"cells", nullptr}, kinds);
+    const std::size_t columns = lua_isnil(L, 2) ? 8 : read_word(L, 2, {"cells", nullptr}, kKindsOfCells);
     auto& box = new_box<BufferState>(L);
     guard(L, [&] {
         std::vector<Index> nodes;

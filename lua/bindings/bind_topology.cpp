@@ -53,6 +53,8 @@ void read_cells(lua_State* L, int index, const Where& where, AddedFace& face)
         std::array<int, 4>& cell = face.cells[next++];
         for (std::size_t corner = 0; corner < corners; ++corner) {
             lua_rawgeti(L, element, to_lua(corner));
+            if (lua_isinteger(L, -1) && lua_tointeger(L, -1) == 0)
+                fail_option(L, at, "must name points, which count from 1, found 0");
             cell[corner] = read_whole(L, -1, at, 1);
             if (std::find(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(corner), cell[corner]) !=
                 cell.begin() + static_cast<std::ptrdiff_t>(corner))

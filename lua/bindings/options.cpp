@@ -29,6 +29,7 @@ const char* push_list(lua_State* L, const char* const* words, std::size_t count)
 const char* push_subject(lua_State* L, const Where& where)
 {
     if (!where.key) return lua_pushfstring(L, "%s: the argument", where.call);
+    if (*where.key == '[') return lua_pushfstring(L, "%s: the argument's value %s", where.call, where.key);
     return lua_pushfstring(L, "%s: option '%s'", where.call, where.key);
 }
 

@@ -65,7 +65,7 @@ void read_array(lua_State* L, int index, const Where& where, const char* expecte
     for (lua_Integer i = 1; i <= count; ++i) {
         luaL_checkstack(L, 8, "array nested too deep");
         const int top = lua_gettop(L);
-        const char* key = lua_pushfstring(L, "%s[%I]", where.key, i);
+        const char* key = lua_pushfstring(L, "%s[%I]", where.key ? where.key : "", i);
         lua_rawgeti(L, index, i);
         read(top + 2, Where{where.call, key});
         lua_settop(L, top);

@@ -153,6 +153,12 @@ check.equal(high, mesh.nodes)
 check.equal(select("#", mesh:node(mesh.nodes)), 3)
 check.fails(function() mesh:node(0) end, "from 1 to", "found 0")
 check.fails(function() mesh:hex(mesh.hexes + 1) end, "from 1 to")
+for kind, columns in pairs { wedge = 6, pyramid = 5, tet = 4 } do
+  local none = mesh:cells(kind)
+  check.equal(("%d %d %s"):format(none.rows, none.columns, none.type), ("0 %d int32"):format(columns))
+end
+check.fails(function() mesh:cells("prism") end, "lua.bad_value")
+check.fails(function() model:face { 999 } end, "the argument's value [1]", "999")
 local cells = {}
 for _, group in ipairs(mesh:groups()) do
   cells[group.name] = group.cells
