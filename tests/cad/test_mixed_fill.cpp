@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -22,13 +23,22 @@ using test::refusal;
 
 namespace {
 
-/// The corner of a cube, cut off: a tetrahedron, which has no ends to sweep between.
-topology::Model corner()
+/// A pyramid over a polygon of nine sides, which neither a sweep nor pieces fill.
+topology::Model pyramid()
 {
+    constexpr Index kSides = 9;
     healing::FacetSoup soup;
-    soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    soup.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    soup.triangle_label = {0, 1, 2, 3};
+    for (Index k = 0; k < kSides; ++k) {
+        const double angle = 2 * std::numbers::pi * k / kSides;
+        soup.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+        soup.triangles.push_back({k, (k + 1) % kSides, kSides});
+        soup.triangle_label.push_back(k);
+    }
+    soup.points.emplace_back(0, 0, 1);
+    for (Index k = 1; k + 1 < kSides; ++k) {
+        soup.triangles.push_back({0, k + 1, k});
+        soup.triangle_label.push_back(kSides);
+    }
     return healing::split_facets(soup);
 }
 
@@ -77,11 +87,11 @@ fill::Request mixed(double size, mesh::TetMesher mesher = cad::fill_skin)
 TEST_CASE(
     "a host fills with tetrahedra what no sweep fills, cuts what it can into pieces, and writes the deck")
 {
-    const fill::Filled tets = fill::fill(corner(), mixed(0.2));
+    const fill::Filled tets = fill::fill(pyramid(), mixed(0.2));
     const auto& parts = std::get<fill::FilledParts>(tets.mesh);
     CHECK(fill::cell_count(parts, mesh::CellShape::tet4) > 50);
     CHECK(fill::cell_count(parts, mesh::CellShape::hex8) == 0);
-    CHECK(fill::fidelity(parts).volume == doctest::Approx(1.0 / 6));
+    CHECK(fill::fidelity(parts).volume == doctest::Approx(1.5 * std::sin(2 * std::numbers::pi / 9)));
     CHECK(fill::measure(fill::whole_cells(parts)).uncertified == 0);
     const io::Deck deck = fill::whole_deck(parts, {});
     CHECK(deck.points.size() == parts.swept.nodes);
@@ -105,14 +115,14 @@ TEST_CASE("a refused sweep ends with the option that allows tetrahedra, if the h
     const std::string option = "try fallback = \"mixed\"";
     for (const sweep::Fallback fallback : {sweep::Fallback::none, sweep::Fallback::wedges}) {
         request.sweep.options.fallback = fallback;
-        CHECK(refusal([&] { (void)fill::fill(corner(), request); }, {option}) == "topology.no_roles");
-        const fill::Volume volume = fill::open(corner(), {});
+        CHECK(refusal([&] { (void)fill::fill(pyramid(), request); }, {option}) == "topology.no_roles");
+        const fill::Volume volume = fill::open(pyramid(), {});
         const fill::Member member{&volume, nullptr, nullptr, request.sweep.options};
         CHECK(refusal([&] { (void)fill::sweep({&member, 1}); }, {option}) == "topology.no_roles");
     }
     request.sweep.options.tet_mesher = nullptr;
     try {
-        (void)fill::fill(corner(), request);
+        (void)fill::fill(pyramid(), request);
         FAIL("nothing was refused");
     } catch (const Error& error) {
         CHECK_FALSE(test::has(error.what(), option));
@@ -121,39 +131,39 @@ TEST_CASE("a refused sweep ends with the option that allows tetrahedra, if the h
 
 TEST_CASE("tetrahedra are refused by name: no mesher, no CAD process, a mesher that fails, another skin")
 {
-    CHECK(refusal([] { (void)fill::fill(corner(), mixed(0.2, nullptr)); }, {"cad::fill_skin"}) ==
+    CHECK(refusal([] { (void)fill::fill(pyramid(), mixed(0.2, nullptr)); }, {"cad::fill_skin"}) ==
           "fill.no_tets");
 
     const auto fails = [](const mesh::ClosedSkin&, const RunContext&) -> mesh::TetMesh {
         throw NotSweepable("cad.tets_failed", "no tetrahedra");
     };
-    CHECK(refusal([&] { (void)fill::fill(corner(), mixed(0.2, fails)); }) == "cad.tets_failed");
+    CHECK(refusal([&] { (void)fill::fill(pyramid(), mixed(0.2, fails)); }) == "cad.tets_failed");
 
     const auto loses_one = [](const mesh::ClosedSkin& skin, const RunContext& context) {
         mesh::TetMesh made = cad::fill_skin(skin, context);
         made.cells.pop_back();
         return made;
     };
-    CHECK(refusal([&] { (void)fill::fill(corner(), mixed(0.2, loses_one)); }) == "fill.skin_differs");
+    CHECK(refusal([&] { (void)fill::fill(pyramid(), mixed(0.2, loses_one)); }) == "fill.skin_differs");
 
     const auto turns_one = [](const mesh::ClosedSkin& skin, const RunContext& context) {
         mesh::TetMesh made = cad::fill_skin(skin, context);
         std::swap(made.cells.back()[0], made.cells.back()[1]);
         return made;
     };
-    CHECK(refusal([&] { (void)fill::fill(corner(), mixed(0.2, turns_one)); }) == "quality.inverted");
+    CHECK(refusal([&] { (void)fill::fill(pyramid(), mixed(0.2, turns_one)); }) == "quality.inverted");
 
     const std::string program = std::getenv("LACUNA_CAD");
     test::kill_worker();
     ::setenv("LACUNA_CAD", "/nowhere/lacuna-cad", 1);
-    CHECK(refusal([] { (void)fill::fill(corner(), mixed(0.2)); }, {"LACUNA_CAD"}) == "cad.no_worker");
+    CHECK(refusal([] { (void)fill::fill(pyramid(), mixed(0.2)); }, {"LACUNA_CAD"}) == "cad.no_worker");
     ::setenv("LACUNA_CAD", program.c_str(), 1);
-    CHECK(refusal([] { (void)fill::fill(corner(), mixed(0.2)); }) == "done");
+    CHECK(refusal([] { (void)fill::fill(pyramid(), mixed(0.2)); }) == "done");
 }
 
 TEST_CASE("a fill with tetrahedra stops within half a second, whichever stage it is in")
 {
-    const topology::Model model = corner();
+    const topology::Model model = pyramid();
     CHECK(test::heeds_cancel(
         [&](const RunContext& context) { (void)fill::fill(model, mixed(0.02), context); }));
     for (const int wait : {20, 150, 600}) {

@@ -149,6 +149,8 @@ end
 -- --- tetrahedra -------------------------------------------------------------------------------------------
 
 -- Nine faces that meet in a tip: no sweep, no cut, and a division at the middle makes too many pieces.
+local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
+local corner = { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } }
 local pyramid, base = {}, {}
 for k = 1, 9 do
   local angle = 2 * math.pi * k / 9
@@ -164,9 +166,7 @@ do
   check.fails(function() volume:sweep { fallback = "wedges" } end, remedy)
   check.fails(function() lacuna.assembly { volume }:sweep {} end, remedy)
   check.fails(function() volume:sweep_to(path("a.msh"), {}) end, 'or try sweep with fallback = "mixed"')
-  local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
-  local corner = solid { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } }
-  check.fails(function() corner:open_volume { source = "f1", target = "f2", walls = { "f3", "f4" } } end,
+  check.fails(function() solid(corner):open_volume { source = "f1", target = "f2", walls = { "f3", "f4" } } end,
     "topology.ends_share_edge", 'fallback = "mixed"')
   check.fails(function() volume:sweep { fallback = "mixed", order = 2 } end, "fill.tets_order", "order = 1")
   for _, object in ipairs { volume, lacuna.assembly { volume } } do
@@ -195,7 +195,7 @@ end
 do
   local faces = cubes { { 0, 0, 0 } }
   local function away(p) return { p[1] + 5, p[2], p[3] } end
-  for _, face in ipairs { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } } do
+  for _, face in ipairs(corner) do
     faces[#faces + 1] = { away(face[1]), away(face[2]), away(face[3]) }
   end
   check.fails(function() solid(faces):open_volume {}:sweep { fallback = "mixed" } end, "cad.skin_open",

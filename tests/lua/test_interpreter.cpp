@@ -67,14 +67,17 @@ mesh = volume:sweep { size = 0.5, fallback = "mixed" }
 hexes, tets, filled = mesh.hexes, mesh.tets, mesh:quality().volume
 )lua";
 
-/// The corner of a cube, cut off, in tetrahedra of a size.
-const char* const kCorner = R"lua(
-local corner = require("lacuna").model()
-local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
-for _, points in ipairs { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } } do
-  corner:add_face { points = points, cells = { { 1, 2, 3 } } }
+/// A pyramid over nine sides in tetrahedra of a size.
+const char* const kPyramid = R"lua(
+local pyramid = require("lacuna").model()
+local base, cells = {}, {}
+for k = 1, 9 do base[k] = { math.cos(2 * math.pi * k / 9), math.sin(2 * math.pi * k / 9), 0 } end
+for k = 1, 9 do
+  pyramid:add_face { points = { base[k], base[k % 9 + 1], { 0, 0, 1 } }, cells = { { 1, 2, 3 } } }
 end
-mesh = corner:open_volume {}:sweep { size = size, fallback = "mixed" }
+for k = 2, 8 do cells[k - 1] = { 1, k + 1, k } end
+pyramid:add_face { points = base, cells = cells }
+mesh = pyramid:open_volume {}:sweep { size = size, fallback = "mixed" }
 nodes, tets = mesh:coordinates(), mesh:cells "tet"
 )lua";
 
@@ -302,13 +305,13 @@ TEST_CASE(
     ::setenv("LACUNA_CAD", LACUNA_CAD_PROGRAM, 1);
     Interpreter host;
     host.set("size", 0.2);
-    host.run_string(kCorner);
+    host.run_string(kPyramid);
     const BufferView tets = host.buffer("tets");
     CHECK(tets.columns == 4);
     CHECK(Value(static_cast<std::int64_t>(tets.rows)) == host.get("mesh.tets"));
     lacuna_interpreter* const handle = lacuna_open(nullptr);
     CHECK(lacuna_set_number(handle, "size", 0.2) == LACUNA_OK);
-    REQUIRE(lacuna_run_string(handle, kCorner, std::strlen(kCorner), nullptr) == LACUNA_OK);
+    REQUIRE(lacuna_run_string(handle, kPyramid, std::strlen(kPyramid), nullptr) == LACUNA_OK);
     lacuna_buffer same;
     REQUIRE(lacuna_get_buffer(handle, "tets", &same) == LACUNA_OK);
     REQUIRE(same.rows == tets.rows);
@@ -322,7 +325,7 @@ TEST_CASE(
         asked = Clock::now();
         host.cancel();
     });
-    CHECK_THROWS_AS(host.run_string(kCorner), Cancelled);
+    CHECK_THROWS_AS(host.run_string(kPyramid), Cancelled);
     canceller.join();
     CHECK(Clock::now() - asked.load() < std::chrono::milliseconds(500));
 

@@ -2,13 +2,13 @@
 #include <lacuna/closure/readings.h>
 
 #include <lacuna/closure/detail/flat_fill.h>
-#include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/hollow_readings.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/no_roles.h>
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/detail/touching_faces.h>
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
@@ -117,7 +117,10 @@ std::optional<Reading> without_ends(FlatFilling filled, const RunContext& contex
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
-    auto filled = fill_all_loops(model, faces, context);
+    // Refused: new faces that share an edge with two others.
+    auto filled = unless_refused([&] {
+                      return fill_all_loops(model, faces, context);
+                  }).value_or(std::nullopt);
     if (!filled || filled->channel || filled->closure.void_faces.empty()) return std::nullopt;
     const Model skin = filled->volume.model;
     const std::vector<Reading> whole = find_readings(skin, all_faces(skin), context);
@@ -143,15 +146,6 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     return reading;
 }
 
-/// Whether a void face is blended between sides that have corners of their own: it may be several faces.
-bool has_corners_inside_sides(const Model& model, const Closure& closure)
-{
-    return std::ranges::any_of(closure.void_faces, [&](FaceId face) {
-        return model[face].geometry == Geometry::transfinite && !is_about_flat(model, face) &&
-               sharp_corners(model, model[face].loops.front()).size() > 4;
-    });
-}
-
 /// The sealed state of a reading; empty if no faces are missing.
 std::optional<Closed> sealed_state(const Reading& reading)
 {
@@ -166,8 +160,8 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& 
                  const RunContext& context)
 {
     const auto sealed = sealed_state(reading);
-    auto untold = sealed ? untold_face(sealed->volume, sealed->closure) : std::nullopt;
-    if (!untold && !reading.guess) return;
+    const bool untold = sealed && untold_face(sealed->volume, sealed->closure);
+    if (reading.holed.valid() || (!untold && !reading.guess)) return;
     auto told = read_filled(model, faces, context);
     const bool is_sure = told && !told->guess && told->closure->assumptions.empty();
     if (is_sure &&
@@ -175,8 +169,6 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& 
                            (told->closure->void_faces.size() < sealed->closure.void_faces.size() ||
                             !membranes(sealed->volume.model, sealed->closure.void_faces).empty()))))
         reading = std::move(*told);
-    else if (!reading.guess && has_corners_inside_sides(sealed->volume.model, sealed->closure))
-        reading.guess = std::move(untold);
 }
 
 /// Whether all void faces of a reading are flat.

@@ -12,14 +12,17 @@ static const char recipe[] = "local lacuna = require 'lacuna'\n"
                              "print(mesh)\n"
                              "nodes, cells = mesh:coordinates(), mesh:cells()\n";
 
-/* The corner of a cube, cut off, which has no ends to sweep between. */
-static const char corner[] =
-    "local corner = require('lacuna').model()\n"
-    "local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }\n"
-    "for _, points in ipairs { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } } do\n"
-    "  corner:add_face { points = points, cells = { { 1, 2, 3 } } }\n"
+/* A pyramid over nine sides, which neither a sweep nor pieces fill. */
+static const char pyramid[] =
+    "local pyramid = require('lacuna').model()\n"
+    "local base, cells = {}, {}\n"
+    "for k = 1, 9 do base[k] = { math.cos(2 * math.pi * k / 9), math.sin(2 * math.pi * k / 9), 0 } end\n"
+    "for k = 1, 9 do\n"
+    "  pyramid:add_face { points = { base[k], base[k % 9 + 1], { 0, 0, 1 } }, cells = { { 1, 2, 3 } } }\n"
     "end\n"
-    "mesh = corner:open_volume {}:sweep { size = 0.2, fallback = 'mixed' }\n"
+    "for k = 2, 8 do cells[k - 1] = { 1, k + 1, k } end\n"
+    "pyramid:add_face { points = base, cells = cells }\n"
+    "mesh = pyramid:open_volume {}:sweep { size = 0.2, fallback = 'mixed' }\n"
     "tets = mesh:cells 'tet'\n";
 
 static void print(void* user, const char* text, size_t length)
@@ -60,7 +63,7 @@ int main(void)
            cells.rows, at[3 * (first[0] - 1)], at[3 * (first[0] - 1) + 1], at[3 * (first[0] - 1) + 2]);
 
     lacuna_buffer tets = {0};
-    if (lacuna_run_string(recipes, corner, strlen(corner), "corner") == LACUNA_OK)
+    if (lacuna_run_string(recipes, pyramid, strlen(pyramid), "pyramid") == LACUNA_OK)
         lacuna_get_buffer(recipes, "tets", &tets);
     else if (strcmp(lacuna_error_code(recipes), "cad.no_worker") != 0) /* lacuna-cad makes them */
         return 1;

@@ -20,13 +20,16 @@ nodes, cells, quality = mesh:coordinates(), mesh:cells(), mesh:quality()
 )lua";
 
 // The corner of a cube, cut off, which has no ends to sweep between.
-const char* const kCorner = R"lua(
-local corner = require("lacuna").model()
-local o, x, y, z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
-for _, points in ipairs { { o, y, x }, { o, x, z }, { x, y, z }, { y, o, z } } do
-  corner:add_face { points = points, cells = { { 1, 2, 3 } } }
+const char* const kPyramid = R"lua(
+local pyramid = require("lacuna").model()
+local base, cells = {}, {}
+for k = 1, 9 do base[k] = { math.cos(2 * math.pi * k / 9), math.sin(2 * math.pi * k / 9), 0 } end
+for k = 1, 9 do
+  pyramid:add_face { points = { base[k], base[k % 9 + 1], { 0, 0, 1 } }, cells = { { 1, 2, 3 } } }
 end
-mesh = corner:open_volume {}:sweep { size = 0.2, fallback = "mixed" }
+for k = 2, 8 do cells[k - 1] = { 1, k + 1, k } end
+pyramid:add_face { points = base, cells = cells }
+mesh = pyramid:open_volume {}:sweep { size = 0.2, fallback = "mixed" }
 tets = mesh:cells "tet"
 )lua";
 
@@ -52,12 +55,12 @@ Result mesh_of(int sides)
     return result;
 }
 
-/// Tetrahedra that fill the corner; none without the program that makes them, `lacuna-cad`.
-std::size_t tets_of_corner()
+/// Tetrahedra that fill the pyramid; none without the program that makes them, `lacuna-cad`.
+std::size_t tets_of_pyramid()
 {
     lacuna::Interpreter recipes;
     try {
-        recipes.run_string(kCorner);
+        recipes.run_string(kPyramid);
     } catch (const lacuna::ScriptError& error) {
         if (error.code() != "cad.no_worker") throw;
         return 0;
@@ -80,7 +83,7 @@ int main()
         if (!result.certified || result.highest - result.lowest < 59.9) return 1;
     }
 
-    std::cout << tets_of_corner() << " tetrahedra in C++\n";
+    std::cout << tets_of_pyramid() << " tetrahedra in C++\n";
 
     lacuna::Interpreter recipes;
     try {
