@@ -166,8 +166,8 @@ do
   check.fails(function() volume:sweep { fallback = "wedges" } end, remedy)
   check.fails(function() lacuna.assembly { volume }:sweep {} end, remedy)
   check.fails(function() volume:sweep_to(path("a.msh"), {}) end, 'or try sweep with fallback = "mixed"')
-  check.fails(function() solid(corner):open_volume { source = "f1", target = "f2", walls = { "f3", "f4" } } end,
-    "topology.ends_share_edge", 'fallback = "mixed"')
+  local roles = { source = "f1", target = "f2", walls = { "f3", "f4" } }
+  check.fails(function() solid(corner):open_volume(roles) end, "topology.ends_share_edge", "mixed")
   check.fails(function() volume:sweep { fallback = "mixed", order = 2 } end, "fill.tets_order", "order = 1")
   for _, object in ipairs { volume, lacuna.assembly { volume } } do
     check.fails(function() object:sweep_to(path("a.msh"), { fallback = "mixed" }) end, "use sweep and write")

@@ -19,7 +19,7 @@ mesh = void:sweep { layers = 12, size = 4 }
 nodes, cells, quality = mesh:coordinates(), mesh:cells(), mesh:quality()
 )lua";
 
-// The corner of a cube, cut off, which has no ends to sweep between.
+// A pyramid over nine sides, which neither a sweep nor pieces fill.
 const char* const kPyramid = R"lua(
 local pyramid = require("lacuna").model()
 local base, cells = {}, {}
