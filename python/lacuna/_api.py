@@ -457,7 +457,8 @@ class Volume(Shown):
 
         plane: list[(x, y, z)]; point and normal
         face: Face | int | str | dict; a Face of any model, or one of the volume's own
-        auto: bool; where pieces result that can be swept
+        auto: bool; where pieces result that can be swept: planes beside concave edges, or blocks at the
+            vertices
         """
         return self._method("cut", options_of(options, keywords))
 
