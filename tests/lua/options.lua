@@ -80,7 +80,8 @@ wrong("add_face", "points", { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1 } } }, "{ x, y,
 wrong("add_face", "points", { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, nan } } }, "a number")
 wrong("add_face", "cells", { 1, {} }, "triangles")
 wrong("add_face", "cells", { { { 1, 2 } }, { 1, 2, 3 } }, "three or four")
-wrong("add_face", "cells", { { { 0, 1, 2 } }, { { 1.5, 2, 3 } } }, "a positive whole number")
+wrong("add_face", "cells", { { { 0, 1, 2 } } }, "count from 1")
+wrong("add_face", "cells", { { { 1.5, 2, 3 } } }, "a positive whole number")
 wrong("add_face", "cells", { { { 1, 2, 1 } } }, "point 1 twice")
 check.fails(function() lacuna.model():add_face { points = square, cells = { { 1, 2, 5 } } } end, "cells[1]",
     "point 5", "4 points")
