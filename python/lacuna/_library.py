@@ -125,6 +125,8 @@ class _Job:
         self._running = self._ended = False
 
     def run(self):
+        if self.thread is not None:
+            return
         self.thread = _thread.get_ident()
         try:
             self.interpreter._held(self._run)
@@ -137,7 +139,6 @@ class _Job:
     def _run(self):
         own = self.interpreter
         outer, _local.job, own._job = getattr(_local, "job", None), self, self
-        own._holder = None  # a signal may have kept it
         try:
             with self._guard:
                 self._running = not self.stopped and not _ends(self.caller)
@@ -167,12 +168,15 @@ class _Job:
         self.run()
         outer.inner = None
 
-    def wait(self):
-        """The result. What a signal's handler or the progress callback raises stops the job and is raised;
+    def wait(self, jobs=None):
+        """The result, once it was put into the queue. What a signal's handler or the progress callback raises stops the job and is raised;
         False from the callback stops it unless it is done before."""
         raised, unwanted = None, False
         while True:
             try:
+                if jobs is not None:
+                    jobs.put(self)  # again, if a signal comes before the next line: it runs once
+                    jobs = None
                 if self._ended and self.inbox.empty():  # a signal may come while the last item is taken
                     break
                 told = self.inbox.get()
@@ -225,8 +229,7 @@ class Interpreter:
     """An interpreter and the objects that live in it. Used by one thread at a time; others wait."""
 
     def __init__(self):
-        self._lock = threading.Lock()
-        self._holder = None  # the thread that looks something up
+        self._lock = threading.RLock()  # which says whose it is: no signal comes between that and the lock
         self._job = None  # the one that runs
         self._jobs = queue.SimpleQueue()
         self._process = None  # in which a thread takes the jobs
@@ -266,7 +269,7 @@ class Interpreter:
         """Send a request, and return what `read` makes of the answer."""
         me = _thread.get_ident()
         running = self._job
-        if me == self._holder or running is not None and me in (running.caller, running.thread):
+        if self._lock._is_owned() or running is not None and me in (running.caller, running.thread):
             raise _busy("a callback cannot use objects of the thread that it is called for",
                         "make the call when the one that runs is done")
         if self._lost:
@@ -280,9 +283,8 @@ class Interpreter:
                 return self._held(self._look_up, request, read)
             job = _Job(self, request, callables, read, getattr(_local, "progress", None))
             if outer is None:
-                self._jobs.put(job)
-            else:
-                job.run_inside(outer)
+                return job.wait(self._jobs)
+            job.run_inside(outer)
             return job.wait()
         finally:
             while self._notes:
@@ -334,13 +336,9 @@ class Interpreter:
             self._process = os.getpid()
 
     def _look_up(self, request, read):
-        self._holder = _thread.get_ident()
-        try:
-            if _ends(self._holder):
-                raise Error("Python ends", "core.cancelled")
-            return read(self._exchange(request))
-        finally:
-            self._holder = None
+        if _ends(_thread.get_ident()):
+            raise Error("Python ends", "core.cancelled")
+        return read(self._exchange(request))
 
     def _exchange(self, request):
         self._check(_library.lacuna_set_string(self._handle, b"lacuna_python.request", request, len(request)))
@@ -446,7 +444,7 @@ def _end():
 def _forks():
     """Objects that were dropped are released first; a call that runs is not waited for."""
     for own in list(_interpreters):
-        if own._job is None and own._holder is None and own._lock.acquire(timeout=_CALLBACKS_END):
+        if own._job is None and not own._lock._is_owned() and own._lock.acquire(timeout=_CALLBACKS_END):
             _held_for_fork.append(own)
 
 
@@ -459,8 +457,9 @@ def _forked():
     """In the new process no thread takes jobs, and those of other threads are not its own."""
     _forked_here()
     for own in list(_interpreters):
-        own._lost = own._lock.locked()
-        own._holder = None
+        own._lost = own._lock._is_owned() or not own._lock.acquire(blocking=False)
+        if not own._lost:
+            own._lock.release()
         waiting = []
         while not own._jobs.empty():
             waiting.append(own._jobs.get_nowait())

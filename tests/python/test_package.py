@@ -458,6 +458,22 @@ class Signals(unittest.TestCase):
             signal.signal(signal.SIGALRM, before)
         self.assertEqual(prism().sweep(layers=2, size=0.5).layers, 2)
 
+    def test_signals_in_look_ups_leave_nothing_held(self):
+        face, random_numbers, stopped = prism().model().faces()[0], random.Random(1), 0
+        area = face.area
+        before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        try:
+            for _ in range(5000):
+                try:
+                    signal.setitimer(signal.ITIMER_REAL, random_numbers.uniform(1e-6, 1e-4))
+                    while True:
+                        self.assertEqual(face.area, area)
+                except KeyboardInterrupt:
+                    stopped += 1
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        self.assertEqual(stopped, 5000)
 
     def test_signals_at_any_time_leave_nothing_behind(self):
         def work():
