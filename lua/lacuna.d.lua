@@ -30,6 +30,7 @@
 ---@field tolerance? number gaps below it are sewn [model length]; default 1e-6 × the diagonal
 ---@field feature_angle? number where facets are cut into faces [degrees]; default 40
 ---@field keep_mesh? boolean given quads and nodes stay as they are; default true
+---@field keep_noise? boolean points of noisy facets, as of a scan, stay where they are; default false: they are smoothed
 ---@field scale? number every coordinate times this; default 1
 ---@field cad_seconds? number processor time the CAD process may take over it; in the sandbox it only lowers
 ---@field cad_megabytes? number address space the CAD process may take; in the sandbox it only lowers

@@ -474,6 +474,7 @@ const Option<LoadArguments> kLoadOptions[] = {
     {"tolerance", positive<&LoadArguments::load, &io::LoadOptions::tolerance>},
     {"feature_angle", read_feature_angle},
     {"keep_mesh", boolean<&LoadArguments::load, &io::LoadOptions::keep_mesh>},
+    {"keep_noise", boolean<&LoadArguments::load, &io::LoadOptions::keep_noise>},
     {"scale", positive<&LoadArguments::load, &io::LoadOptions::scale>},
     {"cad_seconds", read_cad_seconds},
     {"cad_megabytes", read_cad_megabytes},

@@ -1026,6 +1026,8 @@ def load(path, options=None, /, **keywords):
     """tolerance: float; gaps below it are sewn [model length]; default 1e-6 × the diagonal
     feature_angle: float; where facets are cut into faces [degrees]; default 40
     keep_mesh: bool; given quads and nodes stay as they are; default True
+    keep_noise: bool; points of noisy facets, as of a scan, stay where they are; default False: they are
+        smoothed
     scale: float; every coordinate times this; default 1
     cad_seconds: float; processor time the CAD process may take over it; in the sandbox it only lowers
     cad_megabytes: float; address space the CAD process may take; in the sandbox it only lowers

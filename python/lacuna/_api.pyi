@@ -435,8 +435,8 @@ class Quality(Object):
 def load(
         path: Path | Iterable[Path] | OtherMesh, options: Mapping[str, Any] | None = None, /, *,
         tolerance: float | None = ..., feature_angle: float | None = ..., keep_mesh: bool | None = ...,
-        scale: float | None = ..., cad_seconds: float | None = ..., cad_megabytes: float | None = ...,
-        without: str | int | Iterable[str | int] | None = ...,
+        keep_noise: bool | None = ..., scale: float | None = ..., cad_seconds: float | None = ...,
+        cad_megabytes: float | None = ..., without: str | int | Iterable[str | int] | None = ...,
 ) -> Model: ...
 def model(options: Mapping[str, Any] | None = None, /, *, tolerance: float | None = ...) -> Model: ...
 def assembly(volumes: Iterable[Volume | Mesh | AssemblyMesh]) -> Assembly: ...

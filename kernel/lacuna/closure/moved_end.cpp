@@ -9,6 +9,7 @@
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/segment.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -229,7 +230,7 @@ private:
         const Vec3 mean_low = geometry::mean_point(feet);
         const Vec3 mean_high = geometry::mean_point(geometry::even_places(high, kSamples));
         const double scale = std::sqrt(to.norm() / from.norm());
-        const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(from, to); // without a twist
+        const Eigen::Matrix3d turn = geometry::least_turn(from, to);
         for (const Vec3& p : feet) {
             from_.push_back(p);
             to_.push_back(mean_high + scale * (turn * (p - mean_low)));

@@ -8,7 +8,6 @@
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/use_places.h>
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -87,22 +86,22 @@ std::optional<EvenFrame> even_frame(std::span<const Vec3> points)
 /// points to decide.
 std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const EvenFrame& frame)
 {
-    Eigen::Matrix<double, 10, 10> sum = Eigen::Matrix<double, 10, 10>::Zero();
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(10, 10);
     for (const Vec3& p : points) {
         const Powers powers = powers_at(frame.stretch * (p - frame.centre));
         sum += powers * powers.transpose();
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 10, 10>> fit(sum);
+    const geometry::SymmetricEigen fit = geometry::symmetric_eigen(sum);
     const auto count = static_cast<Eigen::Index>(points.size());
     Eigen::Index forms = 0;
-    while (forms < 10 && fit.eigenvalues()(forms) <= kOnQuadric * kOnQuadric * static_cast<double>(count))
+    while (forms < 10 && fit.values(forms) <= kOnQuadric * kOnQuadric * static_cast<double>(count))
         ++forms;
     if (forms > 2 || forms * (count - 10 + forms) < kSpare) return {};
     Eigen::Matrix4d back = Eigen::Matrix4d::Identity();
     back.topLeftCorner<3, 3>() = frame.unit * frame.stretch;
     std::vector<Eigen::Matrix4d> result;
     for (Eigen::Index i = 0; i < forms; ++i) {
-        const Eigen::Matrix4d form = back.transpose() * form_of(fit.eigenvectors().col(i)) * back;
+        const Eigen::Matrix4d form = back.transpose() * form_of(fit.vectors.col(i)) * back;
         result.push_back(form / form.norm());
     }
     return result;
@@ -124,8 +123,7 @@ double off_ball(const Eigen::Matrix4d& form)
 
 Eigen::Vector4d singular_values(const Eigen::Matrix4d& form)
 {
-    Eigen::Vector4d values =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(form, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs();
+    Eigen::Vector4d values = geometry::symmetric_eigen(form).values.cwiseAbs();
     std::ranges::sort(values, std::greater{});
     return values / values(0);
 }
@@ -149,8 +147,9 @@ double off_round_cone(const Eigen::Matrix4d& form)
 /// Deviation from a cylinder of any section.
 double off_cylinder(const Eigen::Matrix4d& form)
 {
-    const Vec3 values = form.leftCols<3>().jacobiSvd().singularValues();
-    return values(2) / values(0);
+    const Eigen::Matrix<double, 4, 3> gradients = form.leftCols<3>();
+    const Vec3 squares = geometry::symmetric_eigenvalues(gradients.transpose() * gradients);
+    return std::sqrt(std::max(squares(0), 0.0) / squares(2));
 }
 
 /// The forms cos t · a + sin t · b with zero deviation.

@@ -2,6 +2,7 @@
 #include <lacuna/geometry/shared/affine.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/geometry/shared/minimal_frame.h>
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -33,7 +34,7 @@ void complete(Eigen::Matrix3d& image, int rank)
         const double length = image.col(0).norm();
         if (length > 0) {
             const Vec3 along = image.col(0);
-            image = length * Eigen::Quaterniond::FromTwoVectors(Vec3::UnitX(), along).toRotationMatrix();
+            image = length * least_turn(Vec3::UnitX(), along);
         }
     } else if (rank == 2) {
         image.col(2) = pseudo_normal(image.col(0).cross(image.col(1)));
@@ -149,8 +150,7 @@ RigidFit fit_rigid(std::span<const Vec3> from, std::span<const Vec3> to, bool wi
         const Vec3 sign(1, 1, turn.determinant() < 0 ? -1 : 1);
         result.rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
     } else if (strength[0] > 0) {
-        result.rotation =
-            Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0)).toRotationMatrix();
+        result.rotation = least_turn(svd.matrixV().col(0), svd.matrixU().col(0));
     }
     if (with_scale && spread > 0) {
         result.scale = (result.rotation.transpose() * cross).trace() / spread;

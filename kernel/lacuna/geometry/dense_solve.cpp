@@ -38,4 +38,10 @@ Vec3 symmetric_eigenvalues(const Eigen::Matrix3d& matrix)
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix)
+{
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix);
+    return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 } // namespace lacuna::geometry

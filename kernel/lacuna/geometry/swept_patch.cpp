@@ -2,6 +2,7 @@
 #include <lacuna/geometry/shared/swept_patch.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/transfinite.h>
 
@@ -73,9 +74,9 @@ void SweptPatch::carry_frame()
     const auto tangent = [&](int i) {
         return Vec3(left_.tangent(static_cast<double>(i) / kFrames).stableNormalized());
     };
-    carried_.push_back(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), tangent(0)));
+    carried_.emplace_back(least_turn(Vec3::UnitZ(), tangent(0)));
     for (int i = 1; i <= kFrames; ++i) {
-        const auto step = Eigen::Quaterniond::FromTwoVectors(tangent(i - 1), tangent(i));
+        const auto step = Eigen::Quaterniond(least_turn(tangent(i - 1), tangent(i)));
         carried_.push_back((step * carried_.back()).normalized());
     }
     first_ = frame(0);

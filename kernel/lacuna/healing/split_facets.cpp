@@ -9,7 +9,10 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/incidence.h>
 #include <lacuna/core/shared/number_text.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/healing/detail/facet_normals.h>
 #include <lacuna/healing/detail/facet_sides.h>
+#include <lacuna/healing/detail/smooth_noise.h>
 #include <lacuna/healing/detail/soup_facets.h>
 
 #include <algorithm>
@@ -22,81 +25,9 @@
 namespace lacuna::healing {
 namespace {
 
-/// Do two facets, or the quads they belong to, have the same corners?
-bool on_each_other(const Facets& facets, Index f, Index g)
-{
-    const Index p = facets.quad[index(f)];
-    const Index q = facets.quad[index(g)];
-    if ((p < 0) != (q < 0)) return false;
-    const auto same = [](auto a, auto b) {
-        std::sort(a.begin(), a.end());
-        std::sort(b.begin(), b.end());
-        return a == b;
-    };
-    return p < 0 ? same(facets.corner[index(f)], facets.corner[index(g)])
-                 : same(facets.quads[index(p)], facets.quads[index(q)]);
-}
-
-/// The only other side of the same label on the side's segment; -1 if there is none, there are several, or a
-/// facet of another label branches off.
-Index partner(const Facets& facets, const FacetSides& sides, Index side)
-{
-    Index found = -1;
-    const auto here = sides.on(sides.segment(side));
-    for (const Index other : here) {
-        if (other == side || facets.label[index(other) / 3] != facets.label[index(side) / 3]) continue;
-        if (found >= 0) return -1;
-        found = other;
-    }
-    if (found < 0 || here.size() == 2) return found;
-    for (const Index other : here)
-        if (other != side && other != found && !on_each_other(facets, other / 3, side / 3) &&
-            !on_each_other(facets, other / 3, found / 3))
-            return -1;
-    return found;
-}
-
-/// Unit normals. A facet so thin that moving its points by the tolerance could turn it by the feature angle
-/// takes the normal of its neighbour across its longest side.
-std::vector<Vec3> normals_of(const Facets& facets, const FacetSides& sides, double feature,
-                             const RunContext& context)
-{
-    const double least_height = facets.tolerance / std::sin(std::min(feature, std::numbers::pi / 2));
-    std::vector<Vec3> normal(facets.count(), Vec3::Zero());
-    std::vector<Index> longest(facets.count(), -1);
-    std::vector<Index> thin;
-    for (std::size_t f = 0; f < facets.count(); ++f) {
-        double length = 0;
-        for (Index k = 0; k < 3; ++k) {
-            const Index side = 3 * static_cast<Index>(f) + k;
-            const double own =
-                (facets.points[index(sides.to(side))] - facets.points[index(sides.from(side))]).norm();
-            if (own <= length) continue;
-            length = own;
-            longest[f] = side;
-        }
-        const Vec3 area = area_vector(facets.points, facets.corner[f]);
-        if (2 * area.norm() > least_height * length)
-            normal[f] = area.normalized();
-        else
-            thin.push_back(static_cast<Index>(f));
-    }
-    // Thin facets may be adjacent: repeat while some get a normal.
-    for (bool learnt = true; learnt && !thin.empty();) {
-        check_cancelled(context);
-        std::vector<std::pair<Index, Vec3>> found;
-        for (const Index f : thin) {
-            const Index other = partner(facets, sides, longest[index(f)]);
-            if (other < 0 || normal[index(other) / 3].isZero(0)) continue;
-            const bool agree = sides.from(other) != sides.from(longest[index(f)]);
-            found.emplace_back(f, agree ? normal[index(other) / 3] : Vec3(-normal[index(other) / 3]));
-        }
-        for (const auto& [f, n] : found) normal[index(f)] = n;
-        learnt = !found.empty();
-        std::erase_if(thin, [&](Index f) { return !normal[index(f)].isZero(0); });
-    }
-    return normal;
-}
+/// Sides over which the turn of a border of a noisy surface is measured: with noise of 40 % of the sides it is
+/// then off by 9 degrees, a quarter of the feature angle.
+constexpr int kNoisyReach = 8;
 
 struct Flood {
     std::vector<Index> face;   ///< for each facet
@@ -104,9 +35,9 @@ struct Flood {
     Index faces = 0;
 };
 
-Flood flood_faces(const Facets& facets, const FacetSides& sides, double feature, const RunContext& context)
+Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vector<Vec3>& normal,
+                  double feature, const RunContext& context)
 {
-    const std::vector<Vec3> normal = normals_of(facets, sides, feature, context);
     const double least_cosine = std::cos(std::min(feature + kFileAccuracy, std::numbers::pi));
     Flood flood{std::vector<Index>(facets.count(), -1), std::vector<bool>(facets.count(), false), 0};
     std::vector<Index> front;
@@ -149,6 +80,28 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, double feature,
             for (const Index f : front) flood.flipped[index(f)] = !flood.flipped[index(f)];
     }
     return flood;
+}
+
+/// The faces of a noisy surface: facets told apart by normals over patches. What is smaller than a patch is
+/// no face, but part of the one beside it.
+Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature, const RunContext& context)
+{
+    std::vector<Vec3> normal = patch_normals(facets, sides, context);
+    const Flood flood = flood_faces(facets, sides, normal, feature, context);
+    std::vector<std::size_t> size(index(flood.faces), 0);
+    for (const Index face : flood.face) ++size[index(face)];
+    const std::vector<Vec3> before = normal;
+    std::vector<Index> dust;
+    for (Index f = 0; index(f) < facets.count(); ++f) {
+        if (size[index(flood.face[index(f)])] >= kPatch) continue;
+        normal[index(f)].setZero();
+        dust.push_back(f);
+    }
+    if (dust.empty()) return flood;
+    borrow_normals(facets, sides, dust, normal, context);
+    for (const Index f : dust) // parts that are all dust
+        if (normal[index(f)].isZero(0)) normal[index(f)] = before[index(f)];
+    return flood_faces(facets, sides, normal, feature, context);
 }
 
 bool is_plane(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
@@ -201,12 +154,14 @@ void add_faces(topology::ModelBuilder& model, const Facets& facets, const Flood&
 /// Chains the segments between faces into edges.
 class Chains {
 public:
+    /// @param reach  sides over which the turn of a border is measured.
     Chains(topology::ModelBuilder& model, const FacetSides& sides, const Flood& flood, double feature,
-           const RunContext& context)
+           int reach, const RunContext& context)
         : model_(model),
           sides_(sides),
           context_(context),
-          least_cosine_(std::cos(std::min(feature + kFileAccuracy, std::numbers::pi))),
+          feature_(std::min(feature + kFileAccuracy, std::numbers::pi)),
+          reach_(reach),
           kind_(sides.segment_count(), -1),
           done_(sides.segment_count(), false)
     {
@@ -275,14 +230,54 @@ private:
     }
     [[nodiscard]] std::span<const Index> segments_at(Index point) const { return at_.of(index(point)); }
 
+    /// Is the point within a chain of one kind?
+    [[nodiscard]] bool goes_on(Index point) const
+    {
+        const auto here = segments_at(point);
+        return here.size() == 2 && kind_[index(here[0])] == kind_[index(here[1])];
+    }
+
+    /// The points after one along a chain, as far as the reach.
+    [[nodiscard]] std::vector<Index> points_after(Index point, Index segment) const
+    {
+        std::vector<Index> points;
+        for (int k = 0; k < reach_; ++k) {
+            const Index next = other_end(segment, points.empty() ? point : points.back());
+            points.push_back(next);
+            if (!goes_on(next)) break;
+            segment = segments_at(next)[segments_at(next)[0] == segment ? 1 : 0];
+        }
+        return points;
+    }
+
+    /// Turn of a chain at a point within it [radians].
+    [[nodiscard]] double turn_at(Index point) const
+    {
+        const auto here = segments_at(point);
+        const Vec3 into = model_.at(point) - model_.at(points_after(point, here[0]).back());
+        const Vec3 onward = model_.at(points_after(point, here[1]).back()) - model_.at(point);
+        return geometry::angle_between(into, onward);
+    }
+
+    /// Does a chain end here: at another kind of segment, or at a corner? Over a longer reach a corner is
+    /// where the chain turns the most, and by the feature angle more than on one side of it.
     [[nodiscard]] bool ends_chains(Index point) const
     {
         const auto here = segments_at(point);
         if (here.empty()) return false;
-        if (here.size() != 2 || kind_[index(here[0])] != kind_[index(here[1])]) return true;
-        const Vec3 into = model_.at(point) - model_.at(other_end(here[0], point));
-        const Vec3 onward = model_.at(other_end(here[1], point)) - model_.at(point);
-        return into.dot(onward) < least_cosine_ * into.norm() * onward.norm();
+        if (!goes_on(point)) return true;
+        const double turn = turn_at(point);
+        if (!(turn > feature_)) return false;
+        if (reach_ == 1) return true;
+        double least = turn;
+        for (const Index segment : here) {
+            const std::vector<Index> others = points_after(point, segment);
+            for (const Index other : others)
+                if (!goes_on(other) || std::pair(turn_at(other), other) > std::pair(turn, point))
+                    return false;
+            least = std::min(least, turn_at(others.back()));
+        }
+        return turn - least > feature_;
     }
 
     VertexId vertex(Index point)
@@ -336,7 +331,8 @@ private:
     topology::ModelBuilder& model_;
     const FacetSides& sides_;
     const RunContext& context_;
-    double least_cosine_;
+    double feature_;
+    int reach_;
     std::vector<Index> kind_; ///< for each segment; -1 within a face
     std::vector<bool> done_;  ///< segments already chained
     Incidence at_;            ///< edge segments at each point
@@ -362,9 +358,13 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     check_cancelled(context);
     const FacetSides sides(facets.corner, facets.points.size());
     check_cancelled(context);
-    const Flood flood = flood_faces(facets, sides, options.whole_labels ? std::numbers::pi : feature,
-                                    context);
+    const double face_angle = options.whole_labels ? std::numbers::pi : feature;
+    const std::vector<Vec3> normal = own_normals(facets, sides, feature, context);
+    Flood flood = flood_faces(facets, sides, normal, face_angle, context);
+    const bool noisy = !options.whole_labels &&
+                       is_noisy(facets, sides, normal, flood.flipped, feature, context);
     topology::ModelBuilder model;
+    if (noisy) flood = flood_noisy(facets, sides, feature, context);
     model.points = facets.points;
     model.tolerance = facets.tolerance;
     model.diagonal = facets.diagonal;
@@ -379,8 +379,16 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     }
     add_faces(model, facets, flood, soup);
     check_cancelled(context);
-    Chains(model, sides, flood, feature, context).add_edges(flood);
+    Chains(model, sides, flood, feature, noisy ? kNoisyReach : 1, context).add_edges(flood);
     check_cancelled(context);
+    if (noisy && !options.keep_noise) {
+        const NoiseSmoothed moved = smooth_noise(model, context);
+        model.notes.push_back(Message("healing.noisy_facets",
+                                      "the facets are noisy and were smoothed: points moved by {:.3g} in the "
+                                      "mean and {:.3g} at most",
+                                      moved.mean, moved.most)
+                                  .remedy("load with keep_noise = true to leave them where they are"));
+    }
     model.build_loops(context);
     return std::move(model).finish();
 }

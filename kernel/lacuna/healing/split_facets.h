@@ -15,6 +15,7 @@ struct SplitOptions {
     double tolerance = 0;      ///< points closer than this are merged [model length]; 0: 1e-6 × the diagonal
     bool whole_labels =
         false; ///< keep each label one face at any angle; `feature_angle` then only places vertices
+    bool keep_noise = false; ///< leave the points of noisy facets where they are
 };
 
 /// Facets as read from a file.
@@ -34,7 +35,9 @@ struct FacetSoup {
 /// chains between two faces or along a border. Vertices are where three faces meet and where a border turns
 /// by more than the feature angle; a closed chain without a vertex gets one at its first point. Tags count
 /// from 1 by kind of entity, in the order of the facets. T-junctions on free sides are cut first; of facets
-/// listed twice in a label one is kept, with a note.
+/// listed twice in a label one is kept, with a note. Facets of a noisy surface, as of a scan, are told apart
+/// by normals over patches, and then smoothed within faces and along edges, with a note; nodes that are kept
+/// do not move.
 /// @throw InvalidInput  no facets; an edge with three or more facets of one label; a model so large or small
 ///         that the fourth power of its diagonal is no double. Cancelled.
 topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options = {},

@@ -193,12 +193,17 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
         all.soup.label_name.push_back(std::to_string(label));
-    topology::ModelBuilder model(
-        healing::split_facets(all.soup, {options.feature_angle, options.tolerance}, context));
+    topology::ModelBuilder model(healing::split_facets(all.soup,
+                                                       {.feature_angle = options.feature_angle,
+                                                        .tolerance = options.tolerance,
+                                                        .keep_noise = options.keep_noise},
+                                                       context));
     name_faces(model, names, all);
     model.source = source;
     for (const std::string& note : all.notes) model.notes.push_back({"io.file_note", "{}", note});
     model.notes.insert(model.notes.end(), loaded.warnings.begin(), loaded.warnings.end());
+    std::ranges::copy_if(model.notes, std::back_inserter(loaded.warnings),
+                         [](const Message& note) { return note.code() == "healing.noisy_facets"; });
     loaded.model = std::move(model).finish();
     return loaded;
 }

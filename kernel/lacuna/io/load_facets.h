@@ -61,6 +61,7 @@ struct LoadOptions {
     double tolerance = 0;      ///< gaps below it are sewn [model length]; 0: 1e-6 × the diagonal
     double feature_angle = 40; ///< angle above which facets are split into faces [degrees]
     bool keep_mesh = true;     ///< quads of FE formats are kept
+    bool keep_noise = false;   ///< points of noisy facets stay where they are
     double scale = 1;          ///< factor on every coordinate, > 0 [-]
     /// Parts of the meshes to leave out, as in `leave_out()`; each must be in at least one file.
     std::vector<std::string> without{};

@@ -24,4 +24,11 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::Vector
 /// Eigenvalues of a symmetric matrix, ascending.
 Vec3 symmetric_eigenvalues(const Eigen::Matrix3d& matrix);
 
+/// Eigenvalues of a symmetric matrix, ascending, and their unit vectors, a column each.
+struct SymmetricEigen {
+    Eigen::VectorXd values;
+    Eigen::MatrixXd vectors;
+};
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
+
 } // namespace lacuna::geometry

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/model.h>
+
+namespace lacuna::healing {
+
+/// How far points were moved [model length].
+struct NoiseSmoothed {
+    double most = 0, mean = 0;
+};
+
+/// Smooth the noise of facets within faces and along edges, whose corners stay, without shrinking them
+/// @cite taubin_1995_signal: each pass moves the points towards the mean of their neighbours, and then back
+/// by a little more. Nodes that are kept do not move. Linear in the facets.
+/// @throw InvalidInput  cancelled.
+NoiseSmoothed smooth_noise(topology::ModelBuilder& model, const RunContext& context);
+
+} // namespace lacuna::healing

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/healing/detail/smooth_noise.h>
+
+#include <lacuna/core/shared/incidence.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace lacuna::healing {
+namespace {
+
+/// Taubin's passes: the pass band below which shapes stay as they are, his value, and as many passes as take
+/// noise of 20 % of the sides to 6 % and leave the radius of a tube of 40 sides within 1e-3 of itself.
+constexpr double kStep = 0.5, kPassBand = 0.1;
+constexpr int kPasses = 30;
+
+/// Points that move, each with those that it moves towards the mean of: in a face all around it, on an edge
+/// the two along it. Corners, and points whose nodes are kept, do not move.
+Incidence movers(const topology::ModelBuilder& model)
+{
+    enum : char { in_face, on_edge, fixed };
+    std::vector<char> place(model.points.size(), in_face);
+    for (const topology::Edge& edge : model.edges)
+        for (const Index p : edge.points) place[index(p)] = on_edge;
+    std::vector<int> ends(model.vertices.size(), 0);
+    for (const topology::Edge& edge : model.edges)
+        for (const VertexId end : {edge.from, edge.to}) ++ends[end.index()];
+    const auto is_closed = [&](const topology::Edge& edge) { // its vertex is only where it starts
+        return edge.from == edge.to && ends[edge.from.index()] == 2;
+    };
+    for (const topology::Edge& edge : model.edges)
+        if (!is_closed(edge)) place[index(edge.points.front())] = place[index(edge.points.back())] = fixed;
+    for (const topology::Face& face : model.faces)
+        if (face.keeps_nodes)
+            for (const Triangle& t : face.triangles)
+                for (const Index p : t) place[index(p)] = fixed;
+    return incidence(model.points.size(), [&](const auto& visit) {
+        for (const topology::Face& face : model.faces)
+            for (const Triangle& t : face.triangles)
+                for (std::size_t k = 0; k < 3; ++k)
+                    for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) // each neighbour comes twice
+                        if (place[index(t[k])] == in_face) visit(index(t[k]), t[other]);
+        for (const topology::Edge& edge : model.edges) {
+            const std::size_t last = edge.points.size() - 1;
+            for (std::size_t k = is_closed(edge) ? 0 : 1; k < last; ++k)
+                for (const std::size_t other : {k > 0 ? k - 1 : last - 1, k + 1})
+                    if (place[index(edge.points[k])] == on_edge)
+                        visit(index(edge.points[k]), edge.points[other]);
+        }
+    });
+}
+
+} // namespace
+
+NoiseSmoothed smooth_noise(topology::ModelBuilder& model, const RunContext& context)
+{
+    const Incidence towards = movers(model);
+    const std::vector<Vec3> given = model.points;
+    std::vector<Vec3> before;
+    for (int pass = 0; pass < 2 * kPasses; ++pass) {
+        check_cancelled(context);
+        const double step = pass % 2 == 0 ? kStep : 1 / (kPassBand - 1 / kStep);
+        before = model.points;
+        for (std::size_t p = 0; p < before.size(); ++p) {
+            const auto others = towards.of(p);
+            if (others.empty()) continue;
+            Vec3 sum = Vec3::Zero();
+            for (const Index other : others) sum += before[index(other)];
+            model.points[p] += step * (sum / static_cast<double>(others.size()) - before[p]);
+        }
+    }
+    NoiseSmoothed moved;
+    std::size_t count = 0;
+    for (std::size_t p = 0; p < given.size(); ++p) {
+        if (towards.of(p).empty()) continue;
+        const double way = (model.points[p] - given[p]).norm();
+        moved.most = std::max(moved.most, way);
+        moved.mean += way;
+        ++count;
+    }
+    moved.mean /= static_cast<double>(std::max<std::size_t>(count, 1));
+    return moved;
+}
+
+} // namespace lacuna::healing
