@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Noisy scans: tubes, bones, bent tubes and square ducts of 14,400 facets, open at both ends, with noise of 5 to
--- 40 % of the sides. Each is read, sealed and swept without naming anything, and encloses what the clean
+-- Noisy scans: tubes, bones, bent tubes and square ducts of 14,400 facets, open at both ends, with noise of
+-- 5 to 40 % of the sides. Each is read, sealed and swept without naming anything, and encloses what the clean
 -- surface does.
 -- usage: lacuna scans.lua lacuna=PROGRAM scratch=FOLDER
 local lacuna = require "lacuna"
@@ -12,7 +12,9 @@ local radius, half = around / (2 * math.pi), around / 8
 
 --- Places on the surfaces; sides of facets are about 1 long.
 local shapes = {
-  tube = function(u, v) return radius * math.cos(2 * math.pi * u), radius * math.sin(2 * math.pi * u), v * up end,
+  tube = function(u, v)
+    return radius * math.cos(2 * math.pi * u), radius * math.sin(2 * math.pi * u), v * up
+  end,
   bone = function(u, v)
     local r = radius * (0.75 + 0.25 * math.cos(2 * math.pi * v))
     return 1.2 * r * math.cos(2 * math.pi * u), 0.85 * r * math.sin(2 * math.pi * u), v * up
