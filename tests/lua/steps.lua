@@ -86,6 +86,9 @@ holds("a drum stands in a can without floor", { can[2], can[3], top, standing },
   { source = "top", target = "lid", walls = { "side", "skin" } }, 2, circle(2) * 5 - circle(1) * 3)
 holds("a drum stands in a can without lid", { { "floor", { 1, 0 }, { 2, 0 } }, can[2], top, standing },
   { source = { "top", "floor" }, walls = { "side", "skin" } }, 2, circle(2) * 5 - circle(1) * 3)
+holds("a drum floats in a can without lid", { can[1], can[2], top, skin, bottom },
+  { source = { "floor", "top" }, target = "bottom", walls = { "side", "skin" } }, 3,
+  circle(2) * 5 - circle(1))
 holds("a flange, whose rims lie above each other",
   { { "b", { 0, 0 }, { 1, 0 } }, { "w1", { 1, 0 }, { 1, 2 } }, { "f1", { 1, 2 }, { 2, 2 } },
     { "w2", { 2, 2 }, { 2, 3 } }, { "f2", { 2, 3 }, { 1, 3 } }, { "w3", { 1, 3 }, { 1, 5 } },

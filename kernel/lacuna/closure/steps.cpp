@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/round_rims.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
@@ -10,6 +11,8 @@
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -18,8 +21,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -29,8 +34,10 @@ using namespace topology;
 
 namespace {
 
-/// An end turns into the walls at a step by more than half of a right angle [degrees].
-constexpr double kStep = 45;
+/// An end turns into the walls at a step by more than half of a right angle, or smoothly into walls that lead
+/// away from the opposite end at more than this angle to the level: those of a round that was divided do so at
+/// half of a right angle, up to its facets [degrees].
+constexpr double kStep = 45, kLeadsAway = 30;
 
 /// Each cut reduces the number of steps; more rounds than this indicate an error.
 constexpr int kRounds = 64;
@@ -48,6 +55,28 @@ struct Steps {
     std::vector<FaceId> risers;             ///< walls at steps that end at other walls
 };
 
+/// Does a wall lead away from the opposite end at an edge?
+/// @param out  away from the opposite end.
+bool leads_away(const OpenVolume& volume, EdgeId edge, const Vec3& out)
+{
+    const Model& model = volume.model;
+    const std::vector<Index>& line = model[edge].points;
+    const std::set<Index> on(line.begin(), line.end());
+    Vec3 way = Vec3::Zero();
+    for (const FaceUse& user : model.uses_of_edge(edge)) {
+        if (volume.role[user.face.index()] != Role::wall) continue;
+        for (const Triangle& t : model[user.face].triangles) {
+            const auto corner = std::ranges::find_if(t, [&](Index p) { return !on.contains(p); });
+            if (std::ranges::count_if(t, [&](Index p) { return on.contains(p); }) != 2) continue;
+            const std::size_t k = static_cast<std::size_t>(corner - t.begin());
+            const Vec3 side = model.at(t[(k + 2) % 3]) - model.at(t[(k + 1) % 3]);
+            const Vec3 up = model.at(*corner) - model.at(t[(k + 1) % 3]);
+            way += (up - up.dot(side) / side.squaredNorm() * side).stableNormalized();
+        }
+    }
+    return way.stableNormalized().dot(out) > std::sin(kLeadsAway * std::numbers::pi / 180);
+}
+
 Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& turns)
 {
     const Model& model = volume.model;
@@ -56,11 +85,13 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
     if (faces.empty()) return steps;
     steps.parts = connected_parts(model, faces);
     for (std::size_t p = 0; p < steps.parts.size(); ++p) {
+        const Vec3 out = area_vector_of(model, steps.parts[p]).stableNormalized();
         for (Rim& rim : topology::rims(model, steps.parts[p])) {
             std::size_t away = 0, onward = 0;
             std::vector<FaceId> risers;
             for (const EdgeUse& use : rim.uses) {
-                if (turns[use.edge.index()] < kStep) {
+                const double turn = turns[use.edge.index()];
+                if (turn < kStep && !(turn > -kStep && leads_away(volume, use.edge, out))) {
                     if (model.uses_of_edge(use.edge).size() > 1) ++onward;
                     continue;
                 }
@@ -130,10 +161,15 @@ private:
         FaceId face;
         Vec2 uv = Vec2::Zero();
     };
-    /// The point where the line through a point along the sweep meets the opposite end.
-    std::optional<Hit> above(const Vec3& p)
+    /// The point where the line through a point along the sweep meets the opposite end first, or a face of it.
+    std::optional<Hit> above(const Vec3& p, FaceId only = {})
     {
-        const auto hit = opposite_tree().first_along(p, across_.normal);
+        geometry::FacetTree::RayHit hit;
+        opposite_tree().all_along(p, across_.normal, [&](const geometry::FacetTree::RayHit& other) {
+            if ((!only.valid() || facet_[index(other.triangle)].first == only) && other.t < hit.t)
+                hit = other;
+            return true;
+        });
         if (hit.triangle < 0) return std::nullopt;
         const auto& [face, t] = facet_[index(hit.triangle)];
         Hit found{Vec3::Zero(), face};
@@ -277,7 +313,8 @@ private:
             face.keeps_nodes = false;
             const auto first_made = static_cast<Index>(builder_.points.size());
             VoidFilling filling = filling_of(builder_, outline, made, [&](std::size_t p) {
-                const std::optional<Hit> hit = above(geometry::from_plane(across_, made.points[p], lowest()));
+                const std::optional<Hit> hit = above(geometry::from_plane(across_, made.points[p], lowest()),
+                                                     id);
                 if (!hit)
                     throw NotSweepable(Message("closure.steps",
                                                "{} folds back along the sweep direction and cannot be cut",
@@ -425,6 +462,26 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
     return levels;
 }
 
+/// Close a flat brim of walls across the sweep if nothing else is missing, such as that of a box round a floating
+/// board: what stands beside the board would have nothing to reach up to.
+void close_brim(OpenVolume& volume, const RunContext& context)
+{
+    const std::vector<Rim> open = free_loops(volume);
+    if (open.size() != 1 || volume.faces(Role::source).empty() || volume.faces(Role::target).empty()) return;
+    const auto is_wall = [&](const FaceUse& use) { return volume.role[use.face.index()] == Role::wall; };
+    for (const EdgeUse& use : open.front().uses)
+        if (!std::ranges::all_of(volume.model.uses_of_edge(use.edge), is_wall)) return;
+    const Vec3 way = sweep_way(volume);
+    const std::vector<Vec3> places = places_at(volume.model, loop_points(volume.model, open.front().uses));
+    const auto [low, high] = std::ranges::minmax(places, {}, [&](const Vec3& p) { return p.dot(way); });
+    const double width = std::sqrt(geometry::newell_vector(places).norm());
+    if (!((high - low).dot(way) <= kParallel * width)) return;
+    const bool is_ahead = (low - centroid_of(volume.model, all_faces(volume.model))).dot(way) > 0;
+    add_void_face(volume, fill(volume, {reversed(open.front())}, nullptr, {"the brim"}, context),
+                  is_ahead ? Role::target : Role::source);
+    volume.model = with_loops(std::move(volume.model));
+}
+
 /// Extrude void faces from closed rims, one end after the other, until no piece has such a rim.
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round)
 {
@@ -494,8 +551,10 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
 {
     OpenVolume volume = whole;
     face_away(volume, context);
+    if (!has_steps(volume, context)) return {{whole, 0}};
+    close_brim(volume, context);
+    split_round_rims(volume, context);
     const std::array<Steps, 2> steps = steps_of(volume, context);
-    if (!is_stepped(steps[0]) && !is_stepped(steps[1])) return {{whole, 0}};
     std::vector<FaceId> risers = steps[0].risers;
     risers.insert(risers.end(), steps[1].risers.begin(), steps[1].risers.end());
     std::vector<StepPiece> result;

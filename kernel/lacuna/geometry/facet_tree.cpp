@@ -74,22 +74,20 @@ bool meets(const Box& box, const Vec3& origin, const Vec3& inverse, double t_max
     return enter <= leave * (1 + slack) + std::numeric_limits<double>::min();
 }
 
-/// Intersection of a ray with a triangle (Möller and Trumbore 1997).
+/// Intersection of a ray with a triangle, by the volumes that the ray spans with its sides. A side that two
+/// triangles share has the same volume in both, up to the sign, so that no ray passes between them
+/// @cite woop_2013_watertight.
 FacetTree::RayHit ray_triangle(const Corners& c, const Vec3& origin, const Vec3& direction)
 {
-    const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0];
-    const Vec3 p = direction.cross(e2);
-    const double determinant = e1.dot(p);
-    if (determinant == 0) return {};
-    const Vec3 from = origin - c[0];
-    const Vec3 q = from.cross(e1);
-    const double u = from.dot(p) / determinant, v = direction.dot(q) / determinant;
-    const double t = e2.dot(q) / determinant;
-    if (!(u >= 0 && v >= 0 && u + v <= 1 && t >= 0)) return {};
+    const Vec3 a = c[0] - origin, b = c[1] - origin, d = c[2] - origin;
+    const Vec3 sides(direction.dot(d.cross(b)), direction.dot(a.cross(d)), direction.dot(b.cross(a)));
+    const double determinant = sides.sum();
+    if (!((sides.array() >= 0).all() || (sides.array() <= 0).all()) || determinant == 0) return {};
     FacetTree::RayHit hit;
-    hit.t = t;
-    hit.barycentric = {1 - u - v, u, v};
-    return hit;
+    hit.barycentric = sides / determinant;
+    const Vec3 place = hit.barycentric[0] * a + hit.barycentric[1] * b + hit.barycentric[2] * d;
+    hit.t = place.dot(direction) / direction.squaredNorm();
+    return hit.t >= 0 ? hit : FacetTree::RayHit{};
 }
 
 /// Partition the triangles by their centres at the median along the longest side of the bounding box.

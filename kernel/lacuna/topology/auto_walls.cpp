@@ -232,13 +232,15 @@ std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>
     return found;
 }
 
-/// The walls of an end in a cavity; empty if an end on the same skin lies outside the cavity, because the
-/// solid itself is then the volume.
+/// The walls of an end in a cavity; empty if a face of the end, or another end on the same skin, lies outside
+/// the cavity, because the solid itself is then the volume.
 std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<FaceId>& source,
                                           const std::vector<FaceId>& target, const RunContext& context)
 {
     const std::vector<FaceId>& end = source.empty() ? target : source;
     WallChoice result{cavity_round(model, end, context), {}, {}, true, {}};
+    for (const FaceId face : end)
+        if (!std::ranges::binary_search(result.walls, face)) return std::nullopt;
     const std::vector<FaceId> skin = reachable_from(model, result.walls, {}); // with faces outside the cavity
     for (const std::vector<FaceId>* list : {&source, &target}) {
         for (const FaceId face : *list) {

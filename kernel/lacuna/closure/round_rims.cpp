@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/round_rims.h>
+
+#include <lacuna/closure/detail/pieces.h>
+#include <lacuna/closure/detail/turns.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/newell.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/section.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Cosine between a facet's normal and the end's outward direction where a round is as steep as flat.
+constexpr double kHalfway = std::numbers::sqrt2 / 2;
+
+/// A facet seen along the end's outward direction.
+struct Slope {
+    double cosine = 0; ///< 1 where it is parallel to the end, 0 where it is upright
+    double height = 0; ///< of its centre along the outward direction [model length]
+};
+
+Slope slope_of(const Model& model, const Triangle& t, const Vec3& out)
+{
+    const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+    return {(b - a).cross(c - a).stableNormalized().dot(out), (a + b + c).dot(out) / 3};
+}
+
+/// Finds and divides the rounds at the rim of one part of an end.
+class RoundRims {
+public:
+    RoundRims(OpenVolume& volume, const std::vector<FaceId>& part, const std::vector<double>& turns,
+              const RunContext& context)
+        : volume_(volume),
+          part_(part),
+          turns_(turns),
+          context_(context),
+          end_(volume.role[part.front().index()]),
+          out_(area_vector_of(volume.model, part).stableNormalized())
+    {
+    }
+
+    /// @return  whether a round was divided
+    bool run()
+    {
+        bool divided = false;
+        for (const std::vector<FaceId>& rounds : rounds_at_rim()) divided = divide(rounds) || divided;
+        return divided;
+    }
+
+private:
+    bool divide(const std::vector<FaceId>& rounds)
+    {
+        const std::optional<double> height = halfway_height(rounds);
+        if (!height) return false;
+        const geometry::Plane plane = geometry::plane_across(*height * out_, out_);
+        const std::vector<SectionWalk> walks = section_walks(volume_.model, rounds, plane,
+                                                             volume_.model.tolerance);
+        if (walks.empty() || !std::ranges::all_of(walks, &SectionWalk::closed)) return false;
+        const WalkImprint made = imprint(volume_, walks, plane, context_);
+        const std::set<FaceId> divided(rounds.begin(), rounds.end());
+        for (std::size_t f = 0; f < made.parent.size(); ++f)
+            if (divided.contains(made.parent[f]))
+                volume_.role[f] = mean_height(FaceId(f)) < *height ? end_ : Role::wall;
+        return true;
+    }
+
+    /// Connected sets of rounds in this part of the end, or that it turns into smoothly.
+    std::vector<std::vector<FaceId>> rounds_at_rim() const
+    {
+        const std::set<FaceId> own(part_.begin(), part_.end());
+        const auto neighbours = [&](FaceId face, double largest_turn) {
+            std::vector<FaceId> found;
+            for (const EdgeUse& use : uses_of(volume_.model[face]))
+                if (std::abs(turns_[use.edge.index()]) <= largest_turn)
+                    for (const FaceUse& user : volume_.model.uses_of_edge(use.edge))
+                        if ((own.contains(user.face) || volume_.role[user.face.index()] == Role::wall) &&
+                            is_round(user.face))
+                            found.push_back(user.face);
+            return found;
+        };
+        std::vector<std::vector<FaceId>> sets;
+        std::set<FaceId> seen;
+        for (const FaceId face : part_) {
+            std::vector<FaceId> seeds = neighbours(face, kCreaseAngle);
+            if (is_round(face)) seeds.push_back(face);
+            for (const FaceId seed : seeds) {
+                if (!seen.insert(seed).second) continue;
+                std::vector<FaceId> set{seed};
+                for (std::size_t i = 0; i < set.size(); ++i)
+                    for (const FaceId next : neighbours(set[i], 180)) // rounds may meet at a mitre
+                        if (seen.insert(next).second) set.push_back(next);
+                sets.push_back(std::move(set));
+            }
+        }
+        return sets;
+    }
+
+    /// Is a face partly flatter and partly steeper than halfway?
+    [[nodiscard]] bool is_round(FaceId face) const
+    {
+        double least = 1, most = -1;
+        for (const Triangle& t : volume_.model[face].triangles) {
+            const double cosine = slope_of(volume_.model, t, out_).cosine;
+            least = std::min(least, cosine);
+            most = std::max(most, cosine);
+        }
+        return least < kHalfway && most > kHalfway && volume_.model[face].given_quads.empty();
+    }
+
+    [[nodiscard]] double mean_height(FaceId face) const
+    {
+        double sum = 0, area = 0;
+        for (const Triangle& t : volume_.model[face].triangles) {
+            const double own = (volume_.model.at(t[1]) - volume_.model.at(t[0]))
+                                   .cross(volume_.model.at(t[2]) - volume_.model.at(t[0]))
+                                   .norm();
+            sum += own * slope_of(volume_.model, t, out_).height;
+            area += own;
+        }
+        return sum / area;
+    }
+
+    /// The height that parts flat facets from steep ones, with the fewest on the wrong side.
+    [[nodiscard]] std::optional<double> halfway_height(const std::vector<FaceId>& rounds) const
+    {
+        std::vector<Slope> all;
+        for (const FaceId face : rounds)
+            for (const Triangle& t : volume_.model[face].triangles)
+                all.push_back(slope_of(volume_.model, t, out_));
+        std::ranges::sort(all, {}, &Slope::height);
+        std::ptrdiff_t wrong = std::ranges::count_if(all, [](const Slope& s) { return s.cosine > kHalfway; });
+        std::ptrdiff_t least = wrong;
+        std::optional<double> height;
+        for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+            wrong += all[i].cosine > kHalfway ? -1 : 1;
+            if (wrong >= least || !(all[i + 1].height > all[i].height)) continue;
+            least = wrong;
+            height = (all[i].height + all[i + 1].height) / 2;
+        }
+        return height;
+    }
+
+    OpenVolume& volume_;
+    const std::vector<FaceId>& part_;
+    const std::vector<double>& turns_;
+    const RunContext& context_;
+    Role end_;
+    Vec3 out_; ///< away from the opposite end
+};
+
+} // namespace
+
+void split_round_rims(OpenVolume& volume, const RunContext& context)
+{
+    std::vector<double> turns = concave_turns(volume, context);
+    for (const Role end : {Role::source, Role::target})
+        for (const std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(end)))
+            if (RoundRims(volume, part, turns, context).run()) turns = concave_turns(volume, context);
+}
+
+} // namespace lacuna::closure
