@@ -94,8 +94,7 @@ std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const E
     const geometry::SymmetricEigen fit = geometry::symmetric_eigen(sum);
     const auto count = static_cast<Eigen::Index>(points.size());
     Eigen::Index forms = 0;
-    while (forms < 10 && fit.values(forms) <= kOnQuadric * kOnQuadric * static_cast<double>(count))
-        ++forms;
+    while (forms < 10 && fit.values(forms) <= kOnQuadric * kOnQuadric * static_cast<double>(count)) ++forms;
     if (forms > 2 || forms * (count - 10 + forms) < kSpare) return {};
     Eigen::Matrix4d back = Eigen::Matrix4d::Identity();
     back.topLeftCorner<3, 3>() = frame.unit * frame.stretch;
