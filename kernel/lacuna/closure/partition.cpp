@@ -8,10 +8,13 @@
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/piece_ends.h>
+#include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/topology/shared/face_plane.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <iterator>
 #include <tuple>
 #include <utility>
@@ -134,6 +137,56 @@ std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const Can
     return std::move(best->parts);
 }
 
+/// Directions in which a volume has flat faces to either side, those with the most area first.
+std::vector<Vec3> axes_of(const OpenVolume& volume)
+{
+    struct Axis {
+        Vec3 way;
+        double ahead = 0, behind = 0; ///< area of flat faces [model length²]
+    };
+    std::vector<Axis> axes;
+    for (const FaceId face : all_faces(volume.model)) {
+        if (!plane_of(volume.model, face)) continue;
+        const Vec3 area = face_area_vector(volume.model, face);
+        const Vec3 way = area.stableNormalized();
+        const auto known = std::ranges::find_if(
+            axes, [&](const Axis& axis) { return std::abs(axis.way.dot(way)) > 1 - kFlatShare; });
+        Axis& axis = known != axes.end() ? *known : axes.emplace_back(way);
+        (axis.way.dot(way) > 0 ? axis.ahead : axis.behind) += area.norm();
+    }
+    std::erase_if(axes, [](const Axis& axis) { return !(axis.ahead > 0 && axis.behind > 0); });
+    std::ranges::stable_sort(axes, std::greater{}, [](const Axis& axis) { return axis.ahead + axis.behind; });
+    std::vector<Vec3> ways;
+    for (const Axis& axis : axes) ways.push_back(axis.way);
+    return ways;
+}
+
+/// Cut a volume at the steps between all its faces that face one way and all that face the other, as foam
+/// around a product, which may be tilted; empty if no axis gives pieces that can be swept.
+std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
+                                    const RunContext& context)
+{
+    OpenVolume away = volume;
+    face_away(away, context);
+    std::vector<Vec3> axes = axes_of(away);
+    if (axes.size() > kMostRead) axes.resize(kMostRead);
+    for (const Vec3& axis : axes) {
+        check_cancelled(context);
+        for (const FaceId face : all_faces(away.model)) {
+            const double along = face_area_vector(away.model, face).dot(axis);
+            const bool is_end = std::abs(along) >
+                                std::cos(kCreaseAngle * kDegree) * face_area(away.model, face);
+            away.role[face.index()] = !is_end ? Role::wall : along > 0 ? Role::target : Role::source;
+        }
+        auto pieces = unless_refused([&] { return cut_steps(away, context); });
+        const auto suits = [&](const StepPiece& piece) {
+            return has_ends(piece.volume) && can_sweep(piece.volume);
+        };
+        if (pieces && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
+    }
+    return {};
+}
+
 /// Divide a volume at its middle; empty if that is not possible, or makes more than `most` pieces.
 std::vector<StepPiece> divided_at_middle(const OpenVolume& volume, std::size_t most,
                                          const CanSweep& can_sweep, const RunContext& context)
@@ -177,8 +230,10 @@ std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_s
         std::ranges::move(made, std::back_inserter(parts));
     }
     std::vector<StepPiece> pieces;
-    if (!std::ranges::all_of(parts, &CutPart::has_ends))
-        pieces = divided_at_middle(volume, kMostPieces, can_sweep, context);
+    if (!std::ranges::all_of(parts, &CutPart::has_ends)) {
+        pieces = cut_in_steps(volume, can_sweep, context);
+        if (pieces.empty()) pieces = divided_at_middle(volume, kMostPieces, can_sweep, context);
+    }
     if (!pieces.empty()) return pieces;
     for (CutPart& part : parts) {
         std::vector<StepPiece> blocks;
