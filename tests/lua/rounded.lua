@@ -135,6 +135,12 @@ for _, share in ipairs { 0.1, 0.2, 0.4 } do
   end
 end
 
+-- With nothing named the axis is found, also where the product is tilted and hovers.
+local tilted, space = room(20, 25, 5, 12, 7)
+local pieces = tilted:open_volume()
+check.equal(#pieces:cut { auto = true }, 3)
+check.near(pieces:sweep { size = 5 }:quality().volume / space, 1, 0.01)
+
 -- Named with the round, the end keeps its flat half alone: the other half is a wall.
 local model, volume = room(20, 25, 6, 0, 0)
 local void = model:open_volume { source = { "floor", "top", "round_top" }, target = "lid", walls = "auto" }
