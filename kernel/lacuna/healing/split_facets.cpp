@@ -104,6 +104,18 @@ Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature,
     return flood_faces(facets, sides, normal, feature, context);
 }
 
+Message note_on(const NoiseSmoothed& moved)
+{
+    if (moved.most == 0)
+        return {"healing.noisy_facets",
+                "the facets are noisy, so faces are told apart by normals over patches"};
+    return Message("healing.noisy_facets",
+                   "the facets are noisy and were smoothed: points moved by {:.3g} in the mean and {:.3g} at "
+                   "most",
+                   moved.mean, moved.most)
+        .remedy("load with keep_noise = true to leave them where they are");
+}
+
 bool is_plane(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, double tolerance)
 {
     Vec3 normal = Vec3::Zero();
@@ -381,14 +393,8 @@ topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options,
     check_cancelled(context);
     Chains(model, sides, flood, feature, noisy ? kNoisyReach : 1, context).add_edges(flood);
     check_cancelled(context);
-    if (noisy && !options.keep_noise) {
-        const NoiseSmoothed moved = smooth_noise(model, context);
-        model.notes.push_back(Message("healing.noisy_facets",
-                                      "the facets are noisy and were smoothed: points moved by {:.3g} in the "
-                                      "mean and {:.3g} at most",
-                                      moved.mean, moved.most)
-                                  .remedy("load with keep_noise = true to leave them where they are"));
-    }
+    if (noisy)
+        model.notes.push_back(note_on(options.keep_noise ? NoiseSmoothed{} : smooth_noise(model, context)));
     model.build_loops(context);
     return std::move(model).finish();
 }
