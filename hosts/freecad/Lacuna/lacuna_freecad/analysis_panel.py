@@ -16,11 +16,12 @@ class AnalysisPanel:
     def __init__(self, void):
         self.void = void
         self.form = QtGui.QWidget()
-        self.form.setWindowTitle(f"Analyse {void.Label}")
+        self.form.setWindowTitle("Analyse the filled void")
         self.form.setWindowIcon(QtGui.QIcon(views.icon("analyse")))
         rows = QtGui.QVBoxLayout(self.form)
         names = list(analysis.groups_of_faces(void))
         self.table = QtGui.QTableWidget(len(names), 3)
+        self.table.setObjectName("lacuna_groups")
         self.table.setToolTip("Groups of the mesh: a group that is held does not move, one that is pressed is "
                               "under the pressure below")
         self.table.setHorizontalHeaderLabels(["group", "held", "pressed"])
@@ -29,16 +30,18 @@ class AnalysisPanel:
             self.table.setItem(row, 0, QtGui.QTableWidgetItem(name))
             for column in kHeld, kPressed:
                 box = QtGui.QTableWidgetItem()
-                box.setFlags(QtCore.Qt.ItemIsUserCheckable | QtCore.Qt.ItemIsEnabled)
+                box.setFlags(QtCore.Qt.ItemIsEnabled)  # a click anywhere in the cell: _toggle()
                 box.setCheckState(QtCore.Qt.Unchecked)
                 self.table.setItem(row, column, box)
+        self.table.cellClicked.connect(self._toggle)
+        self.table.resizeColumnsToContents()
         rows.addWidget(self.table, 1)
         options = QtGui.QFormLayout()
         self.pressure = self._number(1.0, "Pressure on the pressed groups, against the surface")
-        self.youngs_modulus = self._number(2800.0, "Of the filling; 2800 MPa is an epoxy resin")
+        self.youngs_modulus = self._number(2800.0, "Young's modulus of the filling; 2800 MPa is an epoxy resin")
         self.poissons_ratio = self._number(0.38, "Of the filling; 0.38 is an epoxy resin")
         options.addRow("Pressure [MPa]", self.pressure)
-        options.addRow("Young's modulus [MPa]", self.youngs_modulus)
+        options.addRow("Modulus [MPa]", self.youngs_modulus)
         options.addRow("Poisson's ratio", self.poissons_ratio)
         rows.addLayout(options)
         self.message = QtGui.QLabel()
@@ -51,8 +54,15 @@ class AnalysisPanel:
         box.setRange(-1e9, 1e9)
         box.setDecimals(3)
         box.setValue(value)
+        box.setMinimumWidth(60)
         box.setToolTip(tip)
         return box
+
+    def _toggle(self, row, column):
+        box = self.table.item(row, column)
+        if column != 0:
+            checked = box.checkState() == QtCore.Qt.Checked
+            box.setCheckState(QtCore.Qt.Unchecked if checked else QtCore.Qt.Checked)
 
     def _checked(self, column):
         return [self.table.item(row, 0).text() for row in range(self.table.rowCount())
@@ -77,7 +87,7 @@ class AnalysisPanel:
         Gui.Control.closeDialog()
         Gui.doCommand("results = analysis.solve(made)")
         document.commitTransaction()
-        analysis.show_results(document)
+        QtCore.QTimer.singleShot(0, lambda: analysis.show_results(document))  # once this panel is gone
         return True
 
     def reject(self):

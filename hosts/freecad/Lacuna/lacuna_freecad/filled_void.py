@@ -49,13 +49,13 @@ def make(part, faces=(), document=None):
     """A filled void of a part, not computed yet; `faces` are names such as "Face3" of those that bound it."""
     document = document or part.Document
     void = document.addObject("Fem::FemMeshObjectPython", "FilledVoid")
-    void.Label = f"Filled void of {part.Label}"
+    void.Label = "Filled void"
     FilledVoid(void)
     void.Part = part
     if faces:
         void.Faces = (part, list(faces))
     solid = document.addObject("Part::FeaturePython", "SealedSolid")
-    solid.Label = f"Sealed solid of {void.Label}"
+    solid.Label = "Sealed solid"
     SealedSolid(solid)
     solid.FilledVoid = void
     if FreeCAD.GuiUp:

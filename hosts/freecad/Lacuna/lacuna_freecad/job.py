@@ -28,6 +28,15 @@ class Failed(Exception):
         self.attempts = list(attempts)
 
 
+def python():
+    """The Python that has the package `lacuna`: that which the environment or the script `install` names."""
+    named = os.path.join(os.path.dirname(os.path.dirname(WORKER)), "python")
+    if "LACUNA_PYTHON" in os.environ or not os.path.exists(named):
+        return os.environ.get("LACUNA_PYTHON", "/usr/bin/python3")
+    with open(named) as file:
+        return file.read().strip()
+
+
 class Job:
     """`request` is data for worker.py, `shape` the part; `document` is that whose end stops the job."""
 
@@ -38,9 +47,8 @@ class Job:
         shape.exportBrep(self.path("part.brep"))
         with open(self.path("request.json"), "w") as file:
             json.dump(request, file)
-        python = os.environ.get("LACUNA_PYTHON") or shutil.which("python3", path="/usr/bin") or "python3"
         with open(self.path("messages"), "w") as messages:
-            self._process = subprocess.Popen([python, WORKER, self.folder], stdin=subprocess.PIPE,
+            self._process = subprocess.Popen([python(), WORKER, self.folder], stdin=subprocess.PIPE,
                                              stdout=subprocess.PIPE, stderr=messages, text=True)
         self._reader = threading.Thread(target=self._read_progress, daemon=True)
         self._reader.start()

@@ -14,6 +14,7 @@ from . import job as jobs
 
 kPollMilliseconds = 100  # how often the panel asks a job how far it is: a choice
 OPTIONS = [option for option in filled_void.OPTIONS if option[0] not in ("Part", *convert.ROLES)]
+FIRST = "Size", "Layers", "Order", "Fallback"  # options that are always shown
 
 
 def edit(void, transaction):
@@ -50,7 +51,8 @@ class Panel:
 
     def _make_form(self):
         self.form = QtGui.QWidget()
-        self.form.setWindowTitle(f"Fill a void of {self.void.Part.Label}")
+        self.form.setObjectName("lacuna_panel")
+        self.form.setWindowTitle("Fill a void")
         self.form.setWindowIcon(QtGui.QIcon(views.icon("filled_void")))
         rows = QtGui.QVBoxLayout(self.form)
 
@@ -58,6 +60,7 @@ class Panel:
         self.find_button = self._button("Find", "Find the voids of the part, or the roles of the faces below",
                                         self.find)
         self.voids = QtGui.QComboBox()
+        self.voids.setMinimumWidth(60)
         self.voids.setToolTip("The voids that were found; the faces of the chosen one are taken")
         self.voids.activated.connect(self._take_void)
         find.addWidget(self.find_button)
@@ -69,6 +72,8 @@ class Panel:
         meanings = {option[0]: option[4] for option in filled_void.OPTIONS}
         for row, role in enumerate(convert.ROLES):
             names = QtGui.QLineEdit(", ".join(convert.face_names(convert.face_numbers(getattr(self.void, role)))))
+            names.setMinimumWidth(60)
+            names.setObjectName(f"lacuna_{role}")
             names.setToolTip(meanings[role])
             names.editingFinished.connect(self._show_free_edges)
             self.roles[role] = names
@@ -82,14 +87,15 @@ class Panel:
         self.free.setToolTip("Edges of these faces with a missing face beside them, red in the 3-D view")
         rows.addWidget(self.free)
 
-        options = QtGui.QFormLayout()
         self.options = {}
-        for name, kind, _, value, meaning in OPTIONS:
-            widget = self._widget(kind, value, getattr(self.void, name))
-            widget.setToolTip(meaning)
-            self.options[name] = widget
-            options.addRow(re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name), widget)
-        rows.addLayout(options)
+        rows.addLayout(self._option_rows(lambda name: name in FIRST))
+        more = self._button("More options", "Options that are seldom needed", lambda shown: rest.setVisible(shown))
+        more.setCheckable(True)
+        rows.addWidget(more)
+        rest = QtGui.QWidget()
+        rest.setLayout(self._option_rows(lambda name: name not in FIRST))
+        rest.hide()
+        rows.addWidget(rest)
 
         progress = QtGui.QHBoxLayout()
         self.bar = QtGui.QProgressBar()
@@ -101,13 +107,27 @@ class Panel:
         progress.addWidget(self.stop_button)
         rows.addLayout(progress)
         self.stage = QtGui.QLabel()
+        self.stage.hide()
         rows.addWidget(self.stage)
 
         self.report = QtGui.QTextBrowser()
         self.report.setToolTip("What was done. A click on a face selects it in the 3-D view")
+        self.report.setMinimumSize(60, 120)
         self.report.setOpenLinks(False)
         self.report.anchorClicked.connect(lambda link: self._select([link.toString()]))
         rows.addWidget(self.report, 1)
+
+    def _option_rows(self, wanted):
+        rows = QtGui.QFormLayout()
+        rows.setContentsMargins(0, 0, 0, 0)
+        for name, kind, _, value, meaning in OPTIONS:
+            if wanted(name):
+                widget = self._widget(kind, value, getattr(self.void, name))
+                widget.setToolTip(meaning)
+                widget.setMinimumWidth(60)
+                self.options[name] = widget
+                rows.addRow(re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name), widget)
+        return rows
 
     @staticmethod
     def _button(text, tip, action):
@@ -181,8 +201,7 @@ class Panel:
             self._show_report(result["report"])
         self.voids.clear()
         for void in result["voids"]:
-            self.voids.addItem(f"{void['kind']}, {void['volume']:.4g} mm³, {len(void['faces'])} faces",
-                               void["faces"])
+            self.voids.addItem(f"{void['kind']}, {void['volume']:.0f} mm³", void["faces"])
         if result["voids"]:
             self._take_void(0)
 
@@ -201,6 +220,7 @@ class Panel:
 
     def _poll(self):
         self.stage.setText(self.job.stage)
+        self.stage.show()
         if not self.job.done():
             return
         job, self.job = self.job, None
@@ -221,18 +241,26 @@ class Panel:
         self.stop_button.setEnabled(busy)
         self.find_button.setEnabled(not busy)
         self.bar.setRange(0, 0 if busy else 1)
-        self.stage.setText("")
+        self.stage.hide()
 
     # --- the report -----------------------------------------------------------------------------------------
 
     def _show_report(self, lines):
-        self.report.setHtml("<br>".join(with_links(line) for line in lines))
+        self._show("".join(f"<div>{with_links(line)}</div>" for line in lines))
 
     def _show_error(self, error):
         lines = [f'<p style="color: #c00000">{with_links(str(error))}</p>']
         lines += [f"<p>{with_links(attempt)}</p>" for attempt in error.attempts]
-        self.report.setHtml("".join(lines) + f"<p>[{error.code}]</p>")
+        self._show("".join(lines) + f"<p>[{error.code}]</p>")
         self._select(convert.face_names(error.faces))
+
+    def _show(self, html):
+        self.report.setHtml(html)
+        area = self.form.parent()
+        while area and not isinstance(area, QtGui.QScrollArea):
+            area = area.parent()
+        if html and area:
+            QtCore.QTimer.singleShot(0, lambda: area.ensureWidgetVisible(self.report))
 
     # --- the document ---------------------------------------------------------------------------------------
 
@@ -282,6 +310,7 @@ class Panel:
     def _close(self):
         self._timer.stop()
         self._edges.remove()
+        Gui.Selection.clearSelection()
         self._leave()
 
     def slotDeletedDocument(self, document):

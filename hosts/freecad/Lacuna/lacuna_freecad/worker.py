@@ -141,8 +141,8 @@ def main():
         request = json.load(file)
     if lacuna is None:
         result = {"error": {
-            "message": f"{sys.executable} has no package lacuna ({missing}). Install python3-lacuna, or name "
-            "another Python in the environment variable LACUNA_PYTHON.",
+            "message": f"{sys.executable} has no package lacuna ({missing}). Install python3-lacuna, or run "
+            "hosts/freecad/install --python with the path of a Python that has it.",
             "code": "freecad.no_package", "faces": [], "attempts": []}}
     else:
         notes = Notes()
