@@ -32,15 +32,25 @@ def fingerprint(shape, request):
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def femmesh(job):
-    """The mesh of a job that is done. UNV has no pyramids: they are bricks whose upper nodes are one, which
-    CalculiX solves, and FreeCAD's own pyramids would be missing in its input."""
-    return Fem.read(job.path("mesh.unv"))
+def read_mesh(path, names=None):
+    """A FEM mesh of a UNV file; `names` are names of its groups and what they are to be called.
+
+    UNV has no pyramids: they are bricks whose upper nodes are one, which CalculiX solves, while FreeCAD leaves its own pyramids out of CalculiX's input.
+    """
+    mesh = Fem.read(path)
+    for group in mesh.Groups:
+        name = mesh.getGroupName(group)
+        new_name = (names or {}).get(name, name)
+        if new_name != name:
+            kind, elements = mesh.getGroupElementType(group), mesh.getGroupElements(group)
+            mesh.removeGroup(group)
+            mesh.addGroupElements(mesh.addGroup(new_name, kind), list(elements))
+    return mesh
 
 
-def sealed_solid(job):
+def read_shape(path):
     shape = Part.Shape()
-    shape.read(job.path("sealed.brep"))
+    shape.read(path)
     return shape
 
 

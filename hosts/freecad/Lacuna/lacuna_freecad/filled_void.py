@@ -175,8 +175,8 @@ def run(void):
 
 
 def take(void, finished, result):
-    void.FemMesh = convert.femmesh(finished)
-    void.SealedShape = convert.sealed_solid(finished) if void.Solid else Part.Shape()
+    void.FemMesh = convert.read_mesh(finished.path("mesh.unv"), result["groups"])
+    void.SealedShape = convert.read_shape(finished.path("sealed.brep")) if void.Solid else Part.Shape()
     void.Class = result["class"]
     void.Report = [f"note: {note}" for note in result["notes"]] + result["report"]
     void.Volume, void.SealedVolume = result["volume"], result["sealed_volume"]

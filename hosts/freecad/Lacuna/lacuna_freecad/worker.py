@@ -77,6 +77,10 @@ class Faces:
         return re.sub(r"(?<!void )\b[Ff]aces? (\d+(?:(?:, | and | or | to )\d+)*)\b",
                       lambda found: re.sub(r"\d+", name, found[1]), text)
 
+    def named_wall(self, group):
+        """`wall:3` with FreeCAD's number of the face."""
+        return re.sub(r"^wall:(\d+)$", lambda found: f"wall:{self._numbers.get(int(found[1]), found[1])}", group)
+
     def _tag(self, number):
         if number not in self._tags:
             raise lacuna.Error(f"Face{number} was not read: it is damaged, or no wider than the tolerance. "
@@ -110,7 +114,7 @@ def fill(model, faces, request, folder):
             "nodes": mesh.nodes, "hexes": mesh.hexes, "wedges": mesh.wedges, "pyramids": mesh.pyramids,
             "tets": mesh.tets, "volume": fidelity.volume, "sealed_volume": fidelity.sealed_volume,
             "min_scaled_jacobian": mesh.quality().min_scaled_jacobian,
-            "groups": [group["name"] for group in mesh.groups() if group["dim"] == 2]}
+            "groups": {group["name"]: faces.named_wall(group["name"]) for group in mesh.groups()}}
 
 
 def named_error(error, faces):
