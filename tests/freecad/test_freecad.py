@@ -36,7 +36,7 @@ def main():
                           "exec /usr/bin/python3 \"$@\"\n")
         python.chmod(0o755)
         pathlib.Path(home, "user.cfg").write_text(CONFIGURATION)
-        environment = {**os.environ, "FREECAD_USER_HOME": home, "QTWEBENGINE_DISABLE_SANDBOX": "1"}
+        environment = {**os.environ, "FREECAD_USER_HOME": home, "QTWEBENGINE_DISABLE_SANDBOX": "1", "TMPDIR": home}
         subprocess.run([project / "hosts/freecad/install", "--python", python, pathlib.Path(home, "Mod")],
                        check=True)
         if not with_window:
@@ -47,7 +47,7 @@ def main():
         verdict = pathlib.Path(home, "verdict")
         environment.update(LACUNA_PICTURES=str(pictures), LACUNA_VERDICT=str(verdict))
         housing = shutil.copy(project / "docs/tutorial/housing.step", home)
-        subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x800x24", "freecad", housing, here / "window.py"],
+        subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x900x24 -dpi 96", "freecad", housing, here / "window.py"],
                        env=environment, timeout=300, cwd=home)
         print(verdict.read_text() if verdict.exists() else "FreeCAD ended before it was done")
         return 0 if verdict.exists() and verdict.read_text().startswith("passed") else 1

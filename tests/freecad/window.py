@@ -5,6 +5,7 @@ FreeCAD is started by test_window.py with the housing open. LACUNA_PICTURES name
 LACUNA_VERDICT the file for the verdict.
 """
 import os
+import re
 import subprocess
 import time
 import traceback
@@ -12,6 +13,8 @@ import traceback
 import FreeCAD
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
+
+from lacuna_freecad import job
 
 MOST_CLICKS = 12
 SECONDS_A_STEP = 40
@@ -26,6 +29,13 @@ def wait_until(condition, what):
     yield
 
 
+def scroll_to(widget):
+    """With the wheel, which is not counted."""
+    for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
+        if area.isAncestorOf(widget):
+            area.ensureWidgetVisible(widget)
+
+
 class Mouse:
     def __init__(self):
         self.clicks = 0
@@ -33,11 +43,19 @@ class Mouse:
     def click(self, widget, place=None):
         """For `yield from`: with the pointer, in the middle of a widget or at a place in it."""
         yield from wait_until(widget.isVisible, f"{widget} is seen")
-        point, still = None, 0
-        while still < 5:  # panels unfold
+        scroll_to(widget)
+        point, since = None, None
+
+        def still():
+            nonlocal point, since
             now = widget.mapToGlobal(place or widget.rect().center())
-            point, still = now, still + 1 if now == point else 0
-            yield
+            if now != point or QtGui.QApplication.widgetAt(now) is not widget:
+                point, since = now, time.monotonic()
+            return time.monotonic() > since + 0.5
+        yield from wait_until(still, f"{widget} does not move")  # panels unfold
+        yield from self.click_at(point)
+
+    def click_at(self, point):
         tool = subprocess.Popen(["xdotool", "mousemove", str(point.x()), str(point.y()), "sleep", "0.1",
                                  "click", "1"])
         self.clicks += 1
@@ -64,7 +82,7 @@ class Mouse:
 
         def found():
             buttons[:] = [button for button in window.findChildren(QtGui.QAbstractButton) if button.isVisible()
-                          and button.isEnabled() and text in (button.text().replace("&", ""), button.toolTip())]
+                          and button.isEnabled() and button.text().replace("&", "") == text]
             return buttons
         yield from wait_until(found, f"there is a button {text}")
         yield from self.click(buttons[0])
@@ -95,7 +113,7 @@ def tutorial(mouse):
     yield from mouse.choose_workbench("Lacuna")
     yield from mouse.press("Fill a void")
     yield from mouse.press("Find")
-    yield from wait_until(lambda: "Face16" in faces_field().text(), "the pocket was found")
+    yield from wait_until(lambda: "Face16" in field("Faces").text(), "the pocket was found")
     picture("found")
     yield from mouse.press("OK")
     yield from wait_until(lambda: not Gui.Control.activeDialog(), "the void is filled")
@@ -122,14 +140,100 @@ def tutorial(mouse):
     assert mouse.clicks <= MOST_CLICKS, f"{mouse.clicks} clicks"
 
 
-def faces_field():
-    return Gui.getMainWindow().findChild(QtGui.QLineEdit, "lacuna_Faces")
+def field(role):
+    return Gui.getMainWindow().findChild(QtGui.QLineEdit, f"lacuna_{role}")
+
+
+def undone_and_redone(mouse):
+    """Each of the two commands is one step of undo."""
+    yield from wait_until(Gui.Control.activeDialog, "FreeCAD shows the results")
+    picture("results")
+    Gui.ActiveDocument.resetEdit()
+    document = FreeCAD.ActiveDocument
+    for count in 1, 0:
+        yield from press_undo(mouse)
+        assert len(objects("Fem::FemMeshObject")) >= count and not objects("Fem::FemAnalysis")
+    assert [obj.Name for obj in document.Objects] == ["Solid"], [obj.Name for obj in document.Objects]
+    document.redo()
+    document.recompute()
+    void, = objects("Fem::FemMeshObject")
+    assert void.FemMesh.HexaCount > 100 and void.Label == "Filled void"
+    document.undo()
+
+
+def press_undo(mouse):
+    yield from mouse.press("Undo")
+
+
+def recorded():
+    """What the commands did stands in the Python console, and does the same again."""
+    console = Gui.getMainWindow().findChild(QtGui.QPlainTextEdit, "Python console")
+    lines = [line[4:] for line in console.toPlainText().splitlines() if line.startswith(">>> ")]
+    wanted = [line for line in lines if re.match(r"from lacuna_freecad|void[ .]|FreeCAD.getDocument", line)]
+    assert any(line.startswith("void.Faces = ") for line in wanted), wanted
+    exec("\n".join(wanted), {"FreeCAD": FreeCAD})
+    void, = objects("Fem::FemMeshObject")
+    assert void.FemMesh.HexaCount > 100
+    yield
+
+
+def refused_and_stopped(mouse):
+    """An error names a face that a click selects; a long job is stopped, and what it began is taken back."""
+    document = FreeCAD.ActiveDocument
+    before = len(document.Objects)
+    yield from mouse.press("Fill a void")
+    panel = [None]
+    yield from wait_until(lambda: panel.__setitem__(0, task_panel()) or panel[0], "the panel is open")
+    for role in "Source", "Target":
+        field(role).setText("Face16")
+    yield from mouse.press("OK")
+    report = panel[0].findChild(QtGui.QTextBrowser)
+    yield from wait_until(lambda: "Face16" in report.toPlainText(), "the error is shown")
+    assert 'href="Face16"' in report.toHtml(), report.toHtml()
+    picture("refused")
+    Gui.Selection.clearSelection()
+    cursor = report.document().find("Face16")
+    yield from mouse.click_at(report.mapToGlobal(report.cursorRect(cursor).center() - QtCore.QPoint(8, 0)))
+    selected, = Gui.Selection.getSelectionEx()
+    assert selected.SubElementNames == ("Face16",), selected.SubElementNames
+    field("Target").clear()
+    panel[0].findChild(QtGui.QDoubleSpinBox, "lacuna_Size").setValue(0.1)
+    panel[0].findChild(QtGui.QSpinBox, "lacuna_Layers").setValue(500)
+    yield from mouse.press("OK")
+    yield from wait_until(lambda: job.running and job.running[0].stage != "starting", "the job runs")
+    process = job.running[0].process
+    picture("running")
+    yield from mouse.press("Stop")
+    yield from wait_until(lambda: "stopped" in report.toPlainText(), "the job is stopped")
+    assert not job.running and not os.path.exists(f"/proc/{process}")
+    yield from mouse.press("Cancel")
+    yield from wait_until(lambda: not Gui.Control.activeDialog(), "the panel is closed")
+    assert len(document.Objects) == before, [obj.Name for obj in document.Objects]
+
+
+def closed_while_it_runs(mouse):
+    """A document that is closed during a job leaves nothing running, and no panel."""
+    yield from mouse.press("Fill a void")
+    yield from wait_until(task_panel, "the panel is open")
+    field("Source").setText("Face16")
+    task_panel().findChild(QtGui.QDoubleSpinBox, "lacuna_Size").setValue(0.1)
+    yield from mouse.press("OK")
+    yield from wait_until(lambda: job.running and job.running[0].stage != "starting", "the job runs")
+    process, folder = job.running[0].process, job.running[0].folder
+    FreeCAD.closeDocument(FreeCAD.ActiveDocument.Name)
+    yield from wait_until(lambda: not Gui.Control.activeDialog(), "the panel is closed")
+    assert not job.running and not os.path.exists(f"/proc/{process}") and not os.path.exists(folder)
 
 
 def scenes():
     mouse = Mouse()
     yield from tutorial(mouse)
-    return f"{mouse.clicks} clicks from the open file to the solved analysis"
+    verdict = f"{mouse.clicks} clicks from the open file to the solved analysis"
+    yield from undone_and_redone(mouse)
+    yield from recorded()
+    yield from refused_and_stopped(mouse)
+    yield from closed_while_it_runs(mouse)
+    return verdict
 
 
 class Driver:

@@ -123,6 +123,7 @@ class Panel:
         for name, kind, _, value, meaning in OPTIONS:
             if wanted(name):
                 widget = self._widget(kind, value, getattr(self.void, name))
+                widget.setObjectName(f"lacuna_{name}")
                 widget.setToolTip(meaning)
                 widget.setMinimumWidth(60)
                 self.options[name] = widget
@@ -256,11 +257,13 @@ class Panel:
 
     def _show(self, html):
         self.report.setHtml(html)
-        area = self.form.parent()
-        while area and not isinstance(area, QtGui.QScrollArea):
-            area = area.parent()
-        if html and area:
-            QtCore.QTimer.singleShot(0, lambda: area.ensureWidgetVisible(self.report))
+        if html:
+            QtCore.QTimer.singleShot(0, self._scroll_to_report)
+
+    def _scroll_to_report(self):
+        for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
+            if area.isAncestorOf(self.report):
+                area.ensureWidgetVisible(self.report)
 
     # --- the document ---------------------------------------------------------------------------------------
 
