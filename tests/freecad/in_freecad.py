@@ -66,6 +66,21 @@ def alive(process):
         return False
 
 
+def children(process):
+    found = []
+    for thread in os.listdir(f"/proc/{process}/task"):
+        with open(f"/proc/{process}/task/{thread}/children") as file:
+            found += file.read().split()
+    return {int(child) for child in found}
+
+
+def soon(condition):
+    end = time.monotonic() + 20
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.02)
+    return condition()
+
+
 class Test(unittest.TestCase):
     def setUp(self):
         self.document = FreeCAD.newDocument("Test")
@@ -161,23 +176,47 @@ class Test(unittest.TestCase):
         self.assertEqual(sorted(kinds), ["C3D4", "C3D6", "C3D8"])
         self.assertIn("9, 9, 9, 9", text)
 
-    def test_a_job_is_stopped_with_its_document(self):
+    def test_a_job_leaves_nothing_behind(self):
         part = housing(self.document)
-        for ended_by in "stop", "document":
-            void = filled_void.make(part, pocket_faces(part))
-            void.Size, void.Layers = 0.1, 500  # minutes of work
-            started = filled_void.start(void)
-            self.assertFalse(started.wait(1))
-            self.assertTrue(alive(started.process))
-            if ended_by == "stop":
-                started.stop()
-            else:
-                FreeCAD.closeDocument("Test")
-            self.assertFalse(alive(started.process))
-            self.assertFalse(os.path.exists(started.folder))
-            with self.assertRaises(job.Failed) as caught:
-                started.result()
-            self.assertEqual(caught.exception.code, "core.cancelled")
+        for ended_by in "stop", "document", "crash of FreeCAD":
+            with self.subTest(ended_by=ended_by):
+                void = filled_void.make(part, pocket_faces(part))
+                void.Size, void.Layers = 0.1, 500  # minutes of work
+                started = filled_void.start(void)
+                self.assertTrue(soon(lambda: children(started.process)))  # that which reads CAD
+                processes = [started.process, *children(started.process)]
+                self.assertFalse(started.done())
+                if ended_by == "stop":
+                    started.stop()
+                elif ended_by == "document":
+                    FreeCAD.closeDocument("Test")
+                    self.document = FreeCAD.newDocument("Test")
+                    part = housing(self.document)
+                else:
+                    started._process.stdin.close()
+                    self.assertTrue(started.wait(20))
+                self.assertTrue(soon(lambda: not any(alive(process) for process in processes)))
+                self.assertFalse(os.path.exists(started.folder))
+                with self.assertRaises(job.Failed) as caught:
+                    started.result()
+                self.assertEqual(caught.exception.code, "core.cancelled")
+        started.stop()
+
+    def test_a_saved_void_is_the_same_again(self):
+        part = housing(self.document)
+        void = self.filled(part, pocket_faces(part), Size=10)
+        cells, name = void.FemMesh.HexaCount, void.Name
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "Test.FCStd")
+            self.document.saveAs(path)
+            FreeCAD.closeDocument("Test")
+            self.document = FreeCAD.openDocument(path)
+            void = self.document.getObject(name)
+            self.assertEqual(self.document.recompute(), 0)  # it is up to date
+            self.assertEqual(void.FemMesh.HexaCount, cells)
+            set_depth(self.document, 10)
+            self.assertAlmostEqual(void.Volume, 30 * 20 * 10, 3)
+            self.assertAlmostEqual(filled_void.solid_of(void).Shape.Volume, 30 * 20 * 10, 3)
 
     def test_faces_are_told_by_place_and_not_by_number(self):
         shape = Part.makeBox(1, 2, 3)

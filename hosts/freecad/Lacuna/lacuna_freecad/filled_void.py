@@ -97,6 +97,8 @@ def request_of(void):
 
 
 class FilledVoid:
+    _delivered = None  # a finished job; not saved
+
     def __init__(self, obj):
         for name, kind, group, value, meaning in OPTIONS:
             obj.addProperty(kind, name, group, meaning)
@@ -105,7 +107,6 @@ class FilledVoid:
         for name, kind, meaning in RESULTS:
             obj.addProperty(kind, name, "Result", meaning, 1 | 4)  # read only, and without effect on touched
         obj.Proxy = self
-        self._delivered = None
 
     def deliver(self, finished):
         """A job that was run for this object as it is now: the next recompute takes its result."""
@@ -131,7 +132,7 @@ class FilledVoid:
         return None
 
     def loads(self, _):
-        self._delivered = None
+        pass
 
     __getstate__, __setstate__ = dumps, loads
 

@@ -9,6 +9,7 @@ import logging
 import math
 import os
 import re
+import shutil
 import sys
 import threading
 
@@ -29,9 +30,11 @@ class Notes(logging.Handler):
         self.lines.append(record.getMessage())
 
 
-def end_with_the_host():
+def end_with_the_host(folder):
+    """FreeCAD holds the other end of standard input: nothing is left when it crashes."""
     def wait():
         sys.stdin.buffer.read()
+        shutil.rmtree(folder, ignore_errors=True)
         os._exit(1)
     threading.Thread(target=wait, daemon=True).start()
 
@@ -83,8 +86,8 @@ class Faces:
 
     def _tag(self, number):
         if number not in self._tags:
-            raise lacuna.Error(f"Face{number} was not read: it is damaged, or no wider than the tolerance. "
-                               "Repair the part, or leave the face out.", "freecad.no_face")
+            raise lacuna.Error(f"Face{number} is not in the part, or was not read because it is damaged or "
+                               "no wider than the tolerance. Choose the faces again.", "freecad.no_face")
         return self._tags[number]
 
 
@@ -139,8 +142,8 @@ def answer(folder, request):
 
 
 def main():
-    end_with_the_host()
     folder = sys.argv[1]
+    end_with_the_host(folder)
     with open(os.path.join(folder, "request.json")) as file:
         request = json.load(file)
     if lacuna is None:
