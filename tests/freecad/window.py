@@ -14,7 +14,7 @@ import FreeCAD
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
-from lacuna_freecad import job
+from lacuna_freecad import filled_void, job
 
 MOST_CLICKS = 12
 SECONDS_A_STEP = 40
@@ -136,6 +136,8 @@ def tutorial(mouse):
     yield from mouse.press("OK")
     yield from wait_until(lambda: objects("Fem::FemResultObject"), "CalculiX has solved")
     assert max(objects("Fem::FemResultObject")[0].DisplacementLengths) > 0
+    yield from wait_until(Gui.Control.activeDialog, "FreeCAD shows the results")
+    yield from mouse.press("Displacement Magnitude")
     picture("solved")
     assert mouse.clicks <= MOST_CLICKS, f"{mouse.clicks} clicks"
 
@@ -146,8 +148,6 @@ def field(role):
 
 def undone_and_redone(mouse):
     """Each of the two commands is one step of undo."""
-    yield from wait_until(Gui.Control.activeDialog, "FreeCAD shows the results")
-    picture("results")
     Gui.ActiveDocument.resetEdit()
     document = FreeCAD.ActiveDocument
     for count in 1, 0:
@@ -211,6 +211,25 @@ def refused_and_stopped(mouse):
     assert len(document.Objects) == before, [obj.Name for obj in document.Objects]
 
 
+def recompute_stopped():
+    """A change of the part fills the void anew, behind a bar with a stop button."""
+    part = FreeCAD.ActiveDocument.Solid
+    void = filled_void.make(part, [f"Face{number}" for number in (7, 8, 9, 10, 11, 12, 13, 14, 16, 18)])
+    void.Size, void.Layers = 0.1, 500
+
+    def stop():
+        bar = Gui.getMainWindow().findChild(QtGui.QProgressDialog)
+        picture("recomputing")
+        bar.findChild(QtGui.QPushButton).click()
+    QtCore.QTimer.singleShot(2500, stop)
+    FreeCAD.ActiveDocument.recompute()
+    assert not void.isValid() and "stopped" in void.Report[0], void.Report
+    assert not job.running
+    FreeCAD.ActiveDocument.removeObject(void.Name)
+    FreeCAD.ActiveDocument.recompute()
+    yield
+
+
 def closed_while_it_runs(mouse):
     """A document that is closed during a job leaves nothing running, and no panel."""
     yield from mouse.press("Fill a void")
@@ -232,6 +251,7 @@ def scenes():
     yield from undone_and_redone(mouse)
     yield from recorded()
     yield from refused_and_stopped(mouse)
+    yield from recompute_stopped()
     yield from closed_while_it_runs(mouse)
     return verdict
 

@@ -14,6 +14,7 @@ from . import job as jobs
 
 kPollMilliseconds = 100  # how often the panel asks a job how far it is: a choice
 OPTIONS = [option for option in filled_void.OPTIONS if option[0] not in ("Part", *convert.ROLES)]
+kTransparency = 60  # of a part with a filled void, in per cent: a choice
 FIRST = "Size", "Layers", "Order", "Fallback"  # options that are always shown
 
 
@@ -75,7 +76,7 @@ class Panel:
             names.setMinimumWidth(60)
             names.setObjectName(f"lacuna_{role}")
             names.setToolTip(meanings[role])
-            names.editingFinished.connect(self._show_free_edges)
+            names.textChanged.connect(self._show_free_edges)
             self.roles[role] = names
             take = self._button("Take", f"Take the faces that are selected in the 3-D view as {role.lower()}",
                                 lambda _=False, role=role: self._take_selection(role))
@@ -285,7 +286,9 @@ class Panel:
         if not self.void.isValid():
             self._show_report(self.void.Report)
             return
-        self.void.Part.ViewObject.Transparency = max(self.void.Part.ViewObject.Transparency, 60)
+        view = self.void.Part.ViewObject
+        if hasattr(view, "Transparency"):  # the mesh is seen through the part
+            view.Transparency = max(view.Transparency, kTransparency)
         self._close()
         self.void.Document.commitTransaction()
 

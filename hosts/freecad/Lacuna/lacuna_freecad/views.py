@@ -71,14 +71,13 @@ def wait_with_bar(job, label):
     bar = QtGui.QProgressDialog(f"Filling {label}", "Stop", 0, 0, Gui.getMainWindow())
     bar.setWindowTitle("Lacuna")
     bar.setWindowModality(QtCore.Qt.ApplicationModal)
-    bar.setMinimumDuration(500)
+    bar.canceled.connect(job.stop)
+    bar.show()
     while not job.wait(0.05):
         bar.setLabelText(f"Filling {label}: {job.stage}")
-        bar.setValue(0)
         QtGui.QApplication.processEvents()
-        if bar.wasCanceled():
-            job.stop()
-    bar.reset()
+    bar.canceled.disconnect(job.stop)
+    bar.close()
 
 
 class RedEdges:
