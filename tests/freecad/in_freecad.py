@@ -139,6 +139,22 @@ class Test(unittest.TestCase):
         self.assertTrue(void.SealedShape.isClosed())
         self.assertEqual(len(convert.free_edges(shell.Shape, [])), 4)
 
+    def test_undo_gives_back_the_mesh_too(self):
+        part = housing(self.document)
+        self.document.UndoMode = 1
+        self.document.openTransaction("fill")
+        void = self.filled(part, pocket_faces(part), Size=10, Layers=1, Solid=False)
+        self.document.commitTransaction()
+        self.document.openTransaction("change")
+        void.Layers = 2
+        self.document.recompute()
+        self.document.commitTransaction()
+        cells = void.FemMesh.HexaCount
+        self.document.undo()
+        self.assertEqual((void.Layers, void.FemMesh.HexaCount), (1, cells // 2))
+        self.document.redo()
+        self.assertEqual((void.Layers, void.FemMesh.HexaCount), (2, cells))
+
     def test_named_roles_and_a_bore(self):
         part = self.document.addObject("Part::Feature", "Plate")
         part.Shape = Part.makeBox(20, 20, 5).cut(Part.makeCylinder(4, 5, Vector(10, 10, 0)))

@@ -165,6 +165,21 @@ def press_undo(mouse):
     yield from mouse.press("Undo")
 
 
+def changed(mouse):
+    """A double click on the void opens its panel; a change is one step of undo."""
+    void, = objects("Fem::FemMeshObject")
+    cells = void.FemMesh.HexaCount
+    void.ViewObject.doubleClicked()
+    yield from wait_until(task_panel, "the panel is open")
+    task_panel().findChild(QtGui.QDoubleSpinBox, "lacuna_Size").setValue(2)
+    yield from mouse.press("OK")
+    yield from wait_until(lambda: not Gui.Control.activeDialog(), "the panel is closed")
+    assert void.Size.Value == 2 and void.FemMesh.HexaCount > cells
+    finer = void.FemMesh.HexaCount
+    FreeCAD.ActiveDocument.undo()
+    assert void.Size.Value == 0 and void.FemMesh.HexaCount == cells < finer
+
+
 def recorded():
     """What the commands did stands in the Python console, and does the same again."""
     console = Gui.getMainWindow().findChild(QtGui.QPlainTextEdit, "Python console")
@@ -218,7 +233,7 @@ def recompute_stopped():
     void.Size, void.Layers = 0.1, 500
 
     def stop():
-        bar = Gui.getMainWindow().findChild(QtGui.QProgressDialog)
+        bar, = (bar for bar in Gui.getMainWindow().findChildren(QtGui.QProgressDialog) if bar.isVisible())
         picture("recomputing")
         bar.findChild(QtGui.QPushButton).click()
     QtCore.QTimer.singleShot(2500, stop)
@@ -247,9 +262,10 @@ def closed_while_it_runs(mouse):
 def scenes():
     mouse = Mouse()
     yield from tutorial(mouse)
-    verdict = f"{mouse.clicks} clicks from the open file to the solved analysis"
+    verdict = f"{mouse.clicks} clicks from the open file to the coloured results"
     yield from undone_and_redone(mouse)
     yield from recorded()
+    yield from changed(mouse)
     yield from refused_and_stopped(mouse)
     yield from recompute_stopped()
     yield from closed_while_it_runs(mouse)

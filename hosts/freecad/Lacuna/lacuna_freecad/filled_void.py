@@ -175,6 +175,20 @@ def run(void):
     return started
 
 
+def refresh(document):
+    """Fill voids anew that undo has changed: FreeCAD gives back their properties, but not their meshes."""
+    if any(is_filled_void(obj) and "Touched" in obj.State for obj in document.Objects):
+        document.recompute()
+
+
+class RefreshAfterUndo:
+    def slotUndoDocument(self, document):
+        refresh(document)
+
+    def slotRedoDocument(self, document):
+        refresh(document)
+
+
 def take(void, finished, result):
     void.FemMesh = convert.read_mesh(finished.path("mesh.unv"), result["groups"])
     void.SealedShape = convert.read_shape(finished.path("sealed.brep")) if void.Solid else Part.Shape()
@@ -191,3 +205,6 @@ def clear(void, error):
     void.Class = ""
     void.Report = [f"error: {error} [{error.code}]"] + error.attempts
     void.Volume = void.SealedVolume = void.WorstCell = 0.0
+
+
+FreeCAD.addDocumentObserver(RefreshAfterUndo())

@@ -108,6 +108,7 @@ class Panel:
         progress.addWidget(self.stop_button)
         rows.addLayout(progress)
         self.stage = QtGui.QLabel()
+        self.stage.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Preferred)  # paths are long
         self.stage.hide()
         rows.addWidget(self.stage)
 
@@ -302,6 +303,7 @@ class Panel:
         self.stop()
         self._close()
         FreeCAD.getDocument(self._document).abortTransaction()
+        filled_void.refresh(FreeCAD.getDocument(self._document))
         return True
 
     def getStandardButtons(self):

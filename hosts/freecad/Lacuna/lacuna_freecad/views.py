@@ -77,7 +77,7 @@ def wait_with_bar(job, label):
         bar.setLabelText(f"Filling {label}: {job.stage}")
         QtGui.QApplication.processEvents()
     bar.canceled.disconnect(job.stop)
-    bar.close()
+    bar.deleteLater()  # it is a child of the window
 
 
 class RedEdges:
