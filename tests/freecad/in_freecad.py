@@ -139,6 +139,14 @@ class Test(unittest.TestCase):
         self.assertTrue(void.SealedShape.isClosed())
         self.assertEqual(len(convert.free_edges(shell.Shape, [])), 4)
 
+    def test_nodes_of_a_missing_bent_face_are_found(self):
+        arch = Part.makeBox(20, 10, 10).cut(Part.makeCylinder(40, 12, Vector(10, -1, -38), Vector(0, 1, 0)))
+        part = self.document.addObject("Part::Feature", "Arch")
+        part.Shape = Part.Shell([face for face in arch.Faces if not isinstance(face.Surface, Part.Cylinder)])
+        void = self.filled(part, [], Size=3)
+        self.assertEqual(len(analysis.faces_of_groups(void, ["void:1"])), 1)
+        self.assertTrue(void.SealedShape.isValid())
+
     def test_undo_gives_back_the_mesh_too(self):
         part = housing(self.document)
         self.document.UndoMode = 1
@@ -252,7 +260,7 @@ class Test(unittest.TestCase):
         part = housing(self.document)
         void = self.filled(part, pocket_faces(part), Size=10)
         made = analysis.make(void, ["source"], ["target"], 1.0, 2800.0, 0.38)
-        for name in analysis.groups_of_faces(void):
+        for name in convert.groups_of_faces(void.FemMesh):
             self.assertTrue(analysis.faces_of_groups(void, [name]), name)
         if not os.path.exists("/usr/bin/ccx"):
             self.skipTest("ccx is not installed")

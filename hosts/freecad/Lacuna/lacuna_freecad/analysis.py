@@ -7,7 +7,7 @@ sealed solid, so a constraint on a group is one on the faces of the solid whose 
 import FreeCAD
 import ObjectsFem
 
-from . import filled_void
+from . import convert, filled_void
 
 
 class NoFaces(Exception):
@@ -18,21 +18,9 @@ class InUse(Exception):
     """A mesh can be in one analysis only."""
 
 
-def groups_of_faces(void):
-    """Names of the groups of quads and triangles, with their nodes."""
-    mesh = void.FemMesh
-    found = {}
-    for group in mesh.Groups:
-        if mesh.getGroupElementType(group) == "Face":
-            elements = mesh.getGroupElements(group)
-            found[mesh.getGroupName(group)] = {node for element in elements
-                                               for node in mesh.getElementNodes(element)}
-    return found
-
-
 def faces_of_groups(void, names):
     """Names of the sealed solid's faces on which the nodes of these groups lie, and no other nodes."""
-    groups = groups_of_faces(void)
+    groups = convert.groups_of_faces(void.FemMesh)
     wanted = set().union(*(groups[name] for name in names))
     faces, covered = [], set()
     for number, face in enumerate(void.SealedShape.Faces, 1):
@@ -52,6 +40,8 @@ def make(void, held, pressed, pressure, youngs_modulus, poissons_ratio):
         if user.isDerivedFrom("Fem::FemAnalysis"):
             raise InUse(f"{void.Label} is in {user.Label} already: change that one in the FEM workbench, or "
                         "delete it.")
+    if void.SealedShape.isNull():
+        raise NoFaces(f"{void.Label} has no sealed solid, whose faces constraints refer to; its Report says why.")
     document = void.Document
     solid = filled_void.solid_of(void)
     analysis = ObjectsFem.makeAnalysis(document, "Analysis")

@@ -3,7 +3,7 @@
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
-from . import analysis, views
+from . import analysis, convert, views
 
 kHeld, kPressed = 1, 2  # columns of the table
 
@@ -19,7 +19,7 @@ class AnalysisPanel:
         self.form.setWindowTitle("Analyse the filled void")
         self.form.setWindowIcon(QtGui.QIcon(views.icon("analyse")))
         rows = QtGui.QVBoxLayout(self.form)
-        names = list(analysis.groups_of_faces(void))
+        names = list(convert.groups_of_faces(void.FemMesh))
         self.table = QtGui.QTableWidget(len(names), 3)
         self.table.setObjectName("lacuna_groups")
         self.table.setToolTip("Groups of the mesh: a group that is held does not move, one that is pressed is "

@@ -7,6 +7,7 @@ import re
 import Fem
 import Part
 
+kProjected = 500  # nodes of a group that are projected, about: a choice, tens of milliseconds
 ROLES = "Faces", "Source", "Target", "Walls"
 
 
@@ -52,6 +53,35 @@ def read_shape(path):
     shape = Part.Shape()
     shape.read(path)
     return shape
+
+
+def groups_of_faces(mesh):
+    """Names of the groups of quads and triangles, with their nodes."""
+    return {mesh.getGroupName(group): {node for element in mesh.getGroupElements(group)
+                                       for node in mesh.getElementNodes(element)}
+            for group in mesh.Groups if mesh.getGroupElementType(group) == "Face"}
+
+
+def widen_fitted_faces(solid, mesh):
+    """Give faces of a sealed solid that were fitted to a missing face a tolerance that reaches the mesh's nodes.
+
+    FreeCAD takes the nodes of a constraint by their distance from its face, within the face's tolerance. Nodes
+    lie on given faces, but between the facets of a missing one, to which its surface in the solid is fitted.
+    """
+    for name, nodes in groups_of_faces(mesh).items():
+        if not name.startswith("void:"):
+            continue
+        found = [set(mesh.getNodesByFace(face)) for face in solid.Faces]
+        if nodes <= set().union(*(some for some in found if some <= nodes)):
+            continue
+        points = [mesh.getNodeById(node) for node in sorted(nodes)[::1 + len(nodes) // kProjected]]
+
+        def distance(face):
+            return max(point.distanceToPoint(face.Surface.projectPoint(point)) for point in points)
+        others = [face for face, some in zip(solid.Faces, found) if not some - nodes]  # none of other groups
+        if others:
+            face = min(others, key=distance)
+            face.fixTolerance(2 * distance(face), Part.Face)  # twice: not every node was projected
 
 
 def free_edges(shape, numbers):

@@ -4,6 +4,8 @@
 Its properties are Lacuna's options, which docs/reference.md of Lacuna describes; beside it stands the sealed
 solid that it fills.
 """
+import os
+
 import Fem
 import FreeCAD
 import Part
@@ -191,9 +193,13 @@ class RefreshAfterUndo:
 
 def take(void, finished, result):
     void.FemMesh = convert.read_mesh(finished.path("mesh.unv"), result["groups"])
-    void.SealedShape = convert.read_shape(finished.path("sealed.brep")) if void.Solid else Part.Shape()
+    void.SealedShape = Part.Shape()
+    if os.path.exists(finished.path("sealed.brep")):
+        solid = convert.read_shape(finished.path("sealed.brep"))
+        convert.widen_fitted_faces(solid, void.FemMesh)
+        void.SealedShape = solid
     void.Class = result["class"]
-    void.Report = [f"note: {note}" for note in result["notes"]] + result["report"]
+    void.Report = result["notes"] + result["report"]
     void.Volume, void.SealedVolume = result["volume"], result["sealed_volume"]
     void.WorstCell = result["min_scaled_jacobian"]
 

@@ -85,6 +85,7 @@ class Panel:
             grid.addWidget(take, row, 2)
         rows.addLayout(grid)
         self.free = QtGui.QLabel()
+        self.free.setWordWrap(True)
         self.free.setToolTip("Edges of these faces with a missing face beside them, red in the 3-D view")
         rows.addWidget(self.free)
 
@@ -183,7 +184,8 @@ class Panel:
             return
         edges = convert.free_edges(shape, numbers)
         self._edges.show(edges)
-        self.free.setText(f"{len(edges)} free edges" if edges else "No free edges: nothing is missing")
+        closed = "No free edges" if numbers else "A closed part: Find lists its voids, OK fills the part itself"
+        self.free.setText(f"{len(edges)} free edges" if edges else closed)
 
     def _select(self, names):
         Gui.Selection.clearSelection()

@@ -104,6 +104,14 @@ def find(model, faces, request):
     return {"voids": voids}
 
 
+def write_solid(void, path):
+    """The mesh is there: without a solid too it is worth to be handed over, with a note."""
+    try:
+        void.write_cad(path)
+    except lacuna.Error as error:
+        logging.getLogger("lacuna").warning("note: no sealed solid: %s", error)
+
+
 def fill(model, faces, request, folder):
     void = model.open_volume(faces.roles(request["roles"]))
     if request["close"]:
@@ -111,7 +119,7 @@ def fill(model, faces, request, folder):
     mesh = void.sweep(request["sweep"])
     mesh.write(os.path.join(folder, "mesh.unv"))
     if request["solid"]:
-        void.write_cad(os.path.join(folder, "sealed.brep"))
+        write_solid(void, os.path.join(folder, "sealed.brep"))
     fidelity = mesh.fidelity
     return {"class": void.class_, "report": [*void.describe().splitlines(), *mesh.report],
             "nodes": mesh.nodes, "hexes": mesh.hexes, "wedges": mesh.wedges, "pyramids": mesh.pyramids,
