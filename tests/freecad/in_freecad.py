@@ -5,6 +5,7 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 
 import FreeCAD
 import Part
@@ -225,6 +226,12 @@ class Test(unittest.TestCase):
                     started.result()
                 self.assertEqual(caught.exception.code, "core.cancelled")
         started.stop()
+
+    def test_a_python_that_is_missing_is_named(self):
+        shape = Part.makeBox(1, 1, 1)
+        with unittest.mock.patch.dict(os.environ, LACUNA_PYTHON="/no/python"):
+            with self.assertRaisesRegex(job.Failed, "/no/python"):
+                job.Job(shape, convert.request_for("find", shape, {}))
 
     def test_a_saved_void_is_the_same_again(self):
         part = housing(self.document)

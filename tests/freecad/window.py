@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Runs inside FreeCAD's window: clicks with the mouse as the page docs/freecad.md says, and counts the clicks.
 
-FreeCAD is started by test_window.py with the housing open. LACUNA_PICTURES names the folder for pictures,
-LACUNA_VERDICT the file for the verdict.
+FreeCAD is started by test_freecad.py with the housing open. LACUNA_PICTURES names the folder for pictures,
+LACUNA_VERDICT the file for the verdict. Three of the pictures are those of the page, made smaller by
+  convert found.png -crop 1280x655+0+0 +repage -resize 960x +dither -colors 96 PNG8:docs/freecad/found.png
 """
 import os
 import re

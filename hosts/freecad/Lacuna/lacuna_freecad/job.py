@@ -47,9 +47,14 @@ class Job:
         shape.exportBrep(self.path("part.brep"))
         with open(self.path("request.json"), "w") as file:
             json.dump(request, file)
-        with open(self.path("messages"), "w") as messages:
-            self._process = subprocess.Popen([python(), WORKER, self.folder], stdin=subprocess.PIPE,
-                                             stdout=subprocess.PIPE, stderr=messages, text=True)
+        try:
+            with open(self.path("messages"), "w") as messages:
+                self._process = subprocess.Popen([python(), WORKER, self.folder], stdin=subprocess.PIPE,
+                                                 stdout=subprocess.PIPE, stderr=messages, text=True)
+        except OSError as error:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            raise Failed(f"The Python of the job does not start: {error}. Name another with "
+                         "hosts/freecad/install --python.", "freecad.no_python") from None
         self._reader = threading.Thread(target=self._read_progress, daemon=True)
         self._reader.start()
         running.append(self)

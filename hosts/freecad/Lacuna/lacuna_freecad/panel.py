@@ -22,6 +22,8 @@ def edit(void, transaction):
     """Open the panel for a void. The transaction may be open already, with the void made in it."""
     if Gui.Control.activeDialog():
         raise RuntimeError("Close the open task panel first.")
+    if not void.Part:
+        raise RuntimeError("The filled void has no part: set its property Part.")
     if not void.Document.HasPendingTransaction:
         void.Document.openTransaction(transaction)
     Gui.Control.showDialog(Panel(void))
@@ -99,6 +101,8 @@ class Panel:
         rest.hide()
         rows.addWidget(rest)
 
+        self._shown = {name: self._value(name) for name in self.options}
+
         progress = QtGui.QHBoxLayout()
         self.bar = QtGui.QProgressBar()
         self.bar.setRange(0, 1)
@@ -149,10 +153,21 @@ class Panel:
         elif kind == "App::PropertyBool":
             widget = QtGui.QCheckBox()
             widget.setChecked(now)
-        else:
-            widget = QtGui.QSpinBox() if kind == "App::PropertyInteger" else QtGui.QDoubleSpinBox()
+        elif kind == "App::PropertyInteger":
+            widget = QtGui.QSpinBox()
             widget.setMaximum(1000000)
             widget.setSpecialValueText("automatic")
+            widget.setValue(now)
+        else:
+            widget = QtGui.QDoubleSpinBox()
+            widget.setDecimals(4)
+            if kind == "App::PropertyLength":
+                widget.setMaximum(1000000)
+                widget.setSuffix(" mm")
+                widget.setSpecialValueText("automatic")
+            else:
+                widget.setRange(0, 1)
+                widget.setSingleStep(0.1)
             widget.setValue(getattr(now, "Value", now))
         return widget
 
@@ -199,7 +214,8 @@ class Panel:
         if "faces" not in roles and roles and "walls" not in roles:
             roles["walls"] = "auto"
         shape = self.void.Part.Shape
-        self._start(jobs.Job(shape, convert.request_for("find", shape, roles), self._document), self._found)
+        request = convert.request_for("find", shape, roles)
+        self._start(lambda: jobs.Job(shape, request, self._document), self._found)
 
     def _found(self, _, result):
         if result["report"]:
@@ -218,8 +234,12 @@ class Panel:
         self._select(names)
         self._show_free_edges()
 
-    def _start(self, job, when_done):
-        self.job, self._when_done = job, when_done
+    def _start(self, make_job, when_done):
+        try:
+            self.job, self._when_done = make_job(), when_done
+        except jobs.Failed as error:
+            self._show_error(error)
+            return
         self._busy(True)
         self._timer.start()
 
@@ -278,10 +298,10 @@ class Panel:
             if numbers != convert.face_numbers(getattr(self.void, role)):
                 value = f"(void.Part, {convert.face_names(numbers)!r})" if numbers else "None"
                 Gui.doCommand(f"void.{role} = {value}")
-        for name in self.options:
-            now = getattr(self.void, name)
-            if self._value(name) != getattr(now, "Value", now):
+        for name, shown in self._shown.items():
+            if self._value(name) != shown:  # a property may have more digits than are shown
                 Gui.doCommand(f"void.{name} = {self._value(name)!r}")
+                self._shown[name] = self._value(name)
 
     def _filled(self, job, _):
         self.void.Proxy.deliver(job)
@@ -298,7 +318,7 @@ class Panel:
     def accept(self):
         if self.job is None:
             self._write_properties()
-            self._start(filled_void.start(self.void), self._filled)
+            self._start(lambda: filled_void.start(self.void), self._filled)
         return False  # it closes when the job is done
 
     def reject(self):
