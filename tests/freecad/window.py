@@ -200,6 +200,12 @@ def refused_and_stopped(mouse):
     yield from mouse.press("Fill a void")
     panel = [None]
     yield from wait_until(lambda: panel.__setitem__(0, task_panel()) or panel[0], "the panel is open")
+    yield from mouse.press("Take")
+    assert field("Faces").text() == "" and "first" in panel[0].findChild(QtGui.QLabel, "lacuna_free").text()
+    Gui.Selection.addSelection(document.Solid, "Face16")
+    yield from mouse.press("Take")
+    assert field("Faces").text() == "Face16"
+    field("Faces").clear()
     for role in "Source", "Target":
         field(role).setText("Face16")
     yield from mouse.press("OK")

@@ -18,9 +18,9 @@ def parts(document):
 
 def chosen_part():
     """The selected part and the names of its selected faces, or the only part there is."""
-    for selected in Gui.Selection.getSelectionEx():
-        if hasattr(selected.Object, "Shape") and selected.Object.Shape.Faces:
-            return selected.Object, [name for name in selected.SubElementNames if name.startswith("Face")]
+    selected = views.selected_faces(FreeCAD.ActiveDocument.Name)
+    if selected:
+        return selected[0]
     found = parts(FreeCAD.ActiveDocument)
     return (found[0], []) if len(found) == 1 else (None, [])
 

@@ -87,6 +87,7 @@ class Panel:
             grid.addWidget(take, row, 2)
         rows.addLayout(grid)
         self.free = QtGui.QLabel()
+        self.free.setObjectName("lacuna_free")
         self.free.setWordWrap(True)
         self.free.setToolTip("Edges of these faces with a missing face beside them, red in the 3-D view")
         rows.addWidget(self.free)
@@ -183,9 +184,11 @@ class Panel:
         return sorted({int(number) for number in re.findall(r"\d+", self.roles[role].text())})
 
     def _take_selection(self, role):
-        names = [name for selected in Gui.Selection.getSelectionEx(self._document)
-                 if selected.Object == self.void.Part for name in selected.SubElementNames
-                 if name.startswith("Face")]
+        names = [name for part, faces in views.selected_faces(self._document) if part == self.void.Part
+                 for name in faces]
+        if not names:
+            self.free.setText(f"Select faces of {self.void.Part.Label} in the 3-D view first")
+            return
         self.roles[role].setText(", ".join(names))
         Gui.Selection.clearSelection()
         self._show_free_edges()

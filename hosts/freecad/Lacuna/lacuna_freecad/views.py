@@ -15,6 +15,18 @@ def icon(name):
     return os.path.join(ICONS, name + ".svg")
 
 
+def selected_faces(document=None):
+    """Parts that are selected, with the names of their selected faces. FreeCAD names the last feature of a body
+    when a face of the body is picked; the part is the body, which keeps its place when features are added."""
+    found = []
+    for selected in Gui.Selection.getSelectionEx(document or "*"):
+        body = selected.Object.getParentGeoFeatureGroup()
+        part = body if body and getattr(body, "Tip", None) == selected.Object else selected.Object
+        if hasattr(part, "Shape") and part.Shape.Faces:
+            found.append((part, [name for name in selected.SubElementNames if name.startswith("Face")]))
+    return found
+
+
 class FilledVoidView:
     def __init__(self, view):
         view.Proxy = self
