@@ -58,34 +58,8 @@ class Panel:
         self.form.setWindowTitle("Fill a void")
         self.form.setWindowIcon(QtGui.QIcon(views.icon("filled_void")))
         rows = QtGui.QVBoxLayout(self.form)
-
-        find = QtGui.QHBoxLayout()
-        self.find_button = self._button("Find", "Find the voids of the part, or the roles of the faces below",
-                                        self.find)
-        self.voids = QtGui.QComboBox()
-        self.voids.setMinimumWidth(60)
-        self.voids.setToolTip("The voids that were found; the faces of the chosen one are taken")
-        self.voids.activated.connect(self._take_void)
-        find.addWidget(self.find_button)
-        find.addWidget(self.voids, 1)
-        rows.addLayout(find)
-
-        grid = QtGui.QGridLayout()
-        self.roles = {}
-        meanings = {option[0]: option[4] for option in filled_void.OPTIONS}
-        for row, role in enumerate(convert.ROLES):
-            names = QtGui.QLineEdit(", ".join(convert.face_names(convert.face_numbers(getattr(self.void, role)))))
-            names.setMinimumWidth(60)
-            names.setObjectName(f"lacuna_{role}")
-            names.setToolTip(meanings[role])
-            names.textChanged.connect(self._show_free_edges)
-            self.roles[role] = names
-            take = self._button("Take", f"Take the faces that are selected in the 3-D view as {role.lower()}",
-                                lambda _=False, role=role: self._take_selection(role))
-            grid.addWidget(QtGui.QLabel(role), row, 0)
-            grid.addWidget(names, row, 1)
-            grid.addWidget(take, row, 2)
-        rows.addLayout(grid)
+        rows.addLayout(self._find_row())
+        rows.addLayout(self._role_rows())
         self.free = QtGui.QLabel()
         self.free.setObjectName("lacuna_free")
         self.free.setWordWrap(True)
@@ -101,29 +75,60 @@ class Panel:
         rest.setLayout(self._option_rows(lambda name: name not in FIRST))
         rest.hide()
         rows.addWidget(rest)
-
         self._shown = {name: self._value(name) for name in self.options}
 
-        progress = QtGui.QHBoxLayout()
-        self.bar = QtGui.QProgressBar()
-        self.bar.setRange(0, 1)
-        self.bar.setFormat("")
-        self.stop_button = self._button("Stop", "Stop the job; the document stays as it is", self.stop)
-        self.stop_button.setEnabled(False)
-        progress.addWidget(self.bar, 1)
-        progress.addWidget(self.stop_button)
-        rows.addLayout(progress)
+        rows.addLayout(self._progress_row())
         self.stage = QtGui.QLabel()
         self.stage.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Preferred)  # paths are long
         self.stage.hide()
         rows.addWidget(self.stage)
-
         self.report = QtGui.QTextBrowser()
         self.report.setToolTip("What was done. A click on a face selects it in the 3-D view")
         self.report.setMinimumSize(60, 120)
         self.report.setOpenLinks(False)
         self.report.anchorClicked.connect(lambda link: self._select([link.toString()]))
         rows.addWidget(self.report, 1)
+
+    def _find_row(self):
+        self.find_button = self._button("Find", "Find the voids of the part, or the roles of the faces below",
+                                        self.find)
+        self.voids = QtGui.QComboBox()
+        self.voids.setMinimumWidth(60)
+        self.voids.setToolTip("The voids that were found; the faces of the chosen one are taken")
+        self.voids.activated.connect(self._take_void)
+        row = QtGui.QHBoxLayout()
+        row.addWidget(self.find_button)
+        row.addWidget(self.voids, 1)
+        return row
+
+    def _role_rows(self):
+        self.roles = {}
+        meanings = {option[0]: option[4] for option in filled_void.OPTIONS}
+        grid = QtGui.QGridLayout()
+        for row, role in enumerate(convert.ROLES):
+            names = convert.face_names(convert.face_numbers(getattr(self.void, role)))
+            field = QtGui.QLineEdit(", ".join(names))
+            field.setMinimumWidth(60)
+            field.setObjectName(f"lacuna_{role}")
+            field.setToolTip(meanings[role])
+            field.textChanged.connect(self._show_free_edges)
+            self.roles[role] = field
+            take = self._button("Take", f"Take the faces that are selected in the 3-D view as {role.lower()}",
+                                lambda _=False, role=role: self._take_selection(role))
+            for column, widget in enumerate((QtGui.QLabel(role), field, take)):
+                grid.addWidget(widget, row, column)
+        return grid
+
+    def _progress_row(self):
+        self.bar = QtGui.QProgressBar()
+        self.bar.setRange(0, 1)
+        self.bar.setFormat("")
+        self.stop_button = self._button("Stop", "Stop the job; the document stays as it is", self.stop)
+        self.stop_button.setEnabled(False)
+        row = QtGui.QHBoxLayout()
+        row.addWidget(self.bar, 1)
+        row.addWidget(self.stop_button)
+        return row
 
     def _option_rows(self, wanted):
         rows = QtGui.QFormLayout()
