@@ -5,6 +5,7 @@
 #   lua-lacuna      the module for a stock lua5.4
 #   liblacuna0.1    recipes inside a host
 #   python3-lacuna  the package for Python
+#   freecad-lacuna  the workbench for FreeCAD
 #   liblacuna-dev   headers and static libraries of the kernel, headers of liblacuna
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME lacuna)
@@ -20,7 +21,7 @@ set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}")
-set(CPACK_COMPONENTS_ALL kernel cad program lua library library_dev python)
+set(CPACK_COMPONENTS_ALL kernel cad program lua library library_dev python freecad)
 
 set(so_package "liblacuna${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME lacuna)
@@ -40,13 +41,19 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "lacuna-cad, python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-meshio)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_FREECAD_PACKAGE_NAME freecad-lacuna)
+set(CPACK_DEBIAN_FREECAD_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_FREECAD_PACKAGE_DEPENDS
+  "python3-lacuna (= ${PROJECT_VERSION}), lacuna-cad (= ${PROJECT_VERSION}), freecad (>= 0.20)")
+set(CPACK_DEBIAN_FREECAD_PACKAGE_RECOMMENDS calculix-ccx)
+set(CPACK_DEBIAN_FREECAD_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME liblacuna-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${so_package} (= ${PROJECT_VERSION}), libeigen3-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
 
 include(CPack)
-foreach(component IN ITEMS program cad lua library python)
+foreach(component IN ITEMS program cad lua library python freecad)
   cpack_add_component(${component} GROUP ${component})
 endforeach()
 foreach(component IN ITEMS kernel library_dev)
@@ -57,4 +64,5 @@ cpack_add_component_group(cad DESCRIPTION "Reads and writes CAD for Lacuna, in a
 cpack_add_component_group(lua DESCRIPTION "Lacuna as a module for Lua 5.4.")
 cpack_add_component_group(library DESCRIPTION "Lacuna's recipes inside a program in C or C++.")
 cpack_add_component_group(python DESCRIPTION "Lacuna as a package for Python 3.")
+cpack_add_component_group(freecad DESCRIPTION "Lacuna as a workbench of FreeCAD.")
 cpack_add_component_group(dev DESCRIPTION "Headers and static libraries of Lacuna.")

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Lacuna in FreeCAD: filled voids as objects of a document."""
