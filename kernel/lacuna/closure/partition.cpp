@@ -182,7 +182,7 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
         const auto suits = [&](const StepPiece& piece) {
             return has_ends(piece.volume) && can_sweep(piece.volume);
         };
-        if (pieces && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
+        if (pieces && pieces->size() > 1 && std::ranges::all_of(*pieces, suits)) return std::move(*pieces);
     }
     return {};
 }
