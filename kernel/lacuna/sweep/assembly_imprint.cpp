@@ -119,11 +119,11 @@ struct SideOfPair {
     [[nodiscard]] Model& model() const { return volume->model; }
 };
 
-/// Make the point of a rim closest to `p` a vertex, if it is within the tolerance.
-void ensure_vertex(const SideOfPair& side, const Vec3& p, double within)
+/// Make the point of some edges closest to `p` a vertex, if it is within the tolerance.
+template <class Edges>
+void ensure_vertex(Model& model, const Edges& edges, const Vec3& p, double within)
 {
-    Model& model = side.model();
-    for (const EdgeId edge : rim_edges(model, side.face)) {
+    for (const EdgeId edge : edges) {
         const std::vector<Vec3> line = surface::edge_line(model, edge);
         const OnLine place = closest_on(line, p);
         const double length = geometry::length(line);
@@ -225,8 +225,8 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
         }
     }
     for (const Vec3& stop : stops) {
-        ensure_vertex(a, stop, within);
-        ensure_vertex(b, stop, within);
+        for (const SideOfPair* side : {&a, &b})
+            ensure_vertex(side->model(), rim_edges(side->model(), side->face), stop, within);
     }
     const std::vector<std::vector<Vec3>> onto_a = lines_across(b, a, within),
                                          onto_b = lines_across(a, b, within);
@@ -255,7 +255,42 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
     return parts;
 }
 
+/// Places on a face's rim where edges of other faces end.
+void add_ends_on_rim(const Model& model, FaceId face, std::vector<Vec3>& places)
+{
+    const std::set<EdgeId> rim = rim_edges(model, face);
+    std::set<VertexId> on_rim;
+    for (const EdgeId edge : rim) on_rim.insert({model[edge].from, model[edge].to});
+    for (const VertexId vertex : on_rim) {
+        bool ends = false;
+        for (std::size_t e = 0; e < model.edges.size() && !ends; ++e)
+            ends = !rim.contains(EdgeId(e)) && (model.edges[e].from == vertex || model.edges[e].to == vertex);
+        if (ends) places.push_back(model.at(model[vertex].point));
+    }
+}
+
 } // namespace
+
+void add_vertices_beside(std::span<OpenVolume> volumes, std::span<const AssemblyMember> members,
+                         std::span<const SharedFace> shared, const RunContext& context)
+{
+    std::vector<Vec3> places;
+    for (const SharedFace& face : shared) {
+        if (members[face.a].unswept == members[face.b].unswept) continue;
+        const bool first = members[face.a].unswept;
+        add_ends_on_rim(volumes[first ? face.a : face.b].model, first ? face.face_a : face.face_b, places);
+    }
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        if (members[m].unswept || members[m].fixed != nullptr) continue;
+        Model& model = volumes[m].model;
+        for (const Vec3& place : places) {
+            check_cancelled(context);
+            std::vector<EdgeId> edges;
+            for (std::size_t e = 0; e < model.edges.size(); ++e) edges.emplace_back(e);
+            ensure_vertex(model, edges, place, model.tolerance);
+        }
+    }
+}
 
 std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<const AssemblyMember> members,
                                        std::span<const PartlyShared> pairs, const RunContext& context)

@@ -63,7 +63,7 @@ struct MemberEdge {
 class Planner {
 public:
     Planner(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
-            const RunContext& context)
+            std::span<const std::pair<std::size_t, FaceId>> beside, const RunContext& context)
         : members_(members), shared_(shared), context_(context)
     {
         for (std::size_t m = 0; m < members.size(); ++m) {
@@ -74,6 +74,9 @@ public:
         first_.push_back(edges_.size());
         layers_.assign(members.size(), 1);
         for (const AssemblyMember& member : members) per_turn_.push_back(member.options.curvature);
+        for (const auto& [m, face] : beside)
+            for (const Loop& loop : border_loops(model(m), face))
+                for (const EdgeUse& use : loop.uses) beside_.insert(number(m, use.edge));
     }
 
     AssemblyPlan run()
@@ -159,6 +162,7 @@ private:
                 common_[order[i]] = common_[order[k]] = true;
             }
         }
+        for (const std::size_t e : beside_) common_[e] = true;
     }
 
     /// Join edges to which one sweep gives the same number of sides.
@@ -191,6 +195,11 @@ private:
                 if (line.line.uses.size() != 1) { // the sweep decides how many sides each edge gets
                     for (const EdgeUse& use : line.line.uses)
                         stacked_.insert(same_.find(number(m, use.edge)));
+                    const auto is_beside = [&](const EdgeUse& use) {
+                        return beside_.contains(number(m, use.edge));
+                    };
+                    if (std::ranges::any_of(line.line.uses, is_beside))
+                        stacks_[m].push_back(line.line.uses);
                     continue;
                 }
                 sides_[m].push_back(line.line.uses.front());
@@ -703,7 +712,57 @@ private:
                 sides, [&, m = m](const EdgeUse& side) { return common_[number(m, side.edge)]; });
             if (beside) plan.layers[m] = count_.at(classes_.find(number(m, sides.front().edge)));
         }
+        for (const auto& [m, lines] : stacks_) plan_stacks(m, lines, nodes, plan);
         return plan;
+    }
+
+    /// Layers of a member with side lines of several edges, at least one for each edge.
+    [[nodiscard]] int layers_of(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines) const
+    {
+        double layers = std::max(layers_asked(m), layers_[m]);
+        if (const auto sides = sides_.find(m); sides != sides_.end())
+            layers = count_.at(classes_.find(number(m, sides->second.front().edge)));
+        std::size_t most = 1;
+        for (const std::vector<EdgeUse>& line : lines) {
+            double wanted_here = 0;
+            for (const EdgeUse& use : line) wanted_here += wanted(edges_[number(m, use.edge)]);
+            if (!sides_.contains(m) && layers_asked(m) == 0) layers = std::max(layers, wanted_here);
+            most = std::max(most, line.size());
+        }
+        return std::max(static_cast<int>(std::lround(layers)), static_cast<int>(most));
+    }
+
+    /// Nodes of side lines of several edges, so that each vertex on them is one: where an edge of a skin that
+    /// is not swept ends on such a line, it needs one there.
+    void plan_stacks(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines,
+                     std::map<std::size_t, std::vector<Vec3>>& nodes, AssemblyPlan& plan)
+    {
+        const LayerSpec& spec = members_[m].options.layers;
+        if (!spec.heights.empty() || spec.bias != 1) return; // the user's heights hold
+        plan.layers[m] = layers_of(m, lines);
+        for (const std::vector<EdgeUse>& line : lines) {
+            std::vector<double> ends{0};
+            for (const EdgeUse& use : line) ends.push_back(ends.back() + edges_[number(m, use.edge)].length);
+            for (double& end : ends) end /= ends.back();
+            const std::vector<double> at = spread_between(ends, index(plan.layers[m]));
+            for (std::size_t u = 0; u < line.size(); ++u) {
+                const MemberEdge& edge = edges_[number(m, line[u].edge)];
+                const auto [found, fresh] = nodes.try_emplace(same_.find(number(m, line[u].edge)));
+                if (fresh) {
+                    std::vector<double> own;
+                    for (const double share : at)
+                        if (share >= ends[u] && share <= ends[u + 1])
+                            own.push_back((share - ends[u]) / (ends[u + 1] - ends[u]));
+                    if (line[u].reversed) reverse_heights(own);
+                    found->second = surface::edge_points(model(m), line[u].edge, own);
+                    for (Vec3* end : {&found->second.front(), &found->second.back()})
+                        *end = corner_at(*end, model(m).tolerance);
+                }
+                std::vector<Vec3> own = found->second;
+                turn(own, edge);
+                plan.nodes[m].push_back({line[u].edge, std::move(own)});
+            }
+        }
     }
 
     /// Edges on the rims of ends, and side lines; other edges on walls follow from these.
@@ -780,6 +839,9 @@ private:
         rows_; ///< for each set of same edges, in the direction of the first
     std::map<std::size_t, std::size_t> kept_one_;       ///< for each set of same edges, one with given nodes
     std::vector<bool> common_;                          ///< for each edge: other members have it too
+    std::set<std::size_t> beside_;                      ///< edges shared with members that are not swept
+    /// For each member: side lines of several edges, some of them shared with such members.
+    std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
     std::map<std::size_t, int> count_;                  ///< for each class
     std::vector<int> per_turn_, layers_;                ///< numbers required by each member's volume
@@ -798,9 +860,9 @@ private:
 } // namespace
 
 AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
-                           const RunContext& context)
+                           std::span<const std::pair<std::size_t, FaceId>> beside, const RunContext& context)
 {
-    return Planner(members, shared, context).run();
+    return Planner(members, shared, beside, context).run();
 }
 
 } // namespace lacuna::sweep
