@@ -27,12 +27,13 @@ namespace {
 
 constexpr const char* kPartOfFace = "assembly.part_of_face"; // code of an error
 
-/// The midpoint of the shortest connection of two chords; empty if they are parallel or too far apart.
+/// The midpoint of the shortest connection of two chords; empty if they are too far apart, or run along each
+/// other: where those cross is decided by rounding, and the vertex there would leave a side without length.
 std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double within)
 {
     const Vec3 u = b - a, v = d - c, w = c - a;
     const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), whole = uu * vv - uv * uv;
-    if (!(whole > kFileAccuracy * kFileAccuracy * uu * vv)) return std::nullopt;
+    if (!(whole > 4 * within * within * std::max(uu, vv))) return std::nullopt;
     const double s = (vv * w.dot(u) - uv * w.dot(v)) / whole, t = (uv * w.dot(u) - uu * w.dot(v)) / whole;
     const double slack_s = within / std::sqrt(uu), slack_t = within / std::sqrt(vv);
     if (s < -slack_s || s > 1 + slack_s || t < -slack_t || t > 1 + slack_t) return std::nullopt;
