@@ -41,6 +41,17 @@ std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const 
     return (p - q).norm() <= within ? std::optional<Vec3>((p + q) / 2) : std::nullopt;
 }
 
+/// The chords of a line that do not run along another line, by the index of their first points.
+std::vector<std::size_t> chords_off(const std::vector<Vec3>& line, const std::vector<Vec3>& other,
+                                    double within)
+{
+    const auto is_on = [&](const Vec3& p) { return closest_on(other, p).distance <= within; };
+    std::vector<std::size_t> off;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        if (!is_on(line[i]) || !is_on((line[i] + line[i + 1]) / 2) || !is_on(line[i + 1])) off.push_back(i);
+    return off;
+}
+
 /// A face of one volume that is cut along the rim of another.
 class FaceCutter {
 public:
@@ -219,8 +230,10 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
         const std::vector<Vec3> p = surface::edge_line(a.model(), e);
         for (const EdgeId f : rim_edges(b.model(), b.face)) {
             const std::vector<Vec3> q = surface::edge_line(b.model(), f);
-            for (std::size_t i = 0; i + 1 < p.size(); ++i)
-                for (std::size_t j = 0; j + 1 < q.size(); ++j)
+            // Where rims run along each other, chords meet at every point of theirs, but nothing crosses.
+            const std::vector<std::size_t> of_q = chords_off(q, p, within);
+            for (const std::size_t i : chords_off(p, q, within))
+                for (const std::size_t j : of_q)
                     if (const auto at = crossing(p[i], p[i + 1], q[j], q[j + 1], within))
                         stops.push_back(*at);
         }
