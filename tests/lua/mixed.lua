@@ -266,3 +266,83 @@ do
 end
 
 check.done()
+
+-- --- pieces side by side ------------------------------------------------------------------------------------
+
+-- An edge of a skin that is not swept ends within a side of a swept box, along the sweep or on its rim: the
+-- box has a node there.
+for _, sweep in ipairs { { "f5", "f6" }, { "f1", "f2" } } do
+  for _, height in ipairs { 0.15, 0.37, 0.5, 0.81 } do
+    local box = solid(cubes { { 0, 0, 0 } }):open_volume { source = sweep[1], target = sweep[2] }
+    local base = { { 1, 0, 0 }, { 1, 1, 0 }, { 1, 1, 1 }, { 1, 0, 1 }, { 1, 0, height } }
+    local apex, faces = { 2, 0.5, 0.5 }, { { base[5], base[4], base[3], base[2], base[1] } }
+    for k = 1, 5 do faces[k + 1] = { base[k], base[k % 5 + 1], apex } end
+    local cone = solid(faces):open_volume {}
+    local parts = lacuna.assembly { box, cone }
+    local mesh = parts:sweep { size = 0.4, fallback = "mixed" }
+    check_mesh(mesh, 1 + 1 / 3)
+    check.that(mesh.hexes >= 8 and mesh.tets > 0, mesh.hexes .. " hexahedra, " .. mesh.tets .. " tetrahedra")
+  end
+end
+
+--- A prism over a polygon, whose last `arc` sides are one round wall.
+local function prism(outline, arc, low, high)
+  local model, count = lacuna.model(), #outline
+  local function end_face(name, z, turned)
+    local points, cells = {}, {}
+    for k, p in ipairs(outline) do points[k] = { p[1], p[2], z } end
+    for k = 2, count - 1 do cells[k - 1] = turned and { 1, k + 1, k } or { 1, k, k + 1 } end
+    model:add_face { name = name, points = points, cells = cells }
+  end
+  local function wall(name, first, last)
+    local points, cells = {}, {}
+    for k = first, last + 1 do
+      local p = outline[(k - 1) % count + 1]
+      points[#points + 1] = { p[1], p[2], low }
+      points[#points + 1] = { p[1], p[2], high }
+    end
+    for k = 1, #points - 3, 2 do
+      cells[#cells + 1] = { k, k + 2, k + 3 }
+      cells[#cells + 1] = { k, k + 3, k + 1 }
+    end
+    model:add_face { name = name, points = points, cells = cells }
+  end
+  end_face("low", low, true)
+  end_face("high", high, false)
+  for k = 1, count - arc do wall("w" .. k, k, k) end
+  wall("round", count - arc + 1, count)
+  return model:open_volume { source = "low", target = "high" }
+end
+
+--- A half disc of radius 1 to the left of x = 0, and a rectangle to the right of it as far as `x`.
+local function half_disc(x, chords)
+  local outline = { { 0, -1 }, { x, -1 }, { x, 1 }, { 0, 1 } }
+  if x == 0 then outline = { { 0, -1 }, { 0, 1 } } end
+  for k = 1, chords - 1 do
+    local turn = math.pi * (0.5 + k / chords)
+    outline[#outline + 1] = { math.cos(turn), math.sin(turn) }
+  end
+  return outline
+end
+
+-- Rims that run along each other by the same chords get no vertex at each of them.
+do
+  local counts = {}
+  for _, chords in ipairs { 12, 96 } do
+    local below, above = prism(half_disc(2, chords), chords, 0, 1), prism(half_disc(0, chords), chords, 1, 2)
+    local mesh = lacuna.assembly { below, above }:sweep { size = 0.4 }
+    check.equal(mesh:quality().certified, true)
+    counts[#counts + 1] = mesh.hexes
+  end
+  check.that(counts[2] < 2 * counts[1], counts[1] .. " hexahedra, and " .. counts[2])
+end
+
+-- An arc that touches the rim of an end leaves a cusp there, whose cells are not flat.
+for _, size in ipairs { 0.1, 0.2 } do
+  local block = prism({ { -2, -1 }, { 2, -1 }, { 2, 1 }, { -2, 1 } }, 1, 0, 0.5)
+  local mesh = lacuna.assembly { block, prism(half_disc(2, 96), 96, 0.5, 1) }:sweep { size = size }
+  local quality = mesh:quality()
+  check.equal(quality.certified, true)
+  check.that(quality.min_scaled_jacobian > 0.1, ("size %g: least scaled Jacobian %g"):format(size,
+    quality.min_scaled_jacobian))
+end

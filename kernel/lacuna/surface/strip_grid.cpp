@@ -4,7 +4,9 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/harmonic.h>
+#include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/chain_nodes.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -111,9 +113,16 @@ private:
         return at_layer;
     }
 
-    /// Heights of a side line's nodes, shifted to where plain rings meet it.
+    /// Heights of a side line's nodes: those that its edges keep, or shifted to where plain rings meet it.
     [[nodiscard]] std::vector<double> line_heights(const Chain& chain) const
     {
+        if (chain.uses().size() > 1 && std::ranges::all_of(chain.uses(), [&](const EdgeUse& use) {
+                return model[use.edge].keeps_nodes;
+            })) {
+            std::vector<double> kept = geometry::arc_lengths(use_places(model, chain.uses()));
+            for (double& at : kept) at /= kept.back();
+            if (kept.size() == layers_ + 1) return kept;
+        }
         std::map<int, double> at_layer;
         for (std::size_t u = 1; u < chain.uses().size(); ++u) {
             const VertexId v = use_from(model, chain.uses()[u]);

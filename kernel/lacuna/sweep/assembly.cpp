@@ -87,7 +87,7 @@ public:
         set_aside();
         if (members_.empty()) return std::move(result_);
         before_ = members_before(members_, result_.shared);
-        plan_ = plan_assembly(members_, result_.shared, context_);
+        plan_ = plan_assembly(members_, result_.shared, beside_, context_);
         try {
             sweep_all();
         } catch (const MemberFailed& failed) {
@@ -178,6 +178,10 @@ private:
             refuse_partly_shared(found);
         }
         result_.shared = std::move(found.whole);
+        if (std::ranges::any_of(members_, &AssemblyMember::unswept)) {
+            copy_volumes();
+            add_vertices_beside(imprinted_, members_, result_.shared, context_);
+        }
         result_.near_misses = std::move(found.near);
         for (const NearMiss& miss : result_.near_misses) {
             notes_.push_back(miss.message.about("near miss").text());
@@ -208,6 +212,10 @@ private:
             return place[pair.a] == none || place[pair.b] == none;
         };
         std::ranges::copy_if(result_.shared, std::back_inserter(result_.beside), is_aside);
+        for (const SharedFace& face : result_.beside) {
+            if (place[face.a] != none) beside_.emplace_back(place[face.a], face.face_a);
+            if (place[face.b] != none) beside_.emplace_back(place[face.b], face.face_b);
+        }
         std::erase_if(result_.shared, is_aside);
         std::erase_if(result_.near_misses, is_aside);
         for (SharedFace& face : result_.shared) face.a = place[face.a], face.b = place[face.b];
@@ -250,7 +258,7 @@ private:
         result_.report.clear();
         made_beside_.clear();
         result_.shared = faces_in_common(members_, context_).whole;
-        plan_ = plan_assembly(members_, result_.shared, context_);
+        plan_ = plan_assembly(members_, result_.shared, beside_, context_);
         sweep_all();
     }
 
@@ -544,6 +552,7 @@ private:
 
     std::vector<AssemblyMember> members_;
     std::vector<OpenVolume> imprinted_; ///< the members' volumes, if faces had to be split
+    std::vector<std::pair<std::size_t, FaceId>> beside_; ///< faces shared with members that are not swept
     std::vector<std::string> notes_;    ///< lines of the report: imprints and near misses
     const RunContext& context_;
     AssemblyPlan plan_;

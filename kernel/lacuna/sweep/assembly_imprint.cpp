@@ -27,17 +27,29 @@ namespace {
 
 constexpr const char* kPartOfFace = "assembly.part_of_face"; // code of an error
 
-/// The midpoint of the shortest connection of two chords; empty if they are parallel or too far apart.
+/// The midpoint of the shortest connection of two chords; empty if they are too far apart, or run along each
+/// other: where those cross is decided by rounding, and the vertex there would leave a side without length.
 std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double within)
 {
     const Vec3 u = b - a, v = d - c, w = c - a;
     const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), whole = uu * vv - uv * uv;
-    if (!(whole > kFileAccuracy * kFileAccuracy * uu * vv)) return std::nullopt;
+    if (!(whole > 4 * within * within * std::max(uu, vv))) return std::nullopt;
     const double s = (vv * w.dot(u) - uv * w.dot(v)) / whole, t = (uv * w.dot(u) - uu * w.dot(v)) / whole;
     const double slack_s = within / std::sqrt(uu), slack_t = within / std::sqrt(vv);
     if (s < -slack_s || s > 1 + slack_s || t < -slack_t || t > 1 + slack_t) return std::nullopt;
     const Vec3 p = a + s * u, q = c + t * v;
     return (p - q).norm() <= within ? std::optional<Vec3>((p + q) / 2) : std::nullopt;
+}
+
+/// The chords of a line that do not run along another line, by the index of their first points.
+std::vector<std::size_t> chords_off(const std::vector<Vec3>& line, const std::vector<Vec3>& other,
+                                    double within)
+{
+    const auto is_on = [&](const Vec3& p) { return closest_on(other, p).distance <= within; };
+    std::vector<std::size_t> off;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        if (!is_on(line[i]) || !is_on((line[i] + line[i + 1]) / 2) || !is_on(line[i + 1])) off.push_back(i);
+    return off;
 }
 
 /// A face of one volume that is cut along the rim of another.
@@ -119,11 +131,11 @@ struct SideOfPair {
     [[nodiscard]] Model& model() const { return volume->model; }
 };
 
-/// Make the point of a rim closest to `p` a vertex, if it is within the tolerance.
-void ensure_vertex(const SideOfPair& side, const Vec3& p, double within)
+/// Make the point of some edges closest to `p` a vertex, if it is within the tolerance.
+template <class Edges>
+void ensure_vertex(Model& model, const Edges& edges, const Vec3& p, double within)
 {
-    Model& model = side.model();
-    for (const EdgeId edge : rim_edges(model, side.face)) {
+    for (const EdgeId edge : edges) {
         const std::vector<Vec3> line = surface::edge_line(model, edge);
         const OnLine place = closest_on(line, p);
         const double length = geometry::length(line);
@@ -218,15 +230,17 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
         const std::vector<Vec3> p = surface::edge_line(a.model(), e);
         for (const EdgeId f : rim_edges(b.model(), b.face)) {
             const std::vector<Vec3> q = surface::edge_line(b.model(), f);
-            for (std::size_t i = 0; i + 1 < p.size(); ++i)
-                for (std::size_t j = 0; j + 1 < q.size(); ++j)
+            // Where rims run along each other, chords meet at every point of theirs, but nothing crosses.
+            const std::vector<std::size_t> of_q = chords_off(q, p, within);
+            for (const std::size_t i : chords_off(p, q, within))
+                for (const std::size_t j : of_q)
                     if (const auto at = crossing(p[i], p[i + 1], q[j], q[j + 1], within))
                         stops.push_back(*at);
         }
     }
     for (const Vec3& stop : stops) {
-        ensure_vertex(a, stop, within);
-        ensure_vertex(b, stop, within);
+        for (const SideOfPair* side : {&a, &b})
+            ensure_vertex(side->model(), rim_edges(side->model(), side->face), stop, within);
     }
     const std::vector<std::vector<Vec3>> onto_a = lines_across(b, a, within),
                                          onto_b = lines_across(a, b, within);
@@ -255,7 +269,42 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
     return parts;
 }
 
+/// Places on a face's rim where edges of other faces end.
+void add_ends_on_rim(const Model& model, FaceId face, std::vector<Vec3>& places)
+{
+    const std::set<EdgeId> rim = rim_edges(model, face);
+    std::set<VertexId> on_rim;
+    for (const EdgeId edge : rim) on_rim.insert({model[edge].from, model[edge].to});
+    for (const VertexId vertex : on_rim) {
+        bool ends = false;
+        for (std::size_t e = 0; e < model.edges.size() && !ends; ++e)
+            ends = !rim.contains(EdgeId(e)) && (model.edges[e].from == vertex || model.edges[e].to == vertex);
+        if (ends) places.push_back(model.at(model[vertex].point));
+    }
+}
+
 } // namespace
+
+void add_vertices_beside(std::span<OpenVolume> volumes, std::span<const AssemblyMember> members,
+                         std::span<const SharedFace> shared, const RunContext& context)
+{
+    std::vector<Vec3> places;
+    for (const SharedFace& face : shared) {
+        if (members[face.a].unswept == members[face.b].unswept) continue;
+        const bool first = members[face.a].unswept;
+        add_ends_on_rim(volumes[first ? face.a : face.b].model, first ? face.face_a : face.face_b, places);
+    }
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        if (members[m].unswept || members[m].fixed != nullptr) continue;
+        Model& model = volumes[m].model;
+        for (const Vec3& place : places) {
+            check_cancelled(context);
+            std::vector<EdgeId> edges;
+            for (std::size_t e = 0; e < model.edges.size(); ++e) edges.emplace_back(e);
+            ensure_vertex(model, edges, place, model.tolerance);
+        }
+    }
+}
 
 std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<const AssemblyMember> members,
                                        std::span<const PartlyShared> pairs, const RunContext& context)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/union_find.h>
@@ -15,6 +16,7 @@
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/topology/shared/give_mesh.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <array>
@@ -63,7 +65,7 @@ struct MemberEdge {
 class Planner {
 public:
     Planner(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
-            const RunContext& context)
+            std::span<const std::pair<std::size_t, FaceId>> beside, const RunContext& context)
         : members_(members), shared_(shared), context_(context)
     {
         for (std::size_t m = 0; m < members.size(); ++m) {
@@ -74,11 +76,15 @@ public:
         first_.push_back(edges_.size());
         layers_.assign(members.size(), 1);
         for (const AssemblyMember& member : members) per_turn_.push_back(member.options.curvature);
+        for (const auto& [m, face] : beside)
+            for (const Loop& loop : border_loops(model(m), face))
+                for (const EdgeUse& use : loop.uses) beside_.insert(number(m, use.edge));
     }
 
     AssemblyPlan run()
     {
         find_same();
+        find_cusps();
         classes_ = same_;
         for (std::size_t m = 0; m < members_.size(); ++m) {
             check_cancelled(context_);
@@ -159,6 +165,46 @@ private:
                 common_[order[i]] = common_[order[k]] = true;
             }
         }
+        for (const std::size_t e : beside_) common_[e] = true;
+    }
+
+    /// Find corners of ends whose two edges leave them along one tangent, such as an arc and the line that
+    /// touches it: the quad there is flat unless its sides are long enough for the edges to part.
+    void find_cusps()
+    {
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            if (members_[m].fixed != nullptr) continue;
+            for (std::size_t f = 0; f < model(m).faces.size(); ++f) {
+                if (members_[m].volume->role[f] == Role::wall) continue;
+                for (const Loop& loop : border_loops(model(m), FaceId(f)))
+                    for (std::size_t u = 0; u < loop.uses.size() && loop.uses.size() > 1; ++u)
+                        find_cusp(m, FaceId(f), loop.uses[u], loop.uses[(u + 1) % loop.uses.size()]);
+            }
+        }
+    }
+    void find_cusp(std::size_t m, FaceId face, const EdgeUse& in, const EdgeUse& out)
+    {
+        const std::size_t a = number(m, in.edge), b = number(m, out.edge);
+        std::vector<Vec3> back = use_places(model(m), in), on = use_places(model(m), out);
+        std::ranges::reverse(back);
+        const std::vector<double> back_at = geometry::arc_lengths(back), on_at = geometry::arc_lengths(on);
+        const double most = std::max(back_at.back(), on_at.back()) / 2;
+        const Vec3 normal = face_area_vector(model(m), face);
+        const auto is_flat = [&](double length) {
+            const Vec3 p = geometry::point_at(back, back_at, std::min(length, back_at.back())) - back.front(),
+                       q = geometry::point_at(on, on_at, std::min(length, on_at.back())) - on.front();
+            const Vec3 across = q.cross(p);
+            return p.dot(q) > 0 && across.dot(normal) >= 0 &&
+                   across.norm() < kFlatQuad * p.norm() * q.norm();
+        };
+        if (is_flat(most) || !is_flat(std::min(back_at[1], on_at[1]))) return;
+        double low = 0, high = most;
+        for (int round = 0; round < kRounds; ++round) (is_flat((low + high) / 2) ? low : high) = (low + high) / 2;
+        for (const auto& [e, end] : {std::pair(a, !in.reversed), std::pair(b, out.reversed)}) {
+            double& first = cusps_[same_.find(e)][end == runs_along(e) ? 1 : 0];
+            first = std::max(first, high);
+            common_[e] = true;
+        }
     }
 
     /// Join edges to which one sweep gives the same number of sides.
@@ -191,6 +237,11 @@ private:
                 if (line.line.uses.size() != 1) { // the sweep decides how many sides each edge gets
                     for (const EdgeUse& use : line.line.uses)
                         stacked_.insert(same_.find(number(m, use.edge)));
+                    const auto is_beside = [&](const EdgeUse& use) {
+                        return beside_.contains(number(m, use.edge));
+                    };
+                    if (std::ranges::any_of(line.line.uses, is_beside))
+                        stacks_[m].push_back(line.line.uses);
                     continue;
                 }
                 sides_[m].push_back(line.line.uses.front());
@@ -648,7 +699,22 @@ private:
         }
         if (const auto found = rows_.find(same_.find(e)); found != rows_.end())
             at = with_rows(found->second, edge.length, runs_along(e), count);
+        else if (const auto cusp = cusps_.find(same_.find(e)); cusp != cusps_.end())
+            at = with_cusps(cusp->second, edge.length, runs_along(e), std::move(at));
         return surface::edge_points(model(edge.member), edge.edge, at);
+    }
+    /// Move the nodes next to cusps away from them, and those between in proportion.
+    static std::vector<double> with_cusps(const std::array<double, 2>& ends, double length, bool along,
+                                          std::vector<double> at)
+    {
+        if (at.size() < 3) return at;
+        const double low = std::max(at[1], ends[along ? 0 : 1] / length),
+                     high = std::min(at[at.size() - 2], 1 - ends[along ? 1 : 0] / length);
+        if (!(low < high) && at.size() > 3) return at;
+        const double first = at[1], last = at[at.size() - 2];
+        for (std::size_t i = 1; i + 1 < at.size(); ++i)
+            at[i] = last > first ? low + (at[i] - first) / (last - first) * (high - low) : low + high - at[i];
+        return at;
     }
     /// Node positions as shares of an edge's length: the rows at its ends, and uniform sides between.
     static std::vector<double> with_rows(const std::array<RowsHere, 2>& ends, double length, bool along,
@@ -703,7 +769,57 @@ private:
                 sides, [&, m = m](const EdgeUse& side) { return common_[number(m, side.edge)]; });
             if (beside) plan.layers[m] = count_.at(classes_.find(number(m, sides.front().edge)));
         }
+        for (const auto& [m, lines] : stacks_) plan_stacks(m, lines, nodes, plan);
         return plan;
+    }
+
+    /// Layers of a member with side lines of several edges, at least one for each edge.
+    [[nodiscard]] int layers_of(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines) const
+    {
+        double layers = std::max(layers_asked(m), layers_[m]);
+        if (const auto sides = sides_.find(m); sides != sides_.end())
+            layers = count_.at(classes_.find(number(m, sides->second.front().edge)));
+        std::size_t most = 1;
+        for (const std::vector<EdgeUse>& line : lines) {
+            double wanted_here = 0;
+            for (const EdgeUse& use : line) wanted_here += wanted(edges_[number(m, use.edge)]);
+            if (!sides_.contains(m) && layers_asked(m) == 0) layers = std::max(layers, wanted_here);
+            most = std::max(most, line.size());
+        }
+        return std::max(static_cast<int>(std::lround(layers)), static_cast<int>(most));
+    }
+
+    /// Nodes of side lines of several edges, so that each vertex on them is one: where an edge of a skin that
+    /// is not swept ends on such a line, it needs one there.
+    void plan_stacks(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines,
+                     std::map<std::size_t, std::vector<Vec3>>& nodes, AssemblyPlan& plan)
+    {
+        const LayerSpec& spec = members_[m].options.layers;
+        if (!spec.heights.empty() || spec.bias != 1) return; // the user's heights hold
+        plan.layers[m] = layers_of(m, lines);
+        for (const std::vector<EdgeUse>& line : lines) {
+            std::vector<double> ends{0};
+            for (const EdgeUse& use : line) ends.push_back(ends.back() + edges_[number(m, use.edge)].length);
+            for (double& end : ends) end /= ends.back();
+            const std::vector<double> at = spread_between(ends, index(plan.layers[m]));
+            for (std::size_t u = 0; u < line.size(); ++u) {
+                const MemberEdge& edge = edges_[number(m, line[u].edge)];
+                const auto [found, fresh] = nodes.try_emplace(same_.find(number(m, line[u].edge)));
+                if (fresh) {
+                    std::vector<double> own;
+                    for (const double share : at)
+                        if (share >= ends[u] && share <= ends[u + 1])
+                            own.push_back((share - ends[u]) / (ends[u + 1] - ends[u]));
+                    if (line[u].reversed) reverse_heights(own);
+                    found->second = surface::edge_points(model(m), line[u].edge, own);
+                    for (Vec3* end : {&found->second.front(), &found->second.back()})
+                        *end = corner_at(*end, model(m).tolerance);
+                }
+                std::vector<Vec3> own = found->second;
+                turn(own, edge);
+                plan.nodes[m].push_back({line[u].edge, std::move(own)});
+            }
+        }
     }
 
     /// Edges on the rims of ends, and side lines; other edges on walls follow from these.
@@ -780,6 +896,11 @@ private:
         rows_; ///< for each set of same edges, in the direction of the first
     std::map<std::size_t, std::size_t> kept_one_;       ///< for each set of same edges, one with given nodes
     std::vector<bool> common_;                          ///< for each edge: other members have it too
+    /// For each set of same edges: least length of the first side at both ends [model length].
+    std::map<std::size_t, std::array<double, 2>> cusps_;
+    std::set<std::size_t> beside_;                      ///< edges shared with members that are not swept
+    /// For each member: side lines of several edges, some of them shared with such members.
+    std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
     std::map<std::size_t, int> count_;                  ///< for each class
     std::vector<int> per_turn_, layers_;                ///< numbers required by each member's volume
@@ -798,9 +919,9 @@ private:
 } // namespace
 
 AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
-                           const RunContext& context)
+                           std::span<const std::pair<std::size_t, FaceId>> beside, const RunContext& context)
 {
-    return Planner(members, shared, context).run();
+    return Planner(members, shared, beside, context).run();
 }
 
 } // namespace lacuna::sweep

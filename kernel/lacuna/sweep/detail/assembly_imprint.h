@@ -26,4 +26,11 @@ std::vector<std::string> imprint_faces(std::span<topology::OpenVolume> volumes,
                                        std::span<const AssemblyMember> members,
                                        std::span<const PartlyShared> pairs, const RunContext& context);
 
+/// Give swept members a vertex wherever an edge of a member that is not swept ends on the rim of a face that
+/// both share: the mesh of the face then has a node there, as the skin beside it needs.
+/// @param volumes  copies of the members' volumes, changed; no face gets another id.
+/// @note  O(vertices of shared rims × points of the edges of all members).
+void add_vertices_beside(std::span<topology::OpenVolume> volumes, std::span<const AssemblyMember> members,
+                         std::span<const SharedFace> shared, const RunContext& context);
+
 } // namespace lacuna::sweep

@@ -4,7 +4,9 @@
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/topology/shared/give_mesh.h>
 
+#include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lacuna::sweep {
@@ -22,11 +24,14 @@ struct AssemblyPlan {
 /// the requested number, otherwise the largest number that one of its edges needs by the size. If an end with
 /// only shared edges has an odd total of sides, its longest class gets one more. Nodes are evenly spaced;
 /// those of side lines follow the layers, and where rows of boundary layers end on an edge, nodes lie at the
-/// rows' heights.
+/// rows' heights. Edges of faces that a member shares with one that is not swept get their nodes as shared
+/// edges do, and side lines on such faces have a node at each of their vertices.
+/// @param beside  these faces: index of the member, and its face.
 /// @throw NotSweepable "assembly.layers"  different numbers of layers requested in members whose side lines
 ///        are in one class; "assembly.layers_differ"  different rows of two members that end on one edge;
 ///        "assembly.layers_rows"  more rows on an edge than it has sides. Names them.
 AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
+                           std::span<const std::pair<std::size_t, FaceId>> beside = {},
                            const RunContext& context = {});
 
 } // namespace lacuna::sweep
