@@ -4,6 +4,7 @@
 -- In .luarc.json: { "workspace.library": ["<where this file lies>"] }.
 
 ---@alias lacuna.Vector { [1]: number, [2]: number, [3]: number } x, y, z [model length]
+---@alias lacuna.Thickness number|fun(x: number, y: number, z: number): number [model length]
 ---@alias lacuna.Class "I"|"II"|"III"|"IV"|"V"|"closed"
 
 --- A face, its tag, its name, a selector, or an array of those.
@@ -58,9 +59,23 @@
 ---@field faces? lacuna.FaceRefs instead of roles: these faces make the volume, and their roles are found
 ---@field reading? integer with roles to be found: which of the voids that were found, from 1
 ---@field full_turn? boolean the walls are a ring, swept round its whole turn; no ends; default false
+---@field along? lacuna.Along with a source alone: the path along which it is swept
 ---@field class? lacuna.Class override
 ---@field name? string what the cells are called: their group, set or property in files; default "volume"
 ---@field material? string|integer of the cells, in decks; default: as the elements beside them
+
+--- One of vector, axis, path, helix, normals and to.
+---@class lacuna.Along
+---@field vector? lacuna.Vector straight
+---@field axis? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and direction, turned round by `angle`
+---@field angle? number of a turn round `axis`, up to 360 either way [degrees]
+---@field path? lacuna.Vector[]|integer[]|fun(t: number): lacuna.Vector points with corners, tags of edges, or a smooth curve for t from 0 to 1
+---@field frame? "minimal"|"fixed" with `path`: whether the source turns with it; default "minimal"
+---@field helix? { [1]: lacuna.Vector, [2]: lacuna.Vector, [3]: number, [4]: number } point, direction, pitch and turns; negative turns: left-handed
+---@field normals? lacuna.Thickness|{ [1]: lacuna.Thickness, [2]: lacuna.Thickness } thickness along the source's normals, or { inside, outside }
+---@field to? lacuna.FaceRef along the source's mean normal onto this face
+---@field twist? number|fun(height: number): number of the target, or at heights from 0 to 1 [degrees]
+---@field scale? number|fun(height: number): number of the target, or at heights from 0 to 1
 
 ---@class lacuna.MatchOptions
 ---@field vertices? { [1]: integer, [2]: integer }[] tags: source, target
@@ -164,7 +179,7 @@
 ---@field title? string default the name of the mesh and its counts
 
 ---@class lacuna.Classification
----@field class lacuna.Class
+---@field class lacuna.Class|"0"
 ---@field free_loops integer
 ---@field wall_free_source integer[] tags of vertices on no wall
 ---@field wall_free_target integer[]
@@ -323,7 +338,7 @@ function Model:picture(path, options) end
 ---@field auto? boolean where pieces result that can be swept: planes beside concave edges, or blocks at the vertices
 
 ---@class lacuna.Volume
----@field class lacuna.Class as the volume was given
+---@field class lacuna.Class|"0" as the volume was given
 local Volume = {}
 ---@return lacuna.Classification
 function Volume:classify() end

@@ -4,10 +4,13 @@
 #include "bindings/faces.h"
 #include "bindings/names.h"
 
+#include <lacuna/core/error.h>
 #include <lacuna/fill/describe.h>
 
 #include <cctype>
+#include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <utility>
 
 namespace lacuna::lua {
@@ -25,6 +28,8 @@ const Word<VolumeClass> kClasses[] = {
 
 struct RoleArguments : fill::RoleRequest {
     const Box<ModelState>* model = nullptr; ///< held by the call
+    int functions = 0;                      ///< index of a table that keeps functions for the call
+    Box<ModelState> of;                     ///< the model of the face that `along` leads to
 };
 
 template <auto List>
@@ -72,6 +77,241 @@ void read_material(lua_State* L, int index, const Where& where, RoleArguments& a
     guard(L, [&] { arguments.material = name; });
 }
 
+// --- along ----------------------------------------------------------------------------------------------
+
+using closure::Along;
+
+/// Calls a recipe's function, kept in a table on the stack, on the thread that called open_volume().
+struct Function {
+    lua_State* state;
+    int table;
+    lua_Integer number;
+
+    /// Leaves `count` results on the stack.
+    void call(std::initializer_list<double> arguments, int count) const
+    {
+        if (!lua_checkstack(state, 8)) throw Error("lua.function", "the stack of the recipe is full");
+        lua_rawgeti(state, table, number);
+        for (const double argument : arguments) lua_pushnumber(state, argument);
+        if (lua_pcall(state, static_cast<int>(arguments.size()), count, 0) == LUA_OK) return;
+        keep_callback_error(state);
+        throw CallbackFailed{};
+    }
+    /// A result that is no number is not a number to the kernel either, which refuses it.
+    [[nodiscard]] double take(int index) const
+    {
+        return lua_type(state, index) == LUA_TNUMBER ? lua_tonumber(state, index) : std::nan("");
+    }
+    [[nodiscard]] double value(std::initializer_list<double> arguments) const
+    {
+        call(arguments, 1);
+        const double result = take(-1);
+        lua_pop(state, 1);
+        return result;
+    }
+    /// Three numbers, or a table of them.
+    [[nodiscard]] Vec3 point(double at) const
+    {
+        call({at}, 3);
+        const int top = lua_gettop(state);
+        if (lua_type(state, top - 2) == LUA_TTABLE)
+            for (int i = 1; i <= 3; ++i) lua_rawgeti(state, top - 2, i);
+        const Vec3 result(take(-3), take(-2), take(-1));
+        lua_settop(state, top - 3);
+        return result;
+    }
+};
+
+Function keep_function(lua_State* L, int index, const RoleArguments& arguments)
+{
+    const auto number = static_cast<lua_Integer>(lua_rawlen(L, arguments.functions)) + 1;
+    lua_pushvalue(L, index);
+    lua_rawseti(L, arguments.functions, number);
+    return {L, arguments.functions, number};
+}
+
+struct AlongArguments {
+    RoleArguments* roles = nullptr;
+    const char* course = nullptr; ///< the option that gives the path
+    Along along;
+    std::optional<double> angle;
+    std::optional<bool> fixed;
+};
+
+/// The path of an option; there is one.
+template <class Course>
+Course& set_course(lua_State* L, const Where& where, AlongArguments& arguments)
+{
+    if (arguments.course != nullptr)
+        fail_option(L, where, "is one path, and '%s' is another; give one of them", arguments.course);
+    arguments.course = where.key;
+    guard(L, [&] { arguments.along.course.emplace<Course>(); });
+    return *std::get_if<Course>(&arguments.along.course);
+}
+
+/// Pushes element `place` of the array at `index`. @return  its index
+int push_element(lua_State* L, int index, int place)
+{
+    lua_rawgeti(L, index, place);
+    return lua_gettop(L);
+}
+
+void read_along_vector(lua_State* L, int index, const Where& where, AlongArguments& arguments)
+{
+    set_course<Along::Vector>(L, where, arguments).way = read_vector(L, index, where);
+}
+
+void read_along_axis(lua_State* L, int index, const Where& where, AlongArguments& arguments)
+{
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2)
+        fail_value(L, where, "an axis { point, direction }, as { { 0, 0, 0 }, { 0, 0, 1 } }", index);
+    auto& axis = set_course<Along::Axis>(L, where, arguments);
+    axis.point = read_vector(L, push_element(L, index, 1), where);
+    axis.direction = read_vector(L, push_element(L, index, 2), where);
+}
+
+void read_along_helix(lua_State* L, int index, const Where& where, AlongArguments& arguments)
+{
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 4)
+        fail_value(L, where, "a helix { point, direction, pitch, turns }", index);
+    auto& helix = set_course<Along::Helix>(L, where, arguments);
+    helix.point = read_vector(L, push_element(L, index, 1), where);
+    helix.direction = read_vector(L, push_element(L, index, 2), where);
+    helix.pitch = read_number(L, push_element(L, index, 3), where);
+    helix.turns = read_number(L, push_element(L, index, 4), where);
+}
+
+/// A function, an array of points or an array of tags of edges.
+void read_along_path(lua_State* L, int index, const Where& where, AlongArguments& arguments)
+{
+    const char* const expected = "an array of points {x, y, z}, an array of tags of edges or a function(t) "
+                                 "that returns x, y, z";
+    auto& path = set_course<Along::Path>(L, where, arguments);
+    if (lua_type(L, index) == LUA_TFUNCTION) {
+        const Function function = keep_function(L, index, *arguments.roles);
+        guard(L, [&] { path.curve = [function](double at) { return function.point(at); }; });
+        return;
+    }
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) == 0) fail_value(L, where, expected, index);
+    const bool edges = lua_type(L, push_element(L, index, 1)) == LUA_TNUMBER;
+    lua_pop(L, 1);
+    const std::size_t size = lua_rawlen(L, index);
+    guard(L, [&] { edges ? path.edges.resize(size) : path.points.resize(size); });
+    std::size_t next = 0;
+    read_array(L, index, where, expected, [&](int element, const Where& at) {
+        if (edges)
+            path.edges[next++] = read_whole(L, element, at, 0);
+        else
+            path.points[next++] = read_vector(L, element, at);
+    });
+}
+
+/// A number or a function(x, y, z).
+void read_thickness(lua_State* L, int index, const Where& where, AlongArguments& arguments,
+                    std::function<double(const Vec3&)>& thickness)
+{
+    if (lua_type(L, index) == LUA_TFUNCTION) {
+        const Function function = keep_function(L, index, *arguments.roles);
+        guard(L, [&] {
+            thickness = [function](const Vec3& p) { return function.value({p.x(), p.y(), p.z()}); };
+        });
+        return;
+    }
+    if (lua_type(L, index) != LUA_TNUMBER)
+        fail_value(L, where, "a number or a function(x, y, z) that returns one", index);
+    const double number = read_number(L, index, where);
+    guard(L, [&] { thickness = [number](const Vec3&) { return number; }; });
+}
+
+void read_along_normals(lua_State* L, int index, const Where& where, AlongArguments& arguments)
+{
+    auto& normals = set_course<Along::Normals>(L, where, arguments);
+    if (lua_type(L, index) != LUA_TTABLE) {
+        read_thickness(L, index, where, arguments, normals.outside);
+        return;
+    }
+    if (lua_rawlen(L, index) != 2) fail_value(L, where, "a thickness or two, { inside, outside }", index);
+    read_thickness(L, push_element(L, index, 1), where, arguments, normals.inside);
+    read_thickness(L, push_element(L, index, 2), where, arguments, normals.outside);
+}
+
+void read_along_to(lua_State* L, int index, const Where& where, AlongArguments& arguments)
+{
+    auto& to = set_course<Along::ToFace>(L, where, arguments);
+    RoleArguments& roles = *arguments.roles;
+    if (const Box<FaceHandle>* const handle = test_box<FaceHandle>(L, index); handle != nullptr && *handle) {
+        guard(L, [&] {
+            roles.of = (*handle)->model;
+            to.face = face_of(**handle);
+        });
+    } else {
+        auto& faces = temporary<std::vector<FaceId>>(L);
+        read_faces(L, index, where, *roles.model, faces);
+        if (faces.size() != 1) fail_option(L, where, "means several faces; give one");
+        guard(L, [&] { roles.of = *roles.model; });
+        to.face = faces.front();
+    }
+    to.model = &roles.of->model;
+}
+
+template <auto Profile>
+void read_profile(lua_State* L, int index, const Where& where, AlongArguments& arguments)
+{
+    if (lua_type(L, index) == LUA_TFUNCTION) {
+        const Function function = keep_function(L, index, *arguments.roles);
+        guard(L, [&] {
+            (arguments.along.*Profile).emplace().at = [function](double height) {
+                return function.value({height});
+            };
+        });
+    } else if (lua_type(L, index) == LUA_TNUMBER) {
+        (arguments.along.*Profile).emplace().last = read_number(L, index, where);
+    } else {
+        fail_value(L, where, "a number or a function of the height", index);
+    }
+}
+
+void read_angle(lua_State* L, int index, const Where& where, AlongArguments& arguments)
+{
+    arguments.angle = read_number(L, index, where);
+}
+
+const Word<bool> kFrames[] = {{"minimal", false}, {"fixed", true}};
+
+const Option<AlongArguments> kAlongOptions[] = {
+    {"vector", read_along_vector},
+    {"axis", read_along_axis},
+    {"angle", read_angle},
+    {"path", read_along_path},
+    {"frame", word<&AlongArguments::fixed, kFrames>},
+    {"helix", read_along_helix},
+    {"normals", read_along_normals},
+    {"to", read_along_to},
+    {"twist", read_profile<&Along::twist>},
+    {"scale", read_profile<&Along::scale>},
+};
+
+void read_along(lua_State* L, int index, const Where& where, RoleArguments& roles)
+{
+    if (lua_type(L, index) != LUA_TTABLE)
+        fail_value(L, where, "a table with a path, as { vector = { 0, 0, 1 } }", index);
+    auto& arguments = temporary<AlongArguments>(L);
+    arguments.roles = &roles;
+    read_options(L, index, "open_volume: along", kAlongOptions, arguments);
+    if (arguments.course == nullptr)
+        fail_option(L, where, "has no path: give 'vector', 'axis', 'path', 'helix', 'normals' or 'to'");
+    auto* const axis = std::get_if<Along::Axis>(&arguments.along.course);
+    auto* const path = std::get_if<Along::Path>(&arguments.along.course);
+    if ((axis == nullptr) != !arguments.angle)
+        fail_option(L, where,
+                    axis ? "has no 'angle' of the turn: { axis = { point, direction }, angle = 90 }"
+                         : "has an 'angle' without an 'axis'");
+    if (path == nullptr && arguments.fixed) fail_option(L, where, "has a 'frame' without a 'path'");
+    if (axis != nullptr) axis->angle = *arguments.angle;
+    if (path != nullptr) path->fixed = arguments.fixed.value_or(false);
+    guard(L, [&] { roles.along = std::move(arguments.along); });
+}
+
 const Option<RoleArguments> kRoleOptions[] = {
     {"source", read_role<&topology::Roles::source>},
     {"target", read_role<&topology::Roles::target>},
@@ -82,16 +322,21 @@ const Option<RoleArguments> kRoleOptions[] = {
     {"full_turn", boolean<&RoleArguments::full_turn>},
     {"name", read_name},
     {"material", read_material},
+    {"along", read_along},
 };
 
 /// volume = model:open_volume { source=, target=, walls= [, class=] [, name=] [, material=] }
+/// volume = model:open_volume { source=, along= }
 /// volume = model:open_volume { faces= [, reading=] }, or of all faces: their roles are found
 int open_volume(lua_State* L)
 {
     lua_settop(L, 2);
     const Box<ModelState>& model = hold_model(L, 1);
+    lua_newtable(L);
+    const int functions = lua_gettop(L);
     auto& arguments = temporary<RoleArguments>(L);
     arguments.model = &model;
+    arguments.functions = functions;
     read_options(L, 2, "open_volume", kRoleOptions, arguments);
     const fill::RoleRequest& request = arguments;
     if (request.roles && request.faces)
@@ -108,6 +353,8 @@ int open_volume(lua_State* L)
     auto& box = new_box<VolumeState>(L);
     guard(L, [&] {
         box = std::make_shared<VolumeState>();
+        arguments.decks = model->decks;
+        arguments.scale = model->scale;
         *box = fill::open(model->model, request, context);
         box->decks = model->decks;
         box->scale = model->scale;

@@ -74,7 +74,7 @@ class Cavity(Table):
 
 
 class Classification(Table):
-    """class_: "I" | "II" | "III" | "IV" | "V" | "closed"
+    """class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"
     free_loops: int
     wall_free_source: list[int]; tags of vertices on no wall
     wall_free_target: list[int]
@@ -285,9 +285,24 @@ class Model(Shown):
             volume, and their roles are found
         reading: int; with roles to be found: which of the voids that were found, from 1
         full_turn: bool; the walls are a ring, swept round its whole turn; no ends; default False
+        along: dict; with a source alone: the path along which it is swept
         class_: "I" | "II" | "III" | "IV" | "V" | "closed"; override
         name: str; what the cells are called: their group, set or property in files; default "volume"
         material: str | int; of the cells, in decks; default: as the elements beside them
+
+        A dict for `along` has:
+        vector: (x, y, z); straight
+        axis: list[(x, y, z)]; point and direction, turned round by `angle`
+        angle: float; of a turn round `axis`, up to 360 either way [degrees]
+        path: list[(x, y, z)] | numpy.ndarray | list[int] | Callable[[float], (x, y, z)]; points with corners,
+            tags of edges, or a smooth curve for t from 0 to 1
+        frame: "minimal" | "fixed"; with `path`: whether the source turns with it; default "minimal"
+        helix: list[(x, y, z) | float]; point, direction, pitch and turns; negative turns: left-handed
+        normals: float | Callable[[float, float, float], float] | list[float | Callable[[float, float, float],
+            float]]; thickness along the source's normals, or { inside, outside }
+        to: Face | int | str | dict; along the source's mean normal onto this face
+        twist: float | Callable[[float], float]; of the target, or at heights from 0 to 1 [degrees]
+        scale: float | Callable[[float], float]; of the target, or at heights from 0 to 1
         """
         return self._method("open_volume", options_of(roles, keywords))
 

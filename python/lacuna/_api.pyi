@@ -14,6 +14,7 @@ class OtherMesh(Protocol):  # of meshio or PyVista
 
 Path = Union[str, os.PathLike[str]]
 Vector = Union[Sequence[float], numpy.ndarray]
+Thickness = Union[float, Callable[[float, float, float], float]]
 Class = Union[Literal["I", "II", "III", "IV", "V", "closed"]]
 FaceRef = Union[Face, int, str, Mapping[str, Any]]
 FaceRefs = Union[FaceRef, Iterable[FaceRef]]
@@ -59,7 +60,7 @@ class Cavity(Table):
     class_: Class
     volume: float
 class Classification(Table):
-    class_: Class
+    class_: Class | Literal["0"]
     free_loops: int
     wall_free_source: list[int]
     wall_free_target: list[int]
@@ -154,7 +155,8 @@ class Model(Shown):
             self, roles: Mapping[str, Any] | None = None, /, *, source: FaceRefs | None = ...,
             target: FaceRefs | None = ..., walls: FaceRefs | Literal["auto"] | None = ...,
             faces: FaceRefs | None = ..., reading: int | None = ..., full_turn: bool | None = ...,
-            class_: Class | None = ..., name: str | None = ..., material: str | int | None = ...,
+            along: Mapping[str, Any] | None = ..., class_: Class | None = ..., name: str | None = ...,
+            material: str | int | None = ...,
     ) -> Volume: ...
     def describe(self) -> str: ...
     def info(self) -> ModelInfo: ...
@@ -197,7 +199,7 @@ class Face(AnyFace):
     def neighbours(self) -> list[int]: ...
 class Volume(Shown):
     @property
-    def class_(self) -> Class: ...
+    def class_(self) -> Class | Literal["0"]: ...
     def classify(self) -> Classification: ...
     def override_class(self, class_: Class) -> Volume: ...
     def match(

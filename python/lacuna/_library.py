@@ -387,12 +387,14 @@ class Interpreter:
         try:
             function = job.callables[int(arguments[0])]
             value = function(*arguments[1:count])
+            values = value if isinstance(value, (tuple, list)) and len(value) <= room else (value,)
             try:
-                results[0] = value
+                for number, one in enumerate(values):
+                    results[number] = one
             except TypeError:
                 name = getattr(function, "__name__", function)
                 raise TypeError(f"the function {name} has to return a number, found {value!r}") from None
-            return 1
+            return len(values)
         except BaseException as error:  # goes on in the caller
             job.error = error
             return -1

@@ -2,6 +2,8 @@
 #include "sealing_checks.h"
 #include "support/cancelling.h"
 
+#include <lacuna/closure/shared/along.h>
+
 #include <chrono>
 
 using namespace lacuna;
@@ -28,6 +30,22 @@ TEST_CASE("matching and closing heed a cancel in every class")
         CHECK(test::heeds_cancel(
             [&](const RunContext& context) { closure::close(volume, match, {}, context); }));
     }
+}
+
+TEST_CASE("a source along a path heeds a cancel, and stops within half a second")
+{
+    const OpenVolume source =
+        test::prism({.sides = 4, .cuts = 40, .drop = without(false, true, true)}).open();
+    const closure::Along along{closure::Along::Helix{Vec3(4, 0, 0), Vec3(0, 1, 0), 4, 5}, {}, {}};
+    const auto seal = [&](const RunContext& context) {
+        closure::close_along(closure::swept_source(source.model, source, along, context), {}, context);
+    };
+    CHECK(test::heeds_cancel(seal));
+    const auto seconds = test::stops_within(std::chrono::milliseconds(30), [&](const RunContext& context) {
+        for (;;) seal(context);
+    });
+    REQUIRE(seconds);
+    CHECK(*seconds < 0.5);
 }
 
 TEST_CASE("matching many loops stops within half a second")

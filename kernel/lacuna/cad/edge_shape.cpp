@@ -4,6 +4,7 @@
 #include <lacuna/cad/detail/spline_patch.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/geometry/shared/segment.h>
+#include <lacuna/geometry/shared/swept_surface.h>
 
 #include <algorithm>
 
@@ -20,6 +21,15 @@ bool collinear(std::span<const Vec3> points, double tolerance)
 {
     return std::ranges::all_of(points, [&](const Vec3& p) {
         return geometry::distance_to_segment(p, points.front(), points.back()) <= tolerance;
+    });
+}
+
+/// Whether a void edge is a polyline of a source, moved along a path with all its kinks.
+bool is_moved_polyline(const Model& model, EdgeId edge)
+{
+    return std::ranges::any_of(model.uses_of_edge(edge), [&](const FaceUse& use) {
+        const auto* swept = dynamic_cast<const geometry::SweptSurface*>(model[use.face].surface.get());
+        return swept != nullptr && swept->has_kinks();
     });
 }
 
@@ -59,7 +69,7 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
         for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i] = fine_shares_[kParts * i];
     } else if (collinear(points_, model.tolerance)) {
         kind_ = Kind::straight;
-    } else if (edge.origin == Origin::made_void) {
+    } else if (edge.origin == Origin::made_void && !is_moved_polyline(model, id)) {
         kind_ = Kind::smooth; // its points were placed at equidistant shares
         for (std::size_t i = 0; i < shares_.size(); ++i)
             shares_[i] = static_cast<double>(i) / static_cast<double>(shares_.size() - 1);

@@ -5,6 +5,7 @@
 #include <lacuna/cad/detail/void_patch.h>
 #include <lacuna/closure/shared/void_geometry.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/shared/swept_surface.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -22,9 +23,34 @@ namespace {
 
 /// Precision of splines relative to the diagonal: a hundredth of the default tolerance.
 constexpr double kPrecision = 1e-8;
+/// The same for walls and edges made by a known motion, which are exact: a spline through a circle of this
+/// precision encloses its area to 1e-10.
+constexpr double kMotionPrecision = 1e-10;
 /// Most interpolation points of a filled surface, for each inner loop and for the facets: its cost grows with
 /// the cube of their number.
 constexpr std::size_t kLeadingPoints = 40;
+
+/// The surface that an edge sweeps: one spline surface, or one for each segment of a polyline.
+std::vector<SplineSurfaceData> swept_patches(const geometry::SweptSurface& surface, double precision)
+{
+    const std::vector<double>& params = surface.params();
+    const auto [low, high] = surface.heights();
+    std::vector<SplineSurfaceData> patches;
+    const std::size_t step = surface.has_kinks() ? 1 : params.size() - 1;
+    for (std::size_t i = 0; i + 1 < params.size(); i += step) {
+        const double from = params[i], to = params[i + step];
+        patches.push_back(approximate(
+            [&](std::span<const double> u, std::span<const double> v) {
+                std::vector<Vec2> uv;
+                for (const double y : v)
+                    for (const double x : u)
+                        uv.emplace_back((1 - x) * from + x * to, (1 - y) * low + y * high);
+                return surface.at(uv);
+            },
+            precision));
+    }
+    return patches;
+}
 
 bool is_plane(const Model& model, const Face& face)
 {
@@ -65,6 +91,7 @@ public:
         Eigen::AlignedBox3d box;
         for (const Vec3& p : model_.points) box.extend(p);
         precision_ = kPrecision * box.diagonal().norm();
+        motion_precision_ = kMotionPrecision * box.diagonal().norm();
         plan_.request.points = model_.points;
         plan_.request.diagonal = model_.diagonal;
         for (std::size_t s = 0; s < sources.order.size(); ++s) {
@@ -136,8 +163,10 @@ private:
             made.points = edge.points;
         } else {
             made.kind = SolidEdge::spline;
+            const double precision = edge.origin == Origin::made_void && edge.curve ? motion_precision_
+                                                                                    : precision_;
             made.curve_data = approximate([&](std::span<const double> at) { return shape.at(at); },
-                                          precision_);
+                                          precision);
         }
         return made;
     }
@@ -215,6 +244,11 @@ private:
                                    .remedy("write the volume with write_facets (.stl, .msh, .obj)"));
         }
         ++plan_.fitted;
+        if (const auto* swept = dynamic_cast<const geometry::SweptSurface*>(face.surface.get())) {
+            made.kind = SolidFace::patches;
+            made.surfaces = swept_patches(*swept, motion_precision_);
+            return made;
+        }
         const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())
                                                   : std::vector<std::vector<EdgeUse>>{};
         if (sides.empty()) return filling(id, made);
@@ -226,7 +260,7 @@ private:
     const OpenVolume& volume_;
     const Model& model_;
     const RunContext& context_;
-    double precision_ = 0;
+    double precision_ = 0, motion_precision_ = 0;
     std::map<const CadSource*, Source> source_;
     std::vector<Index> edge_at_; ///< position in the plan of each edge of the model; -1: not added yet
     SolidPlan plan_;

@@ -7,8 +7,11 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace lacuna::closure {
@@ -49,6 +52,49 @@ struct CloseOptions {
     Cap cap = Cap::automatic;
     Holes holes = Holes::automatic;
     bool take_guess = false; ///< accept an ambiguous closing; implied by an explicit shape option
+};
+
+/// The path along which a source alone is swept (class 0).
+struct Along {
+    struct Vector {
+        Vec3 way; ///< from the source to the target [model length]
+    };
+    struct Axis {
+        Vec3 point, direction;
+        double angle = 0; ///< up to a full turn either way, by the right-hand rule [degree]
+    };
+    struct Helix {
+        Vec3 point, direction; ///< of its axis
+        double pitch = 0;      ///< advance along the axis for each turn [model length]
+        double turns = 0;      ///< negative: by the left-hand rule
+    };
+    /// A path that is a list of points with a corner at each, edges of the model in order, or a curve over
+    /// [0, 1]. It need not start at the source.
+    struct Path {
+        std::vector<Vec3> points{};
+        std::vector<int> edges{}; ///< tags
+        std::function<Vec3(double)> curve{};
+        bool fixed = false; ///< the section is not turned; otherwise by rotation-minimising frames
+    };
+    /// Along the normals of the source, by a thickness at each place [model length].
+    struct Normals {
+        std::function<double(const Vec3&)> inside{}; ///< against the normals; null: 0
+        std::function<double(const Vec3&)> outside{};
+    };
+    /// Along the mean normal of the source to a face.
+    struct ToFace {
+        const topology::Model* model = nullptr; ///< that the face belongs to
+        FaceId face;
+    };
+    /// A value over the height in [0, 1]: linear to a last value, or a function.
+    struct Profile {
+        double last = 0;
+        std::function<double(double height)> at{}; ///< null: linear
+    };
+
+    std::variant<Vector, Axis, Helix, Path, Normals, ToFace> course;
+    std::optional<Profile> twist; ///< of the section, 0 at the source [degree]
+    std::optional<Profile> scale; ///< of the section, 1 at the source [-]
 };
 
 /// The void entities added to seal the volume, and how they were made.

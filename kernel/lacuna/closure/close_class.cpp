@@ -221,6 +221,7 @@ Closure close_as(OpenVolume& volume, const matching::Match& match, VolumeClass v
     closure.value = value;
     switch (value) {
     case VolumeClass::closed:
+    case VolumeClass::zero: // sealed by close_along()
         break;
     case VolumeClass::I:
     case VolumeClass::II:

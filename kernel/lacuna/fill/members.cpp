@@ -167,12 +167,12 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
                const std::string& whole, const RunContext& context)
 {
     const Volume& volume = *asked.volume;
-    if (volume.no_roles || !closure::has_pieces(volume.volume, context)) {
+    if (volume.no_roles || !has_pieces(volume, context)) {
         parts.push_back({&asked, name, volume, nullptr});
         return;
     }
     try {
-        add_pieces(parts, asked, name, whole, closure::cut_into_pieces(volume.volume, context));
+        add_pieces(parts, asked, name, whole, cut_into_pieces(volume, context));
     } catch (const NotSweepable& error) {
         if (asked.options.fallback != sweep::Fallback::mixed) throw;
         parts.push_back({&asked, name, volume, nullptr});

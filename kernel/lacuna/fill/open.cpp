@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/volume.h>
 
+#include <lacuna/closure/shared/along.h>
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/progress.h>
+#include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/members.h>
 #include <lacuna/topology/shared/auto_walls.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -70,6 +72,23 @@ topology::OpenVolume open_full_turn(const Model& model, const std::vector<FaceId
     return volume;
 }
 
+std::shared_ptr<const closure::SweptSource> open_along(const Model& model, const RoleRequest& request,
+                                                       const RunContext& context)
+{
+    const bool source = request.roles && !request.roles->source.empty();
+    if (!source || request.find_walls || !request.roles->target.empty() || !request.roles->walls.empty() ||
+        request.full_turn || request.override_class || request.reading > 0)
+        throw InvalidInput(Message("closure.along_roles",
+                                   "open_volume: 'along' sweeps a source alone, and makes the walls and the "
+                                   "target itself")
+                               .remedy("name the source, and no other role, class or reading"));
+    topology::OpenVolume open = topology::open_volume(model, *request.roles, context);
+    auto swept = std::make_shared<closure::SweptSource>(
+        closure::swept_source(model, std::move(open), *request.along, context));
+    swept->sets = edge_sets(swept->source.model, request.decks, request.scale);
+    return swept;
+}
+
 void take(closure::Reading found, Volume& volume)
 {
     volume.volume = std::move(found.volume);
@@ -90,7 +109,11 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
     Volume volume;
     std::vector<FaceId> faces;
     if (!request.roles) faces = request.faces ? *request.faces : topology::all_faces(model);
-    if (request.full_turn) {
+    if (request.along) {
+        volume.along = open_along(model, request, context);
+        volume.volume = volume.along->source;
+        volume.volume.full_turn = volume.along->full_turn;
+    } else if (request.full_turn) {
         volume.volume = open_full_turn(model, faces, request, context);
     } else if (auto found = find_roles(model, faces, request, context)) {
         take(std::move(*found), volume);
@@ -117,6 +140,12 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
         volume.volume.override_class = request.override_class;
         if (request.override_class) volume.as_read.reset();
         volume.classification = topology::classify(volume.volume);
+    }
+    if (volume.along) {
+        volume.classification.value = topology::VolumeClass::zero;
+        volume.classification.reasons = {
+            "a source alone and a path along which it is swept: not a class of the "
+            "paper"};
     }
     for (const FaceId face : topology::bodies_inside(model, volume.volume.model, context))
         log_line(

@@ -92,8 +92,7 @@ Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request
     sweep::SweepOptions options = request.options;
     options.layered = options.layered && request.layered_parts;
     if (!options.layered) options.crew = nullptr;
-    Filled filled{{},
-                  sweep_pieces(volume, closure::cut_into_pieces(volume.volume, context), options, context)};
+    Filled filled{{}, sweep_pieces(volume, cut_into_pieces(volume, context), options, context)};
     filled.volumes.push_back(volume);
     return filled;
 }
@@ -201,7 +200,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
     const bool may_cut = mixed || volume.roles_found;
     for (std::size_t next = 0;; ++next) {
         const Volume& now = other ? *other : volume;
-        const bool pieces = closure::has_pieces(now.volume, context);
+        const bool pieces = has_pieces(now, context);
         const auto note_failure = [&](const Error& error) {
             if (!first && ways == 0 && !may_cut) throw;
             if (!first) first = std::current_exception();
@@ -254,7 +253,10 @@ Filled sweep(const Volume& volume, const SweepRequest& request, const RunContext
 
 Filled fill(const topology::Model& model, const Request& request, const RunContext& context)
 {
-    Volume volume = open(model, request.roles, context);
+    RoleRequest roles = request.roles;
+    roles.decks = request.decks;
+    roles.scale = request.scale;
+    Volume volume = open(model, roles, context);
     volume.decks = request.decks;
     volume.scale = request.scale;
     if (request.match) volume = match(std::move(volume), request.match, context);

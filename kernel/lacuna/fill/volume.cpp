@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/volume.h>
 
+#include <lacuna/closure/shared/along.h>
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/piece_ends.h>
@@ -66,6 +67,10 @@ Volume override_class(Volume volume, topology::VolumeClass value)
     if (volume.closure)
         throw InvalidInput(Message("lua.sealed", "override_class: the volume is sealed already")
                                .remedy("override its class before close()"));
+    if (volume.along)
+        throw InvalidInput("closure.along_roles",
+                           "override_class: 'along' determines what is missing, and the class is {}",
+                           topology::to_string(volume.classification.value));
     volume.others.reset();
     volume.as_read.reset();
     volume.volume.override_class = value;
@@ -119,16 +124,29 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
         return volume;
     }
     asked.take_guess = volume.take_guess;
-    closure::Closed closed = closure::close(volume.volume, volume.match.value_or(matching::Match{}), asked,
-                                            context);
+    closure::Closed closed = volume.along
+                                 ? closure::close_along(*volume.along, asked, context)
+                                 : closure::close(volume.volume, volume.match.value_or(matching::Match{}),
+                                                  asked, context);
     volume.volume = std::move(closed.volume);
     volume.closure = std::move(closed.closure);
     return volume;
 }
 
+bool has_pieces(const Volume& volume, const RunContext& context)
+{
+    return volume.along ? volume.along->full_turn : closure::has_pieces(volume.volume, context);
+}
+
+std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunContext& context)
+{
+    return volume.along && volume.along->full_turn ? closure::halves_along(*volume.along, context)
+                                                   : closure::cut_into_pieces(volume.volume, context);
+}
+
 Volume sealed_whole(const Volume& volume, const RunContext& context)
 {
-    if (volume.volume.full_turn) return volume;
+    if (volume.volume.full_turn && !volume.along) return volume;
     Volume sealed = close(volume, {}, context);
     if (sealed.others && sealed.others->ways.empty()) sealed.volume = sealed.others->volume;
     return sealed;
@@ -149,6 +167,8 @@ Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string
 
 std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext& context)
 {
+    if (volume.along && !volume.closure && !volume.along->full_turn)
+        return fill::cut(close(volume, {}, context), where, context);
     std::vector<closure::StepPiece> cut;
     if (where.automatic) {
         cut = partition(sealed_whole(volume, context).volume, context);
@@ -158,7 +178,7 @@ std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext
         cut = closure::cut_by_face(volume.volume, *where.model, where.face, context);
     } else {
         require_roles(volume);
-        cut = closure::cut_into_pieces(volume.volume, context);
+        cut = cut_into_pieces(volume, context);
     }
     if (where.plane || where.model) cut = closure::read_ends(std::move(cut), context).pieces;
     std::vector<Volume> pieces;

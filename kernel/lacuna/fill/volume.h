@@ -14,6 +14,10 @@
 #include <string>
 #include <vector>
 
+namespace lacuna::closure {
+struct SweptSource;
+}
+
 namespace lacuna::fill {
 
 /// A volume at any stage between its faces and its mesh.
@@ -29,9 +33,10 @@ struct Volume {
     /// Set if no ends to sweep between were found: why. The volume is sealed then, all its faces are walls,
     /// and only a fallback can mesh it.
     std::optional<Message> no_roles;
-    bool roles_found = false; ///< all roles were found, none named
-    bool take_guess = false;  ///< whether an ambiguous closing is accepted
-    bool told = false;        ///< whether the notes of the closure were logged
+    std::shared_ptr<const closure::SweptSource> along; ///< of class 0: its source and the motion; else null
+    bool roles_found = false;                          ///< all roles were found, none named
+    bool take_guess = false;                           ///< whether an ambiguous closing is accepted
+    bool told = false;                                 ///< whether the notes of the closure were logged
     /// For a piece cut at steps: 0 runs from source to target; others take the remaining layers.
     int level = 0;
     double turn_from = 0, turn_to = 1; ///< for a piece of a full turn: its range, as fractions of the turn
@@ -50,7 +55,12 @@ struct RoleRequest {
     int reading = 0; ///< number of a found reading, from 1; with `roles`, 1 accepts ambiguous geometry
     std::optional<topology::VolumeClass> override_class;
     bool full_turn = false; ///< the volume makes a full turn: all faces are walls
-    std::string name;       ///< region of its cells
+    /// Path along which the source is swept; without a target and walls.
+    std::optional<closure::Along> along;
+    /// With `along`: meshes that the model was read from, whose sets of edges become those of the walls.
+    std::vector<std::shared_ptr<const io::Deck>> decks;
+    double scale = 1; ///< model coordinates / coordinates of `decks`
+    std::string name; ///< region of its cells
     std::string material;
 };
 
@@ -58,6 +68,8 @@ struct RoleRequest {
 /// between is an error only for the stages that need them: match(), cut() and a sweep without a fallback.
 /// @throw InvalidInput "lua.walls_without_ends", "lua.class_of_found_roles"; as `topology::open_volume()`,
 ///                     `topology::find_walls()`, `closure::find_reading()` and `require_none_left_out()`.
+///                     "closure.along_roles": a path with other roles than a source; "closure.along_…" and
+///                     "geometry.path_…": a path or a source that cannot be swept along it.
 Volume open(const topology::Model& model, const RoleRequest& request = {}, const RunContext& context = {});
 
 /// Replace the class that was found.

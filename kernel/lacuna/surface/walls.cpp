@@ -9,6 +9,7 @@
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/strip_grid.h>
+#include <lacuna/surface/shared/swept_motion.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -68,6 +69,7 @@ public:
           count_(nodes.source_at.size()),
           layers_(heights.size() - 1),
           begun_(begin_wall(volume.model, link, nodes, columns, layers_)),
+          motion_(swept_motion(volume)),
           line_of_(count_, -1)
     {
         for (std::size_t i = 0; i < nodes.line.size(); ++i) line_of_[nodes.line[i]] = static_cast<int>(i);
@@ -98,6 +100,10 @@ private:
         set_row(layers_, target_points(link_, nodes_));
         if (begun_.given.has_all(0, count_)) return std::move(mesh_);
         const auto panels = panel_faces(model_, link_);
+        if (moves_along(panels)) {
+            mesh_by_motion(panels);
+            return std::move(mesh_);
+        }
         const bool simple = !panels.empty() &&
                             std::ranges::all_of(panels, [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
@@ -128,6 +134,43 @@ private:
     void set_row(std::size_t layer, const std::vector<Vec3>& points)
     {
         for (std::size_t i = 0; i < count_; ++i) point(layer, i) = points[i];
+    }
+
+    /// Whether the walls are those of a source moved along a path: between two side lines, one face for each
+    /// part of the path.
+    [[nodiscard]] bool moves_along(const std::vector<std::vector<FaceId>>& panels) const
+    {
+        return motion_ && !panels.empty() && std::ranges::all_of(panels, [&](const auto& faces) {
+                   return faces.size() + 1 == motion_->levels.size();
+               });
+    }
+
+    /// Rows are the source's rim, moved; what that misses the target's by is shared over the height.
+    void mesh_by_motion(const std::vector<std::vector<FaceId>>& panels)
+    {
+        const geometry::Motion& motion = *motion_;
+        std::vector<Vec3> reach(count_, Vec3::Zero()), missed;
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (motion.reach) reach[i] = motion.reach(point(0, i));
+            missed.emplace_back(point(layers_, i) - motion.map(1) * point(0, i) - reach[i]);
+        }
+        for (std::size_t k = 1; k < layers_; ++k) {
+            const Eigen::Affine3d map = motion.map(heights_[k]);
+            for (std::size_t i = 0; i < count_; ++i)
+                if (!begun_.given.has_node(k, i))
+                    point(k, i) = map * point(0, i) + heights_[k] * (reach[i] + missed[i]);
+        }
+        std::size_t panel = panels.size() - 1;
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (line_of_[i] >= 0) panel = static_cast<std::size_t>(line_of_[i]);
+            for (std::size_t k = 0; k < layers_; ++k) {
+                const double middle = (heights_[k] + heights_[k + 1]) / 2;
+                const auto above = std::ranges::upper_bound(motion.levels, middle);
+                if (begun_.given.side[k * count_ + i] == 0)
+                    mesh_.face[k * count_ + i] =
+                        panels[panel][static_cast<std::size_t>(above - motion.levels.begin()) - 1];
+            }
+        }
     }
 
     [[nodiscard]] bool is_simple(const std::vector<FaceId>& faces) const
@@ -249,6 +292,7 @@ private:
     const RunContext& context_;
     std::size_t count_, layers_;
     BegunWall begun_;
+    geometry::MotionPointer motion_; ///< that made the walls; null: none
     WallMesh mesh_;
     std::unique_ptr<LinkingMap> map_;
     WallNet net_;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace lacuna::sweep {
@@ -73,16 +74,37 @@ Part part_of(const mesh::QuadMesh& whole, const std::vector<Quad>& quads,
 } // namespace
 
 EndFaces end_faces(const OpenVolume& volume, const surface::SourceMesh& source,
-                   const std::optional<surface::Imprint>& imprint)
+                   const std::optional<surface::Imprint>& imprint, bool moved)
 {
     EndFaces faces;
-    const FaceId only = volume.faces(Role::target).front();
+    const std::vector<FaceId> targets = volume.faces(Role::target);
+    const FaceId only = targets.front();
+    if (moved) {
+        std::map<FaceId, FaceId> image;
+        const std::vector<FaceId> sources = volume.faces(Role::source);
+        for (std::size_t f = 0; f < sources.size(); ++f) image[sources[f]] = targets[f];
+        for (const Index face : source.quads.face) {
+            faces.source.emplace_back(face);
+            faces.target.push_back(image.at(FaceId(face)));
+        }
+        return faces;
+    }
     for (const Index face : source.quads.face) {
         const FaceId part(face);
         faces.source.push_back(imprint ? imprint->source_of[part.index()] : part);
         faces.target.push_back(imprint ? imprint->target_of[part.index()] : only);
     }
     return faces;
+}
+
+Morphed moved_by(const geometry::Motion& motion, const surface::SourceMesh& source, const RimColumns& columns)
+{
+    Morphed result;
+    for (const Vec3& node : source.quads.nodes) result.nodes.push_back(motion.place(node, 1));
+    const std::span<const Vec3> high = columns.row(columns.layers);
+    for (std::size_t k = 0; k < high.size(); ++k) result.nodes[index(columns.rim[k])] = high[k];
+    result.report = "the source moved along the path";
+    return result;
 }
 
 Morphed morph_onto(const OpenVolume& volume, const surface::SourceMesh& source, const RimColumns& columns,

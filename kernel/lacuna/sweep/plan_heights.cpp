@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/angle.h>
+#include <lacuna/surface/shared/swept_motion.h>
 #include <lacuna/surface/shared/wall_columns.h>
 #include <lacuna/sweep/detail/keep_thickness.h>
 
@@ -183,18 +184,37 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
     return heights;
 }
 
-} // namespace
-
-void reverse_heights(std::vector<double>& heights)
+/// Move the layer nearest to each corner of a path onto it, and those between in proportion.
+/// @throw NotSweepable  fewer layers than parts of the path.
+std::vector<double> through_corners(const std::vector<double>& heights, const std::vector<double>& levels)
 {
-    std::ranges::reverse(heights);
-    for (double& height : heights) height = 1 - height;
+    const std::size_t layers = heights.size() - 1, parts = levels.size() - 1;
+    if (layers < parts)
+        throw NotSweepable(Message("sweep.path_layers",
+                                   "the path has {} corners, so {} layers or more are needed, found {}",
+                                   parts - 1, needed(parts), found(layers))
+                               .remedy("leave out 'layers', or give a smooth path as a function"));
+    std::vector<double> moved{0};
+    std::size_t below = 0;
+    for (std::size_t j = 1; j <= parts; ++j) {
+        const auto above = std::ranges::lower_bound(heights, levels[j]) - heights.begin();
+        auto at = static_cast<std::size_t>(above);
+        if (at > 0 && at < layers && levels[j] - heights[at - 1] < heights[at] - levels[j]) --at;
+        at = j == parts ? layers : std::clamp(at, below + 1, layers - (parts - j));
+        for (std::size_t k = below + 1; k < at; ++k)
+            moved.push_back(levels[j - 1] + (heights[k] - heights[below]) / (heights[at] - heights[below]) *
+                                                (levels[j] - levels[j - 1]));
+        moved.push_back(levels[j]);
+        below = at;
+    }
+    return moved;
 }
 
-PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
-                            const surface::LayerTables& tables, const std::vector<double>& asked,
-                            const SourceSize& sizes, const SweepOptions& options, int least,
-                            const RunContext& context)
+/// As plan_heights(), without corners of a path.
+PlannedHeights planned_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                               const surface::LayerTables& tables, const std::vector<double>& asked,
+                               const SourceSize& sizes, const SweepOptions& options, int least,
+                               const RunContext& context)
 {
     const std::vector<double> low = end_table(volume, tables, Role::source);
     const std::vector<double> high = end_table(volume, tables, Role::target);
@@ -242,6 +262,27 @@ PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface:
     for (std::size_t j = high.size(); j > 1; --j) heights.push_back(1 - high[j - 2] / columns.length);
     if (!high.empty()) heights.push_back(1);
     return {std::move(heights), by_bends};
+}
+
+} // namespace
+
+void reverse_heights(std::vector<double>& heights)
+{
+    std::ranges::reverse(heights);
+    for (double& height : heights) height = 1 - height;
+}
+
+PlannedHeights plan_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
+                            const surface::LayerTables& tables, const std::vector<double>& asked,
+                            const SourceSize& sizes, const SweepOptions& options, int least,
+                            const RunContext& context)
+{
+    const geometry::MotionPointer motion = surface::swept_motion(volume);
+    const std::size_t parts = motion ? motion->levels.size() - 1 : 1;
+    PlannedHeights planned = planned_heights(volume, links, tables, asked, sizes, options,
+                                             std::max(least, static_cast<int>(parts)), context);
+    if (parts > 1) planned.heights = through_corners(planned.heights, motion->levels);
+    return planned;
 }
 
 } // namespace lacuna::sweep

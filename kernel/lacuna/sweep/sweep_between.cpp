@@ -11,6 +11,7 @@
 #include <lacuna/surface/shared/intervals.h>
 #include <lacuna/surface/shared/rim_breaks.h>
 #include <lacuna/surface/shared/source_mesh.h>
+#include <lacuna/surface/shared/swept_motion.h>
 #include <lacuna/surface/shared/wall_breaks.h>
 #include <lacuna/sweep/detail/given_meshes.h>
 #include <lacuna/sweep/detail/keep_thickness.h>
@@ -207,6 +208,13 @@ void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, 
     }
 }
 
+/// The motion that made the walls, if the target has a face for each of the source's; else null.
+geometry::MotionPointer moving_faces(const OpenVolume& volume)
+{
+    const bool alike = volume.faces(Role::source).size() == volume.faces(Role::target).size();
+    return alike ? surface::swept_motion(volume) : nullptr;
+}
+
 /// Imprint of the target's inner edges on the source; empty if there are none, or if both ends have given
 /// meshes that may be the same graph.
 std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
@@ -232,7 +240,9 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
 {
     const surface::SizeField& size = sizes.shape.at;
     Swept result;
-    std::optional<surface::Imprint> imprint = imprint_of(volume, given_links, size, options.wedges);
+    const geometry::MotionPointer motion = moving_faces(volume);
+    std::optional<surface::Imprint> imprint;
+    if (!motion) imprint = imprint_of(volume, given_links, size, options.wedges);
     const OpenVolume& split = imprint ? *imprint->volume : volume;
     std::vector<surface::LinkingSurface>& links = imprint ? imprint->links : given_links;
     check_cancelled(context);
@@ -293,9 +303,10 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     surface::GivenTarget given_target;
     if (!imprint) given_target = surface::given_target(volume, links, source, options.wedges);
     const bool keeps_target = !given_target.face.empty();
-    if (!keeps_target && !imprint && !surface::inner_edges(volume, Role::target).empty())
+    const bool moved = motion && !keeps_target;
+    if (!keeps_target && !imprint && !moved && !surface::inner_edges(volume, Role::target).empty())
         imprint = surface::imprint_target(volume, links, size); // refuses what keeps its quads, by name
-    EndFaces ends = end_faces(volume, source, imprint);
+    EndFaces ends = end_faces(volume, source, imprint, motion != nullptr);
     if (keeps_target) ends.target = std::move(given_target.face);
     if (!given_target.why.empty()) {
         result.not_kept.push_back("target: its given quads are not kept: " + given_target.why);
@@ -305,6 +316,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     if (keeps_target) {
         morphed.nodes = std::move(given_target.nodes);
         morphed.report = "its own quads are laid out as the source's and stay";
+    } else if (moved) {
+        morphed = moved_by(*motion, source, columns);
     } else {
         const OpenVolume& shape = shape_of(volume, options);
         const std::optional<OpenVolume> turned = shape.turned_round != volume.turned_round

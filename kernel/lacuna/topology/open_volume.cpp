@@ -16,7 +16,7 @@ namespace lacuna::topology {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kClassNames{"closed", "I", "II", "III", "IV", "V"};
+constexpr std::array<std::string_view, 7> kClassNames{"closed", "I", "II", "III", "IV", "V", "0"};
 constexpr std::array<std::string_view, 3> kRoleNames{"source", "target", "wall"};
 
 std::string_view word(Role role) { return kRoleNames[static_cast<std::size_t>(role)]; }
@@ -214,6 +214,9 @@ void check_override(const OpenVolume& volume, const Classification& found)
             throw InvalidInput(
                 message("it must have walls only, but a {} is given", source ? "source" : "target")
                     .remedy("leave it out"));
+        break;
+    case VolumeClass::zero:
+        refuse("it needs a path, which its faces do not tell");
         break;
     }
 }

@@ -12,8 +12,9 @@
 
 namespace lacuna::topology {
 
-/// The five classes of the paper's Table 1, and a volume without missing faces.
-enum class VolumeClass { closed, I, II, III, IV, V };
+/// The five classes of the paper's Table 1, and a volume without missing faces. Class 0 is not the paper's: a
+/// source alone that is swept along a given path, which its faces do not tell.
+enum class VolumeClass { closed, I, II, III, IV, V, zero };
 
 std::string_view to_string(VolumeClass value);
 

@@ -71,6 +71,9 @@ std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume)
     for (std::size_t f = 0; f < groups.size(); ++f) {
         const std::string& name = volume.model.faces[f].name;
         std::vector<std::string>& of = groups[f];
+        if (volume.model.faces[f].origin == Origin::made_void)
+            for (const std::string& set : volume.model.faces[f].groups)
+                if (set != name && !generated.contains(lower(set))) of.push_back(set);
         if (name.empty() || std::ranges::find(of, name) != of.end()) continue;
         const bool its_own = std::ranges::find(of, lower(name)) != of.end();
         const bool first = name != of_all && is_own_name(volume.model.faces[f]);

@@ -38,6 +38,11 @@ Volume sealed_whole(const Volume& volume, const RunContext& context);
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name);
 
+/// Whether a volume is swept in pieces, and these, as `closure::cut_into_pieces()`; of class 0 the halves of
+/// a full turn.
+bool has_pieces(const Volume& volume, const RunContext& context);
+std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunContext& context);
+
 /// Cut a sealed volume into pieces that can be swept, as `closure::partition()`.
 std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/geometry/shared/motion.h>
 #include <lacuna/surface/shared/imprint.h>
 #include <lacuna/surface/shared/source_mesh.h>
 #include <lacuna/sweep/detail/morph.h>
@@ -16,8 +17,9 @@ struct EndFaces {
 };
 
 /// @param imprint  none where the target is one face.
+/// @param moved    the target's faces are the source's moved, in the same order.
 EndFaces end_faces(const topology::OpenVolume& volume, const surface::SourceMesh& source,
-                   const std::optional<surface::Imprint>& imprint);
+                   const std::optional<surface::Imprint>& imprint, bool moved);
 
 /// Morph the source mesh onto the target's faces as one surface.
 Morphed morph_onto(const topology::OpenVolume& volume, const surface::SourceMesh& source,
@@ -29,5 +31,9 @@ Morphed morph_onto(const topology::OpenVolume& volume, const surface::SourceMesh
 Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& columns,
                          const surface::Seeds& seeds, const surface::Imprint& imprint,
                          const std::vector<FaceId>& face, const RunContext& context);
+
+/// The source moved by the motion that made the walls, with the target's rim.
+Morphed moved_by(const geometry::Motion& motion, const surface::SourceMesh& source,
+                 const RimColumns& columns);
 
 } // namespace lacuna::sweep

@@ -1,0 +1,511 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/shared/along.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/segment.h>
+#include <lacuna/geometry/shared/sweep_path.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/split_edge.h>
+#include <lacuna/topology/shared/use_places.h>
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Intervals at which functions of the height are read; a cubic joins the values. A choice: a wave of a sine
+/// over the whole height is met to one part in a million.
+constexpr int kProfileSteps = 128;
+/// Intervals at which a path given as a function is read: one turn in five is met to 1e-6 of its radius.
+constexpr int kPathSteps = 1024;
+/// Points between two of a CAD curve's facets, at which the curve is read for a path.
+constexpr int kCurveSteps = 8;
+
+std::string place_in_words(const Vec3& place)
+{
+    return formatted("{:.4g}, {:.4g}, {:.4g}", place.x(), place.y(), place.z());
+}
+
+// --- twist and scale ---------------------------------------------------------------------------------------
+
+/// A profile read at even heights, between which a cubic runs.
+std::function<double(double)> sampled(const Along::Profile& profile, double first, const char* name)
+{
+    if (!profile.at) {
+        const double last = profile.last;
+        return [first, last](double height) { return (1 - height) * first + height * last; };
+    }
+    std::vector<double> values;
+    for (int k = 0; k <= kProfileSteps; ++k) {
+        const double height = static_cast<double>(k) / kProfileSteps;
+        values.push_back(profile.at(height));
+        if (!std::isfinite(values.back()))
+            throw InvalidInput("closure.along_profile", "along: '{}' is no number at the height {}", name,
+                               found(height));
+    }
+    if (std::abs(values.front() - first) > kSamePlace)
+        throw InvalidInput(Message("closure.along_profile",
+                                   "along: '{}' is {} at the height 0, where the source stays as it is", name,
+                                   found(values.front()))
+                               .remedy("let the function return {} there", needed(first)));
+    return [values = std::move(values)](double height) {
+        const double at = std::clamp(height, 0.0, 1.0) * kProfileSteps;
+        const auto i = std::min(static_cast<std::size_t>(at), values.size() - 2);
+        const auto slope = [&](std::size_t k) {
+            const std::size_t low = k > 0 ? k - 1 : 0, high = std::min(k + 1, values.size() - 1);
+            return (values[high] - values[low]) / static_cast<double>(high - low);
+        };
+        const double f = at - static_cast<double>(i), step = values[i + 1] - values[i];
+        return values[i] + f * step + f * (1 - f) * ((1 - f) * (slope(i) - step) - f * (slope(i + 1) - step));
+    };
+}
+
+geometry::Distortion distortion_of(const Along& along)
+{
+    geometry::Distortion by;
+    if (along.twist) {
+        const auto degrees = sampled(*along.twist, 0, "twist");
+        by.twist = [degrees](double height) { return degrees(height) * kDegree; };
+        for (int k = 0; k < kProfileSteps; ++k)
+            by.most_twist += std::abs(by.twist((k + 1.0) / kProfileSteps) -
+                                      by.twist(1.0 * k / kProfileSteps));
+        by.even = by.even && !along.twist->at;
+    }
+    if (along.scale) {
+        by.scale = sampled(*along.scale, 1, "scale");
+        by.even = by.even && !along.scale->at;
+        for (int k = 0; k <= kProfileSteps; ++k) {
+            const double height = static_cast<double>(k) / kProfileSteps;
+            if (by.scale(height) > 0) continue;
+            throw InvalidInput(Message("closure.along_scale", "along: 'scale' is {:.3g} at the height {:.3g}",
+                                       found(by.scale(height)), height)
+                                   .remedy("keep it above {}", needed(0)));
+        }
+    }
+    return by;
+}
+
+// --- paths -------------------------------------------------------------------------------------------------
+
+/// The line of an edge; on its curve, if it has one.
+std::vector<Vec3> line_of(const Model& model, const Edge& edge)
+{
+    std::vector<Vec3> points;
+    if (!edge.curve) {
+        for (const Index p : edge.points) points.push_back(model.at(p));
+        return points;
+    }
+    std::vector<double> params;
+    for (std::size_t i = 0; i + 1 < edge.params.size(); ++i)
+        for (int k = 0; k < kCurveSteps; ++k)
+            params.push_back(edge.params[i] + (edge.params[i + 1] - edge.params[i]) * k / kCurveSteps);
+    params.push_back(edge.params.back());
+    points.resize(params.size());
+    edge.curve->evaluate(params, points);
+    return points;
+}
+
+/// The line cut where it turns by the angle of a crease or more.
+std::vector<geometry::PathPart> cut_at_corners(const std::vector<Vec3>& line)
+{
+    std::vector<geometry::PathPart> parts{{line.front()}};
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        parts.back().push_back(line[i]);
+        if (i + 1 == line.size()) break;
+        if (geometry::angle_between(line[i] - line[i - 1], line[i + 1] - line[i]) >= kCreaseAngle * kDegree)
+            parts.push_back({line[i]});
+    }
+    return parts;
+}
+
+/// The parts of a path along edges, each from its end next to the part before, the first from the end of the
+/// whole that is nearer to the source.
+std::vector<geometry::PathPart> path_of_edges(const Model& model, const std::vector<int>& tags,
+                                              const Vec3& source)
+{
+    std::vector<std::vector<Vec3>> lines;
+    for (const int tag : tags) {
+        const auto edge = std::ranges::find(model.edges, tag, &Edge::tag);
+        if (edge == model.edges.end())
+            throw InvalidInput(
+                Message("closure.along_edge", "along: the model has no {}", NamedEntity{"edge", tag})
+                    .remedy("volume:free_edges() and volume:tree() list edges"));
+        lines.push_back(line_of(model, *edge));
+    }
+    const auto distance = [](const Vec3& a, const Vec3& b) { return (a - b).norm(); };
+    if (lines.size() > 1) {
+        const auto& next = lines[1];
+        const auto gap = [&](const Vec3& p) {
+            return std::min(distance(p, next.front()), distance(p, next.back()));
+        };
+        if (gap(lines[0].front()) < gap(lines[0].back())) std::ranges::reverse(lines[0]);
+    }
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        const Vec3 end = lines[i - 1].back();
+        if (distance(end, lines[i].back()) < distance(end, lines[i].front())) std::ranges::reverse(lines[i]);
+        if (distance(end, lines[i].front()) <= model.tolerance) continue;
+        throw InvalidInput(Message("closure.along_edge", "along: {} does not start where {} ends",
+                                   NamedEntity{"edge", tags[i]}, NamedEntity{"edge", tags[i - 1]})
+                               .remedy("list the edges of the path in order"));
+    }
+    if (distance(source, lines.back().back()) < distance(source, lines.front().front())) {
+        std::ranges::reverse(lines);
+        for (std::vector<Vec3>& line : lines) std::ranges::reverse(line);
+    }
+    std::vector<geometry::PathPart> parts;
+    for (const std::vector<Vec3>& line : lines)
+        for (geometry::PathPart& part : cut_at_corners(line)) parts.push_back(std::move(part));
+    return parts;
+}
+
+std::vector<geometry::PathPart> path_of_function(const std::function<Vec3(double)>& curve)
+{
+    geometry::PathPart part;
+    for (int k = 0; k <= kPathSteps; ++k) {
+        part.push_back(curve(static_cast<double>(k) / kPathSteps));
+        if (!part.back().allFinite())
+            throw InvalidInput("closure.along_path", "along: the path is no point at {}",
+                               found(static_cast<double>(k) / kPathSteps));
+    }
+    const auto parts = cut_at_corners(part);
+    if (parts.size() > 1)
+        throw InvalidInput(Message("closure.along_path",
+                                   "along: the path turns sharply at {}, where a function must be smooth",
+                                   found(place_in_words(parts.front().back())))
+                               .remedy("give a path with corners as an array of points"));
+    return parts;
+}
+
+std::vector<geometry::PathPart> parts_of(const Along::Path& path, const Model& model, const Vec3& source)
+{
+    if (path.curve) return path_of_function(path.curve);
+    if (!path.edges.empty()) return path_of_edges(model, path.edges, source);
+    if (path.points.size() < 2)
+        throw InvalidInput("closure.along_path", "along: a path has {} points or more, found {}", needed(2),
+                           found(path.points.size()));
+    std::vector<geometry::PathPart> parts;
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
+        parts.push_back({path.points[i], path.points[i + 1]});
+    return parts;
+}
+
+// --- axes --------------------------------------------------------------------------------------------------
+
+Vec3 unit(const Vec3& direction, const char* name)
+{
+    if (!(direction.stableNorm() > 0))
+        throw InvalidInput("closure.along_direction", "along: '{}' has a direction of no length", name);
+    return direction.stableNormalized();
+}
+
+/// Refuse a source that touches its axis, where cells would have no width.
+void check_axis(const Model& model, const Vec3& point, const Vec3& axis)
+{
+    const auto on_axis = [&](VertexId vertex) {
+        return (model.at(model[vertex].point) - point).cross(axis).norm() <= model.tolerance;
+    };
+    const auto refuse = [](const NamedEntity& what) {
+        throw InvalidInput(
+            Message("closure.along_axis", "{} lies on the axis, where cells would have no width", what)
+                .remedy(
+                    "leave a strip next to the axis out of the source, and fill the core with a volume of "
+                    "its own"));
+    };
+    for (std::size_t e = 0; e < model.edges.size(); ++e)
+        if (on_axis(model.edges[e].from) && on_axis(model.edges[e].to)) refuse(entity_of(model, EdgeId(e)));
+    for (std::size_t v = 0; v < model.vertices.size(); ++v)
+        if (on_axis(VertexId(v))) refuse(entity_of(model, VertexId(v)));
+}
+
+/// Direction in which a turn moves a place.
+Vec3 start_of_turn(const Vec3& point, const Vec3& axis, const Vec3& place)
+{
+    const Vec3 way = axis.cross(place - point);
+    return way.norm() > 0 ? Vec3(way.normalized()) : axis;
+}
+
+// --- vectors of single points ------------------------------------------------------------------------------
+
+/// A vector at each point of the source's facets, linear on each facet.
+struct PointVectors {
+    std::vector<Triangle> facets;
+    geometry::FacetTree tree;
+    std::vector<Vec3> at; ///< by point of the model
+
+    PointVectors(const Model& model, std::vector<Vec3> vectors)
+        : facets(facets_of(model, all_faces(model))), tree(model.points, facets), at(std::move(vectors))
+    {
+    }
+    [[nodiscard]] Vec3 operator()(const Vec3& place) const
+    {
+        const geometry::FacetTree::Hit hit = tree.closest(place);
+        const Triangle& t = facets[index(hit.triangle)];
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t i = 0; i < 3; ++i)
+            sum += hit.barycentric[static_cast<Eigen::Index>(i)] * at[index(t[i])];
+        return sum;
+    }
+};
+
+/// Normal of a round face at a place, on the side of its facets.
+Vec3 round_normal(const RoundShape& shape, const Vec3& place)
+{
+    Vec3 out = place - shape.centre;
+    if (shape.axis) out -= shape.axis->dot(out) * *shape.axis;
+    return out.normalized();
+}
+
+/// For each point of a source, the vector whose component along the normal of every face there is 1: the
+/// corner of the parallel faces at distance 1. Faces that meet without a crease share their mean normal.
+std::vector<Vec3> unit_offsets(const Model& model)
+{
+    std::vector<std::vector<std::pair<FaceId, Vec3>>> normals(model.points.size());
+    for (const FaceId face : all_faces(model)) {
+        for (const Triangle& t : model[face].triangles) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Vec3 &a = model.at(t[i]), &b = model.at(t[(i + 1) % 3]), &c = model.at(t[(i + 2) % 3]);
+                const double angle = geometry::angle_between(b - a, c - a);
+                auto& own = normals[index(t[i])];
+                if (own.empty() || own.back().first != face) own.emplace_back(face, Vec3::Zero());
+                own.back().second += angle * (b - a).cross(c - a).stableNormalized();
+            }
+        }
+    }
+    std::vector<Vec3> offsets(model.points.size(), Vec3::Zero());
+    for (std::size_t p = 0; p < normals.size(); ++p) {
+        if (normals[p].empty()) continue;
+        std::vector<Vec3> sums;
+        for (const auto& [face, normal] : normals[p]) {
+            const auto alike = std::ranges::find_if(sums, [&](const Vec3& sum) {
+                return geometry::angle_between(sum, normal) < kCreaseAngle * kDegree;
+            });
+            alike == sums.end() ? sums.push_back(normal) : void(*alike += normal);
+        }
+        Eigen::MatrixXd rows(std::ssize(sums), 3);
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            rows.row(static_cast<Eigen::Index>(i)) = sums[i].stableNormalized().transpose();
+        // Two normals a crease apart have a second singular value of 0.18 of the first.
+        constexpr double kDependent = 0.1;
+        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+        solver.setThreshold(kDependent);
+        solver.compute(rows);
+        offsets[p] = solver.solve(Eigen::VectorXd::Ones(rows.rows()));
+    }
+    return offsets;
+}
+
+/// Thickness of each point of the source's facets.
+std::vector<double> thickness_at(const Model& model, const std::function<double(const Vec3&)>& thickness)
+{
+    std::vector<double> at(model.points.size(), 0);
+    if (!thickness) return at;
+    for (const Face& face : model.faces)
+        for (const Index p : corners_of(face)) {
+            at[index(p)] = thickness(model.at(p));
+            if (!std::isfinite(at[index(p)]))
+                throw InvalidInput("closure.along_thickness", "along: the thickness at {} is no number",
+                                   place_in_words(model.at(p)));
+        }
+    return at;
+}
+
+/// Move the source's points and forget the exact geometry, which they leave.
+void move_source(Model& model, const std::vector<Vec3>& by)
+{
+    ModelBuilder builder(std::move(model));
+    for (std::size_t p = 0; p < builder.points.size(); ++p) builder.points[p] += by[p];
+    for (Face& face : builder.faces) {
+        face.surface.reset();
+        face.uv.clear();
+    }
+    for (Edge& edge : builder.edges) {
+        edge.curve.reset();
+        edge.params.clear();
+    }
+    model = std::move(builder).finish();
+}
+
+geometry::Motion motion_along_normals(OpenVolume& source, const Along::Normals& normals)
+{
+    const std::vector<Vec3> offsets = unit_offsets(source.model);
+    const std::vector<double> inside = thickness_at(source.model, normals.inside),
+                              outside = thickness_at(source.model, normals.outside);
+    std::optional<RoundShape> round;
+    if (source.model.faces.size() == 1) round = round_shape(source.model, FaceId(0));
+    std::vector<Vec3> reach(offsets.size()), back(offsets.size());
+    for (std::size_t p = 0; p < offsets.size(); ++p) {
+        reach[p] = (inside[p] + outside[p]) * offsets[p];
+        back[p] = -inside[p] * offsets[p];
+    }
+    if (normals.inside) move_source(source.model, back);
+    geometry::Motion motion;
+    motion.at = [](double) { return Eigen::Affine3d(Eigen::Affine3d::Identity()); };
+    motion.reach = [vectors = std::make_shared<const PointVectors>(source.model, std::move(reach)),
+                    round](const Vec3& place) -> Vec3 {
+        const Vec3 vector = (*vectors)(place);
+        if (!round) return vector;
+        // On a cylinder or a sphere the normal is exact, and facets tell the thickness.
+        const Vec3 normal = round_normal(*round, place);
+        return (normal.dot(vector) < 0 ? -vector.norm() : vector.norm()) * normal;
+    };
+    return motion;
+}
+
+geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& to)
+{
+    const Model& model = source.model;
+    Vec3 way = area_vector_of(model, all_faces(model));
+    if (way.dot(face_centroid(*to.model, to.face) - centroid_of(model, all_faces(model))) < 0) way = -way;
+    way = unit(way, "to");
+    const auto tree = std::make_shared<const geometry::FacetTree>(to.model->points,
+                                                                  (*to.model)[to.face].triangles);
+    std::vector<Vec3> reach(model.points.size(), Vec3::Zero());
+    for (const Face& face : model.faces) {
+        for (const Index p : corners_of(face)) {
+            const Vec3& place = model.at(p);
+            double least = kInfinity, most = 0;
+            tree->all_along(place, way, [&](const geometry::FacetTree::RayHit& hit) {
+                least = std::min(least, hit.t);
+                most = std::max(most, hit.t);
+                return true;
+            });
+            if (least <= most && most - least <= model.tolerance) {
+                reach[index(p)] = least * way;
+                continue;
+            }
+            throw InvalidInput(Message("closure.along_to", "along: the ray from {} meets {} {}",
+                                       place_in_words(place), entity_of(*to.model, to.face),
+                                       found(least > most ? "nowhere" : "more than once"))
+                                   .remedy("use a face that covers the source once, seen along its normal"));
+        }
+    }
+    geometry::Motion motion;
+    motion.at = [](double) { return Eigen::Affine3d(Eigen::Affine3d::Identity()); };
+    motion.reach = [tree, way, vectors = std::make_shared<const PointVectors>(model, std::move(reach))](
+                       const Vec3& place) -> Vec3 {
+        const geometry::FacetTree::RayHit hit = tree->first_along(place, way);
+        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way); // rounding at the rim misses
+    };
+    return motion;
+}
+
+/// Makes the motion of one kind of path.
+struct MotionMaker {
+    const Model& model; ///< of the edges of a path
+    SweptSource& swept;
+    geometry::Distortion by;
+    Vec3 centre;
+
+    geometry::Motion operator()(const Along::Vector& along) const
+    {
+        const Vec3 way = unit(along.way, "vector");
+        return distorted(geometry::translation(along.way), centre, way, by);
+    }
+    geometry::Motion operator()(const Along::Axis& along)
+    {
+        const Vec3 axis = unit(along.direction, "axis");
+        const double angle = along.angle * kDegree;
+        constexpr double kWhole = 360;
+        if (!(std::abs(along.angle) > 0) || std::abs(along.angle) > kWhole)
+            throw InvalidInput("closure.along_angle", "along: 'angle' is {} degrees, and a turn has up to {}",
+                               found(along.angle), needed(kWhole));
+        check_axis(swept.source.model, along.point, axis);
+        swept.full_turn = std::abs(along.angle) == kWhole;
+        if (swept.full_turn && (by.twist || by.scale))
+            throw InvalidInput(Message("closure.along_full_turn",
+                                       "along: a full turn ends on its source, which twist and scale change")
+                                   .remedy("leave them out, or use a smaller angle"));
+        geometry::Motion motion = geometry::screw(along.point, axis, angle, 0);
+        if (swept.full_turn) motion.levels = {0, 0.5, 1}; // its halves are swept one after the other
+        return distorted(std::move(motion), centre, start_of_turn(along.point, axis, centre), by);
+    }
+    geometry::Motion operator()(const Along::Helix& along) const
+    {
+        const Vec3 axis = unit(along.direction, "helix");
+        if (along.turns == 0)
+            throw InvalidInput("closure.along_turns", "along: a helix needs 'turns' other than {}", found(0));
+        check_axis(swept.source.model, along.point, axis);
+        return distorted(geometry::screw(along.point, axis, along.turns * kFullTurn, along.pitch), centre,
+                         start_of_turn(along.point, axis, centre), by);
+    }
+    geometry::Motion operator()(const Along::Path& along) const
+    {
+        const std::vector<geometry::PathPart> parts = parts_of(along, model, centre);
+        const auto frame = along.fixed ? geometry::SectionFrame::fixed : geometry::SectionFrame::minimal;
+        geometry::Motion motion = geometry::motion_along_path(parts, frame);
+        return distorted(std::move(motion), parts.front().front(), geometry::start_of_path(parts), by);
+    }
+    geometry::Motion operator()(const Along::Normals& along) const
+    {
+        refuse_distortion("normals");
+        return motion_along_normals(swept.source, along);
+    }
+    geometry::Motion operator()(const Along::ToFace& along) const
+    {
+        refuse_distortion("to");
+        return motion_to_face(swept.source, along);
+    }
+    void refuse_distortion(const char* name) const
+    {
+        if (by.twist || by.scale)
+            throw InvalidInput(Message("closure.along_distorted",
+                                       "along: '{}' moves each point of the source by itself, without a "
+                                       "section to twist or scale",
+                                       name)
+                                   .remedy("leave out 'twist' and 'scale'"));
+    }
+};
+
+/// Divide closed edges of the rim: the walls of their halves meet in two edges along the path, which tell how
+/// the source's rim corresponds to the target's. A seam within one wall would not.
+void divide_closed_edges(Model& model)
+{
+    constexpr double kMiddle = 0.5;
+    for (const EdgeId edge : rim_edges(model, all_faces(model)))
+        if (model[edge].from == model[edge].to) split_edge(model, edge, kMiddle);
+}
+
+void check_source(const OpenVolume& source)
+{
+    const Model& model = source.model;
+    const auto parts = connected_parts(model, all_faces(model));
+    if (parts.size() > 1)
+        throw InvalidInput(Message("closure.along_parts", "{} and {} of the source do not touch",
+                                   entity_of(model, parts[0].front()), entity_of(model, parts[1].front()))
+                               .remedy("open a volume for each of them"));
+    if (free_edges(source).empty())
+        throw InvalidInput(
+            Message("closure.along_closed", "the source, with {}, is a closed surface",
+                    entity_of(model, FaceId(0)))
+                .remedy("open a volume for a part of it, or name an inner and an outer surface"));
+}
+
+} // namespace
+
+SweptSource swept_source(const Model& model, OpenVolume source, const Along& along, const RunContext& context)
+{
+    check_cancelled(context);
+    check_source(source);
+    divide_closed_edges(source.model);
+    SweptSource swept{std::move(source), nullptr};
+    MotionMaker maker{model, swept, distortion_of(along),
+                      centroid_of(swept.source.model, all_faces(swept.source.model))};
+    swept.motion = std::make_shared<const geometry::Motion>(std::visit(maker, along.course));
+    return swept;
+}
+
+} // namespace lacuna::closure

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/closure/close.h>
+#include <lacuna/closure/shared/steps.h>
+#include <lacuna/core/run_context.h>
+#include <lacuna/geometry/shared/motion.h>
+#include <lacuna/topology/open_volume.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+/// Class 0: a source alone, swept along a path. It is not one of the paper's.
+namespace lacuna::closure {
+
+/// A source and its motion.
+struct SweptSource {
+    topology::OpenVolume source; ///< faces of the source alone
+    geometry::MotionPointer motion;
+    bool full_turn = false; ///< the motion ends where it starts
+    /// Sets that hold an edge of the source's rim; those of the walls that it makes.
+    std::map<EdgeId, std::vector<std::string>> sets{};
+};
+
+/// Give a source the motion along a path.
+/// @param model  of the edges of a path.
+/// @throw InvalidInput "closure.along_…"  a path without length, an unknown edge, a source that touches the
+///        axis, in several parts or closed, a section that shrinks to nothing; a source that has no place on
+///        the face. As `geometry::motion_along_path()`. Cancelled.
+SweptSource swept_source(const topology::Model& model, topology::OpenVolume source, const Along& along,
+                         const RunContext& context);
+
+/// Seal a source and its motion: each edge of its rim becomes void walls, one between two corners of the
+/// path, each vertex of its rim a void edge along the path, and each of its faces a face of the target. All
+/// have the exact geometry that the motion gives them. After a full turn there are walls only.
+/// @throw InvalidInput  options that shape what is missing.
+/// @throw NotClosed "closure.along_folds"  the path bends more than the source allows, or its layers would
+///        fold; "closure.along_crosses": the volume would cross itself. Both say where.
+Closed close_along(const SweptSource& swept, const CloseOptions& options, const RunContext& context);
+
+/// The two halves of a full turn, sealed, which share both ends.
+std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& context);
+
+} // namespace lacuna::closure

@@ -1,0 +1,349 @@
+-- SPDX-License-Identifier: MIT
+-- Sources swept along a path: exact volumes, a family of sources and paths, refusals, the same bytes.
+local lacuna = require "lacuna"
+local folder = arg[0]:match "^(.*[/\\])" or ""
+local check = dofile(folder .. "check.lua")
+local pi, cos, sin = math.pi, math.cos, math.sin
+local origin, X, Y, Z = { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }
+
+-- --- sources ---------------------------------------------------------------------------------------------
+
+-- Flat outlines { x, y } with cells, their areas, and x of their centroids.
+local function regular(n)
+  local shape = { points = {}, cells = {}, area = n / 2 * sin(2 * pi / n), x = 0 }
+  for k = 1, n do shape.points[k] = { cos(2 * pi * k / n), sin(2 * pi * k / n) } end
+  for k = 2, n - 1 do shape.cells[k - 1] = { 1, k, k + 1 } end
+  return shape
+end
+local function ring(n, inner)
+  local shape = { points = {}, cells = {}, area = n / 2 * sin(2 * pi / n) * (1 - inner ^ 2), x = 0 }
+  for k = 1, n do
+    local c, s = cos(2 * pi * k / n), sin(2 * pi * k / n)
+    shape.points[k], shape.points[n + k] = { c, s }, { inner * c, inner * s }
+    shape.cells[k] = { k, k % n + 1, n + k % n + 1, n + k }
+  end
+  return shape
+end
+local ell = { points = { { -1, -1 }, { 1, -1 }, { 1, 0 }, { 0, 0 }, { 0, 1 }, { -1, 1 } },
+  cells = { { 1, 2, 3, 4 }, { 1, 4, 5, 6 } }, area = 3, x = -1 / 6 }
+local shapes = { regular(3), regular(4), ell, ring(16, 0.5), regular(32) }
+local cornered = { regular(3), regular(4), ell, ring(4, 0.5) }
+
+-- A model of the shape in the plane through `at` along the unit vectors `u` and `v`.
+local function model(shape, at, u, v, keep)
+  local points, made = {}, lacuna.model()
+  for i, p in ipairs(shape.points) do
+    points[i] = {}
+    for d = 1, 3 do points[i][d] = at[d] + p[1] * u[d] + p[2] * v[d] end
+  end
+  made:add_face { name = "start", points = points, cells = shape.cells, keep_mesh = keep }
+  return made
+end
+
+local function open(shape, along, at, u, v)
+  local void = model(shape, at or origin, u or X, v or Y):open_volume { source = "start", along = along }
+  check.equal(void.class, "0")
+  return void
+end
+
+-- Sweeps, and proves the cells and their volume.
+local function sweep(void, options, volume, tolerance)
+  local mesh = void:sweep(options)
+  local quality = mesh:quality()
+  check.that(quality.certified, "certified")
+  if volume then check.near(quality.volume / volume, 1, tolerance) end
+  return mesh, quality
+end
+
+-- --- exact volumes ---------------------------------------------------------------------------------------
+
+local mitred = { { 0, 0, 0 }, { 0, 0, 3 }, { 4, 0, 3 }, { 7, 3, 3 }, { 7, 3, 8 } }
+for _, shape in ipairs(cornered) do
+  local mesh = sweep(open(shape, { vector = { 0.5, -0.25, 3 } }), { layers = 3, size = 0.7 },
+    3 * shape.area, 1e-12)
+  check.equal(mesh.layers, 3)
+  sweep(open(shape, { vector = { 0, 0, 2 }, scale = 0.5 }), { layers = 3, size = 0.7 },
+    2 * shape.area * 7 / 12, 1e-12)
+  -- The mean of the sections is off the line where the shape's centroid is.
+  if shape.x == 0 then sweep(open(shape, { path = mitred }), { size = 0.7 }, shape.area * (12 + 18 ^ 0.5),
+    1e-12) end
+  sweep(open(shape, { path = mitred, frame = "fixed" }, origin, { 0.8, 0, -0.6 }, Y), { size = 0.7 },
+    shape.area * (7 * 0.6 + 8 * 0.8), 1e-12)
+  for n = 3, 4 do
+    local angle, r = 100 * pi / 180, 3 + shape.x
+    sweep(open(shape, { axis = { origin, Z }, angle = 100 }, { 3, 0, 0 }, X, Z), { layers = n, size = 0.7 },
+      shape.area * r * n * sin(angle / n), 1e-12)
+  end
+  mesh = sweep(open(shape, { axis = { origin, Z }, angle = -360 }, { 3, 0, 0 }, X, Z), { layers = 12,
+    size = 0.7 },
+    shape.area * (3 + shape.x) * 12 * sin(pi / 6), 1e-12)
+  check.equal(#mesh.regions, 1)
+end
+
+-- --- a family --------------------------------------------------------------------------------------------
+
+local random = check.random(38)
+local kinds = {
+  -- Each gives along, the place and directions of the source, and the volume.
+  function(shape)
+    local way = { random(-1, 1), random(-1, 1), random(1, 5) }
+    return { vector = way, twist = random(-90, 90) }, origin, X, Y, way[3] * shape.area, 0.08
+  end,
+  function(shape)
+    local angle, r = random(20, 350), random(1.5, 5)
+    return { axis = { origin, Z }, angle = angle }, { r, 0, 0 }, X, Z,
+      shape.area * (r + shape.x) * angle * pi / 180, 0.08
+  end,
+  function(shape)
+    local turns, r = random(0.5, 3), random(2, 4)
+    return { helix = { origin, Z, random(2.5, 6), turns } }, { r, 0, 0 }, X, Z,
+      shape.area * (r + shape.x) * turns * 2 * pi, 0.08
+  end,
+  function(shape) -- an S in space
+    local height = random(8, 14)
+    local wave = random(0.1, 0.35) * (height / 8) ^ 2 -- the path's radius is 1.5 and more
+    local function path(t)
+      return wave * (1 - cos(2 * pi * t)), wave / 2 * (1 - cos(4 * pi * t)), height * t
+    end
+    return { path = path }, origin, X, Y
+  end,
+  function(shape) -- a spiral that widens
+    local r, turns, rise = random(2.5, 4), random(0.5, 2), random(0, 3)
+    local function path(t)
+      local a = 2 * pi * turns * t
+      local own = r + 3 * turns * t
+      return own * cos(a), own * sin(a), rise * t
+    end
+    return { path = path }, { r, 0, 0 }, X, Z
+  end,
+  function(shape) -- corners
+    local points = { { 0, 0, 0 }, { 0, 0, random(2, 4) } }
+    for k = 1, 3 do
+      local last = points[#points]
+      local a, b = random(-0.6, 0.6), random(-0.6, 0.6)
+      points[#points + 1] = { last[1] + 4 * sin(a), last[2] + 4 * sin(b), last[3] + 4 * cos(a) }
+    end
+    return { path = points, scale = random(0.6, 1.2) }, origin, X, Y
+  end,
+}
+local run = check.members_to_run(25)
+for member = 1, 300 do
+  local shape, kind = shapes[member % #shapes + 1], kinds[(member // #shapes) % #kinds + 1]
+  local along, at, u, v, volume, tolerance = kind(shape)
+  if run() then
+    local _, quality = sweep(open(shape, along, at, u, v), { size = 0.6 }, volume, tolerance)
+    check.that(quality.min_scaled_jacobian > 0.3, ("member %d: scaled Jacobian %g"):format(member,
+      quality.min_scaled_jacobian))
+  end
+end
+
+-- A helix of five turns.
+local _, coil = sweep(open(regular(16), { helix = { origin, Z, 3, 5 } }, { 4, 0, 0 }, X, Z), { size = 0.6 },
+  shapes[4].area / 0.75 * 4 * 10 * pi, 0.03)
+check.that(coil.min_scaled_jacobian > 0.3)
+
+-- --- normals and faces -----------------------------------------------------------------------------------
+
+-- A quarter of a cylinder of radius 2 and height 1, and an offset of it.
+local function shell(faces, keep)
+  local made, points, cells = lacuna.model(), {}, {}
+  for k = 0, faces do
+    local a = pi / 2 * k / faces
+    points[2 * k + 1], points[2 * k + 2] = { 2 * cos(a), 2 * sin(a), 0 }, { 2 * cos(a), 2 * sin(a), 1 }
+    if k > 0 then cells[k] = { 2 * k - 1, 2 * k + 1, 2 * k + 2, 2 * k } end
+  end
+  made:add_face { name = "start", points = points, cells = cells, keep_mesh = keep }
+  return made
+end
+local function thick(normals, keep)
+  return shell(24, keep):open_volume { source = "start", along = { normals = normals } }
+end
+sweep(thick(0.5), { layers = 2, size = 0.2 }, pi / 4 * (2.5 ^ 2 - 4), 0.01)
+sweep(thick { 0.25, 0.5 }, { layers = 2, size = 0.2 }, pi / 4 * (2.5 ^ 2 - 1.75 ^ 2), 0.01)
+sweep(thick(function(x, y, z) return 0.5 + 0.2 * z end), { layers = 2, size = 0.2 },
+  pi / 4 * ((2.6) ^ 2 - 4), 0.02)
+local kept = sweep(thick(0.5, true), { layers = 2 }, pi / 4 * (2.5 ^ 2 - 4), 0.01)
+check.equal(kept.hexes, 48)
+
+local roof = lacuna.model()
+roof:add_face { name = "roof", points = { { -3, -3, 2 }, { 3, -3, 2 }, { 3, 3, 5 }, { -3, 3, 5 } },
+  cells = { { 1, 2, 3, 4 } } }
+for _, shape in ipairs(cornered) do
+  if shape.x == 0 then
+    sweep(open(shape, { to = roof:face "roof" }), { layers = 2, size = 0.7 }, 3.5 * shape.area, 1e-12)
+  end
+end
+
+-- --- edges of the model and decks ------------------------------------------------------------------------
+
+local guided = model(shapes[2], origin, X, Y)
+guided:add_face { name = "guide", points = { origin, { 0, 0, 4 }, { 0, 3, 4 }, { 0, 3, 0 } },
+  cells = { { 1, 2, 3, 4 } } }
+local tags = {}
+for _, edge in ipairs(guided:info().free_edges) do
+  if edge.face == guided:face "guide".tag then tags[#tags + 1] = edge.tag end
+end
+-- In either order, from the end nearer to the source, and round the corner.
+for _, path in ipairs { { tags[1], tags[2] }, { tags[2], tags[1] } } do
+  sweep(guided:open_volume { source = "start", along = { path = path } }, { size = 0.5 }, 2 * 7, 1e-12)
+end
+
+-- A deck's quads are kept node for node, and its sets of edges are those of the walls; one ends on an edge.
+local deck = os.tmpname() .. ".inp"
+local lines = { "*NODE" }
+for j = 0, 2 do
+  for i = 0, 2 do lines[#lines + 1] = ("%d, %d, %d, 0"):format(3 * j + i + 1, i, j) end
+end
+lines[#lines + 1] = [[
+*ELEMENT, TYPE=S4, ELSET=PLATE
+1, 1, 2, 5, 4
+2, 2, 3, 6, 5
+3, 4, 5, 8, 7
+4, 5, 6, 9, 8
+*SURFACE, NAME=BOTTOM, TYPE=ELEMENT
+1, S1
+2, S1
+*SURFACE, NAME=LEFT, TYPE=ELEMENT
+1, S4
+]]
+check.write(deck, table.concat(lines, "\n"))
+local plate = lacuna.load(deck)
+local slab = sweep(plate:open_volume { source = 1, along = { axis = { { -3, 0, 0 }, Y }, angle = -360 } },
+  { layers = 12 })
+check.equal(slab.hexes, 48)
+slab = sweep(plate:open_volume { source = 1, along = { vector = { 0, 0, 3 } } }, { layers = 3 }, 12, 1e-12)
+check.equal(slab.nodes, 36)
+local sets = {}
+for _, group in ipairs(slab:groups()) do sets[group.name] = group.cells end
+check.equal(sets.BOTTOM, 6)
+check.equal(sets.LEFT, 3)
+local kept_nodes = 0
+for n = 1, slab.nodes do
+  local x, y, z = slab:node(n)
+  if z == 0 and x % 1 == 0 and y % 1 == 0 then kept_nodes = kept_nodes + 1 end
+end
+check.equal(kept_nodes, 9, "nodes of the deck, bit for bit")
+os.remove(deck)
+
+-- --- the rest of the language ----------------------------------------------------------------------------
+
+local void = open(ell, { vector = { 0, 0, 2 } })
+local closure = void:close()
+check.equal(closure.void_faces, 7)
+check.equal(closure.void_edges, 12)
+check.that(closure.watertight)
+check.that(void:describe():find "class:  0")
+local mesh = void:sweep { size = 0.5, order = 2, boundary_layers = { walls = { "start" }, first = 0.05,
+  count = 2 } }
+check.that(mesh:quality().certified)
+local names = {}
+for _, group in ipairs(mesh:groups()) do names[group.name] = group.cells end
+check.that(names.source and names.target and names["void:1"] and names.start, "groups")
+
+-- Two elbows on one line share the face between them.
+local first = open(shapes[4], { axis = { { 3, 0, 0 }, Y }, angle = 90, })
+local second = open(shapes[4], { vector = { 0, 0, -3 } })
+local both = lacuna.assembly { first, second }:sweep { size = 0.5 }
+check.that(both:quality().certified)
+
+-- Pieces of a cut.
+check.equal(#open(ell, { axis = { { 4, 0, 0 }, Y }, angle = 180 }):cut { plane = { { 4, 0, 4 }, X } }, 2)
+
+-- One exact solid, where there is CAD.
+local has_cad, version = pcall(function() return lacuna.gmsh_version end)
+if has_cad and version then
+  local function solid(along, shape, volume, faces)
+    local path, one = os.tmpname() .. ".step", open(shape, along, { 3, 0, 0 }, X, Z)
+    one:close()
+    local written = one:write_cad(path)
+    os.remove(path)
+    check.near(written.volume / volume, 1, 1e-9)
+    check.equal(written.faces, faces)
+  end
+  solid({ vector = { 0.5, -2, 0.3 } }, shapes[5], 2 * shapes[5].area, 34)
+  solid({ axis = { origin, Z }, angle = 100 }, ell, 3 * (3 - 1 / 6) * 100 * pi / 180, 8)
+  solid({ axis = { origin, Z }, angle = 360 }, shapes[2], 2 * 3 * 2 * pi, 8)
+end
+
+-- The same bytes for any number of threads.
+local bytes = {}
+for _, threads in ipairs { 1, 4 } do
+  local path = os.tmpname() .. ".msh"
+  open(shapes[4], { helix = { origin, Z, 4, 1 }, twist = 30 }, { 3, 0, 0 }, X, Z):sweep { size = 0.5,
+    threads = threads }:write(path)
+  local file <close> = assert(io.open(path, "rb"))
+  bytes[#bytes + 1] = file:read "a"
+  os.remove(path)
+end
+check.that(bytes[1] == bytes[2], "bytes")
+
+-- --- refusals --------------------------------------------------------------------------------------------
+
+-- `along` is refused with the code and the words.
+local function refused(along, code, ...)
+  local words = table.concat({ code or "", ... }, ", ")
+  local fine, message = pcall(function() open(shapes[2], along, { 3, 0, 0 }, X, Z):close() end)
+  check.that(not fine, "not refused: " .. words)
+  if code then check.equal(message.code, code, tostring(message)) end
+  for _, word in ipairs { ... } do
+    check.that(tostring(message):find(word, 1, true), ("'%s' is not in: %s"):format(word,
+      tostring(message)))
+  end
+end
+refused({}, nil, "has no path")
+refused({ vectr = X }, nil, "vector")
+refused({ vector = Y, path = { origin, X } }, nil, "one of them")
+refused({ axis = { origin, Z } }, nil, "angle")
+refused({ vector = Y, angle = 3 }, nil, "angle")
+refused({ vector = Y, frame = "fixed" }, nil, "frame")
+refused({ path = {} }, nil, "path")
+refused({ helix = { origin, Z } }, nil, "helix")
+refused({ normals = "thick" }, nil, "normals")
+refused({ vector = origin }, "closure.along_direction", "vector")
+refused({ axis = { origin, Z }, angle = 400 }, "closure.along_angle", "400", "360")
+refused({ axis = { { 4, 0, 0 }, Z }, angle = 90 }, "closure.along_axis", "vertex", "core")
+refused({ axis = { { 3, 0, 0 }, Z }, angle = 90 }, "closure.along_axis")
+refused({ axis = { { 2.9, 0, 0 }, Z }, angle = 90 }, "closure.along_folds")
+refused({ axis = { origin, Z }, angle = 360, twist = 90 }, "closure.along_full_turn")
+refused({ helix = { origin, Z, 1, 0 } }, "closure.along_turns")
+refused({ path = { origin } }, "closure.along_path", "2")
+refused({ path = function(t) return t, nil, 0 end }, "closure.along_path")
+refused({ path = function(t) return 0, t, math.abs(t - 0.5) * 3 end }, "closure.along_path", "points")
+refused({ path = { origin, Y, Y } }, "geometry.path_short", "0, 1, 0")
+refused({ path = { origin, { 0, 4, 0 }, { 0, 2, 1 } } }, "geometry.path_corner", "90")
+refused({ path = { 77 } }, "closure.along_edge", "77")
+refused({ path = { 1, 3 } }, "closure.along_edge", "order")
+refused({ vector = Y, twist = function(h) return "x" end }, "closure.along_profile", "twist")
+refused({ vector = Y, scale = function(h) return 2 end }, "closure.along_profile", "1")
+refused({ vector = Y, scale = -1 }, "closure.along_scale")
+refused({ normals = function() return "x" end }, "closure.along_thickness")
+refused({ normals = 1, twist = 3 }, "closure.along_distorted", "twist")
+refused({ to = roof:face "roof" }, "closure.along_to", "nowhere")
+refused({ vector = X }, "closure.along_folds")
+refused({ path = { { 3, 0, 0 }, { 3, 3, 0 }, { 3, 3, 0.5 }, { 3, -3, 0.5 } } }, "closure.along_folds",
+  "bend")
+refused({ helix = { origin, Z, 0.5, 2 } }, "closure.along_crosses", "at")
+refused({ path = { { 3, 0, 0 }, { 3, 9, 0 }, { 9, 9, 0 }, { 9, 4, 0 }, { -3, 4, 0 } } },
+  "closure.along_crosses", "at")
+check.fails(function() thick(-2.5):close() end, "fold", "thickness fits")
+check.fails(function() open(ell, { vector = Z }):sweep { layers = { 0.5, 1 }, frobnicate = 1 } end,
+  "frobnicate")
+check.fails(function() open(ell, { path = mitred }):sweep { layers = 3, size = 1 } end, "layers", "4")
+check.fails(function() open(ell, { vector = Z }):close { cap = "flat" } end, "cap", "along")
+check.fails(function() open(ell, { vector = Z }):close { edge_shape = "smooth" } end, "edge_shape")
+check.fails(function() open(ell, { vector = Z }):close { holes = "cover" } end, "holes")
+check.fails(function() open(ell, { vector = Z }):close { void_edges = { { 1, 2 } } } end, "void_edges")
+check.fails(function() model(ell, origin, X, Y):open_volume { along = { vector = Z } } end, "source alone")
+check.fails(function() open(ell, { path = function() error "mine" end }) end, "mine")
+local pair = model(ell, origin, X, Y)
+pair:add_face { name = "far", points = { { 9, 0, 0 }, { 10, 0, 0 }, { 9, 1, 0 } }, cells = { { 1, 2, 3 } } }
+check.fails(function() pair:open_volume { source = { "start", "far" }, along = { vector = Z } } end,
+  "touch")
+check.fails(function() pair:open_volume { source = "start", target = "far", along = { vector = Z } } end,
+  "alone")
+local ball = lacuna.model()
+ball:add_face { name = "ball", points = { origin, X, Y, Z }, cells = { { 1, 3, 2 }, { 1, 2, 4 }, { 1, 4,
+  3 }, { 2, 3, 4 } } }
+check.fails(function() ball:open_volume { source = { tags = { 1, 2, 3, 4 } },
+  along = { vector = Z } } end, "closed")
+check.done()
