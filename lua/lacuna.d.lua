@@ -5,7 +5,7 @@
 
 ---@alias lacuna.Vector { [1]: number, [2]: number, [3]: number } x, y, z [model length]
 ---@alias lacuna.Thickness number|fun(x: number, y: number, z: number): number [model length]
----@alias lacuna.Class "I"|"II"|"III"|"IV"|"V"|"closed"
+---@alias lacuna.Class "I"|"II"|"III"|"IV"|"V"|"closed"|"0"
 
 --- A face, its tag, its name, a selector, or an array of those.
 ---@alias lacuna.FaceRef lacuna.Face|integer|string|lacuna.Selector
@@ -179,7 +179,7 @@
 ---@field title? string default the name of the mesh and its counts
 
 ---@class lacuna.Classification
----@field class lacuna.Class|"0"
+---@field class lacuna.Class
 ---@field free_loops integer
 ---@field wall_free_source integer[] tags of vertices on no wall
 ---@field wall_free_target integer[]
@@ -338,7 +338,7 @@ function Model:picture(path, options) end
 ---@field auto? boolean where pieces result that can be swept: planes beside concave edges, or blocks at the vertices
 
 ---@class lacuna.Volume
----@field class lacuna.Class|"0" as the volume was given
+---@field class lacuna.Class as the volume was given
 local Volume = {}
 ---@return lacuna.Classification
 function Volume:classify() end

@@ -20,8 +20,9 @@ namespace {
 using topology::VolumeClass;
 
 const Word<VolumeClass> kClasses[] = {
-    {"I", VolumeClass::I},   {"II", VolumeClass::II}, {"III", VolumeClass::III},
-    {"IV", VolumeClass::IV}, {"V", VolumeClass::V},   {"closed", VolumeClass::closed},
+    {"I", VolumeClass::I},    {"II", VolumeClass::II}, {"III", VolumeClass::III},
+    {"IV", VolumeClass::IV},  {"V", VolumeClass::V},   {"closed", VolumeClass::closed},
+    {"0", VolumeClass::zero},
 };
 
 // --- roles ----------------------------------------------------------------------------------------------

@@ -64,7 +64,7 @@ class FaceInfo(Table):
 class Cavity(Table):
     """kind: "pocket" | "bore" | "slot" | "inner void"
     faces: list[int]; tags, for open_volume(faces=…)
-    class_: "I" | "II" | "III" | "IV" | "V" | "closed"
+    class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"
     volume: float; once it is sealed [model length³]
     """
 
@@ -286,7 +286,7 @@ class Model(Shown):
         reading: int; with roles to be found: which of the voids that were found, from 1
         full_turn: bool; the walls are a ring, swept round its whole turn; no ends; default False
         along: dict; with a source alone: the path along which it is swept
-        class_: "I" | "II" | "III" | "IV" | "V" | "closed"; override
+        class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"; override
         name: str; what the cells are called: their group, set or property in files; default "volume"
         material: str | int; of the cells, in decks; default: as the elements beside them
 

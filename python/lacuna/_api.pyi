@@ -15,7 +15,7 @@ class OtherMesh(Protocol):  # of meshio or PyVista
 Path = Union[str, os.PathLike[str]]
 Vector = Union[Sequence[float], numpy.ndarray]
 Thickness = Union[float, Callable[[float, float, float], float]]
-Class = Union[Literal["I", "II", "III", "IV", "V", "closed"]]
+Class = Union[Literal["I", "II", "III", "IV", "V", "closed", "0"]]
 FaceRef = Union[Face, int, str, Mapping[str, Any]]
 FaceRefs = Union[FaceRef, Iterable[FaceRef]]
 MetricName = Union[Literal["scaled_jacobian", "scaled_jacobian_with_centre", "jacobian", "shape", "shear", "condition", "max_aspect_frobenius", "med_aspect_frobenius", "oddy", "skew", "taper", "max_edge_ratio", "edge_ratio", "full_edge_ratio", "stretch", "diagonal", "dimension", "volume", "distortion", "relative_size_squared", "shape_and_size", "shear_and_size"]]
@@ -60,7 +60,7 @@ class Cavity(Table):
     class_: Class
     volume: float
 class Classification(Table):
-    class_: Class | Literal["0"]
+    class_: Class
     free_loops: int
     wall_free_source: list[int]
     wall_free_target: list[int]
@@ -199,7 +199,7 @@ class Face(AnyFace):
     def neighbours(self) -> list[int]: ...
 class Volume(Shown):
     @property
-    def class_(self) -> Class | Literal["0"]: ...
+    def class_(self) -> Class: ...
     def classify(self) -> Classification: ...
     def override_class(self, class_: Class) -> Volume: ...
     def match(

@@ -87,7 +87,7 @@ local kinds = {
   -- Each gives along, the place and directions of the source, and the volume.
   function(shape)
     local way = { random(-1, 1), random(-1, 1), random(1, 5) }
-    return { vector = way, twist = random(-90, 90) }, origin, X, Y, way[3] * shape.area, 0.08
+    return { vector = way, twist = random(-20, 20) * way[3] }, origin, X, Y, way[3] * shape.area, 0.08
   end,
   function(shape)
     local angle, r = random(20, 350), random(1.5, 5)

@@ -124,8 +124,10 @@ end
 
 local function first_refused(call) return not pcall(call) end
 local promised = {
-  along = function() prism():open_volume { source = "source", along = {} } end,
-  ['class = "0"'] = function() prism():open_volume { source = "source", class = "0" } end,
+  along = function() prism():open_volume { source = "source", along = { vector = { 0, 0, 1 } } } end,
+  ['class = "0"'] = function()
+    prism():open_volume { source = "source", along = { vector = { 0, 0, 1 } }, class = "0" }
+  end,
   fill_to = function() prism():open_volume { source = "source", fill_to = {} } end,
   quads = function() return prism().quads end,
   contacts = function() return prism().contacts end,

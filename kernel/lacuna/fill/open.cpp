@@ -77,7 +77,8 @@ std::shared_ptr<const closure::SweptSource> open_along(const Model& model, const
 {
     const bool source = request.roles && !request.roles->source.empty();
     if (!source || request.find_walls || !request.roles->target.empty() || !request.roles->walls.empty() ||
-        request.full_turn || request.override_class || request.reading > 0)
+        request.full_turn || request.reading > 0 ||
+        request.override_class.value_or(topology::VolumeClass::zero) != topology::VolumeClass::zero)
         throw InvalidInput(Message("closure.along_roles",
                                    "open_volume: 'along' sweeps a source alone, and makes the walls and the "
                                    "target itself")
@@ -136,12 +137,13 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
                     "open_volume: at least one end of these faces is missing, and they are swept as class {}",
                     found(topology::to_string(volume.classification.value)))
                 .remedy("to override the class, name the roles"));
-    if (!volume.closure) {
+    if (!volume.closure && !volume.along) {
         volume.volume.override_class = request.override_class;
         if (request.override_class) volume.as_read.reset();
         volume.classification = topology::classify(volume.volume);
     }
     if (volume.along) {
+        volume.classification = topology::classify(volume.volume);
         volume.classification.value = topology::VolumeClass::zero;
         volume.classification.reasons = {
             "a source alone and a path along which it is swept: not a class of the "

@@ -67,6 +67,7 @@ Volume override_class(Volume volume, topology::VolumeClass value)
     if (volume.closure)
         throw InvalidInput(Message("lua.sealed", "override_class: the volume is sealed already")
                                .remedy("override its class before close()"));
+    if (volume.along && value == topology::VolumeClass::zero) return volume;
     if (volume.along)
         throw InvalidInput("closure.along_roles",
                            "override_class: 'along' determines what is missing, and the class is {}",
