@@ -267,7 +267,7 @@ end
 
 check.done()
 
--- --- pieces side by side ------------------------------------------------------------------------------------
+-- --- pieces side by side -----------------------------------------------------------------------------------
 
 -- An edge of a skin that is not swept ends within a side of a swept box, along the sweep or on its rim: the
 -- box has a node there.

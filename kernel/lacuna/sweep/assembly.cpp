@@ -551,9 +551,9 @@ private:
     }
 
     std::vector<AssemblyMember> members_;
-    std::vector<OpenVolume> imprinted_; ///< the members' volumes, if faces had to be split
+    std::vector<OpenVolume> imprinted_;                  ///< the members' volumes, if faces had to be split
     std::vector<std::pair<std::size_t, FaceId>> beside_; ///< faces shared with members that are not swept
-    std::vector<std::string> notes_;    ///< lines of the report: imprints and near misses
+    std::vector<std::string> notes_;                     ///< lines of the report: imprints and near misses
     const RunContext& context_;
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it

@@ -194,12 +194,12 @@ private:
             const Vec3 p = geometry::point_at(back, back_at, std::min(length, back_at.back())) - back.front(),
                        q = geometry::point_at(on, on_at, std::min(length, on_at.back())) - on.front();
             const Vec3 across = q.cross(p);
-            return p.dot(q) > 0 && across.dot(normal) >= 0 &&
-                   across.norm() < kFlatQuad * p.norm() * q.norm();
+            return p.dot(q) > 0 && across.dot(normal) >= 0 && across.norm() < kFlatQuad * p.norm() * q.norm();
         };
         if (is_flat(most) || !is_flat(std::min(back_at[1], on_at[1]))) return;
         double low = 0, high = most;
-        for (int round = 0; round < kRounds; ++round) (is_flat((low + high) / 2) ? low : high) = (low + high) / 2;
+        for (int round = 0; round < kRounds; ++round)
+            (is_flat((low + high) / 2) ? low : high) = (low + high) / 2;
         for (const auto& [e, end] : {std::pair(a, !in.reversed), std::pair(b, out.reversed)}) {
             double& first = cusps_[same_.find(e)][end == runs_along(e) ? 1 : 0];
             first = std::max(first, high);
@@ -240,8 +240,7 @@ private:
                     const auto is_beside = [&](const EdgeUse& use) {
                         return beside_.contains(number(m, use.edge));
                     };
-                    if (std::ranges::any_of(line.line.uses, is_beside))
-                        stacks_[m].push_back(line.line.uses);
+                    if (std::ranges::any_of(line.line.uses, is_beside)) stacks_[m].push_back(line.line.uses);
                     continue;
                 }
                 sides_[m].push_back(line.line.uses.front());
@@ -894,17 +893,17 @@ private:
     std::map<std::size_t, Kept> kept_of_class_; ///< for the edges that determine its number
     std::map<std::size_t, std::array<RowsHere, 2>>
         rows_; ///< for each set of same edges, in the direction of the first
-    std::map<std::size_t, std::size_t> kept_one_;       ///< for each set of same edges, one with given nodes
-    std::vector<bool> common_;                          ///< for each edge: other members have it too
+    std::map<std::size_t, std::size_t> kept_one_; ///< for each set of same edges, one with given nodes
+    std::vector<bool> common_;                    ///< for each edge: other members have it too
     /// For each set of same edges: least length of the first side at both ends [model length].
     std::map<std::size_t, std::array<double, 2>> cusps_;
-    std::set<std::size_t> beside_;                      ///< edges shared with members that are not swept
+    std::set<std::size_t> beside_; ///< edges shared with members that are not swept
     /// For each member: side lines of several edges, some of them shared with such members.
     std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
-    std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
-    std::map<std::size_t, int> count_;                  ///< for each class
-    std::vector<int> per_turn_, layers_;                ///< numbers required by each member's volume
-    std::map<std::size_t, Followed> followed_;          ///< for each set of same edges
+    std::map<std::size_t, std::vector<EdgeUse>> sides_;       ///< for each member: side lines of one edge
+    std::map<std::size_t, int> count_;                        ///< for each class
+    std::vector<int> per_turn_, layers_;                      ///< numbers required by each member's volume
+    std::map<std::size_t, Followed> followed_;                ///< for each set of same edges
     std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member with intervals
     std::map<std::size_t, SidesOfClass> intervals_;           ///< for each class with an interval request
     /// For each set of same edges, the edge with a requested bias, and that bias in its direction.
