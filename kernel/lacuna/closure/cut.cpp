@@ -8,6 +8,7 @@
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
+#include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <unordered_map>
@@ -60,11 +62,14 @@ public:
     using Region = std::vector<std::vector<Vec2>>;
 
     /// @param suits  which regions of the plane inside the volume are cut; empty: all.
-    std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits)
+    /// @param straight  whether lines across flat faces have no points inside, for cuts that are found: sizes
+    ///                  of their pieces are unknown.
+    std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits, bool straight)
     {
         find_walks();
         if (suits) choose(suits);
         const WalkImprint made = imprint(parted_.volume, walks_, plane_, context_);
+        if (straight) straighten_flat_faces(made);
         parted_.plane = plane_;
         add_partitions(made);
         if (parted_.partitions.empty()) refuse_miss();
@@ -145,6 +150,27 @@ private:
                         "the face lies outside the volume, and only the rest of its plane cuts the volume")
                     .remedy("cut by the plane instead"));
         walks_ = std::move(kept);
+    }
+
+    /// Lines across flat faces have no points inside.
+    void straighten_flat_faces(const WalkImprint& made)
+    {
+        std::map<FaceId, std::vector<FaceId>> parts;
+        for (std::size_t f = 0; f < made.parent.size(); ++f) parts[made.parent[f]].emplace_back(f);
+        for (const auto& [face, own] : parts) {
+            const auto flat = own.size() > 1 ? plane_of(model_, face) : std::nullopt;
+            if (!flat || !model_[face].given_quads.empty()) continue;
+            const auto is_between = [&](const EdgeUse& use) {
+                const std::span<const FaceUse> users = model_.uses_of_edge(use.edge);
+                return users.size() == 2 && std::ranges::all_of(users, [&](const FaceUse& user) {
+                           return made.parent[user.face.index()] == face;
+                       });
+            };
+            std::vector<EdgeUse> line;
+            for (const std::vector<EdgeUse>& all : made.lines)
+                std::ranges::copy_if(all, std::back_inserter(line), is_between);
+            if (!line.empty()) straighten_lines(model_, own, *flat, {line}, context_);
+        }
     }
 
     [[nodiscard]] std::vector<Vec2> flat_line(const std::vector<EdgeUse>& uses) const
@@ -361,15 +387,15 @@ std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& con
 using Suits = std::function<bool(const std::vector<std::vector<Vec2>>&)>;
 
 std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plane& plane, const Suits& suits,
-                                  const RunContext& context)
+                                  const RunContext& context, bool straight = false)
 {
     const auto walks = section_walks(volume.model, all_faces(volume.model), plane, volume.model.tolerance);
     if (std::ranges::any_of(walks, [](const SectionWalk& walk) { return !walk.closed; })) {
         // The missing faces then have the shape of the closed whole, including its corners.
         if (const std::optional<OpenVolume> whole = sealed(volume, context))
-            return PlaneCutter(*whole, plane, context).run(suits);
+            return PlaneCutter(*whole, plane, context).run(suits, straight);
     }
-    return PlaneCutter(volume, plane, context).run(suits);
+    return PlaneCutter(volume, plane, context).run(suits, straight);
 }
 
 /// Whether a region contains some of the facets.
@@ -429,7 +455,7 @@ std::vector<StepPiece> cut_at_edges(const OpenVolume& volume, const geometry::Pl
             return false;
         });
     };
-    return cut_within(volume, plane, runs_along, context);
+    return cut_within(volume, plane, edges.empty() ? Suits() : runs_along, context, true);
 }
 
 std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model, FaceId face,

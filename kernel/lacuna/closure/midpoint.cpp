@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/transfinite_fill.h>
 #include <lacuna/closure/detail/void_entities.h>
+#include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -248,40 +249,12 @@ protected:
             line.places.clear();
             for (const Index p : use_points(model_, lines.back())) line.places.push_back({p});
         }
-        if (flat) simplify(face, *flat, lines);
+        if (!flat) return lines;
+        std::vector<FaceId> parts;
+        for (const FaceId part : all_faces(model_))
+            if (whole_[part.index()] == face) parts.push_back(part);
+        straighten_lines(model_, parts, *flat, lines, context_);
         return lines;
-    }
-
-    /// Triangulate the parts of a flat face anew, without points inside or along its lines: a mesh with fewer
-    /// nodes than these would fold facets.
-    void simplify(FaceId face, const geometry::Plane& plane, const std::vector<std::vector<EdgeUse>>& lines)
-    {
-        ModelBuilder builder(std::move(model_));
-        for (const EdgeUse& use : lines | std::views::join) {
-            Edge& edge = builder[use.edge];
-            edge.points = {edge.points.front(), edge.points.back()};
-            edge.params.clear();
-            edge.curve = nullptr;
-        }
-        for (std::size_t f = 0; f < whole_.size(); ++f) {
-            if (whole_[f] != face) continue;
-            Face& part = builder.faces[f];
-            std::map<Index, Vec2> uv;
-            for (std::size_t t = 0; t < part.uv.size(); ++t)
-                for (std::size_t k = 0; k < 3; ++k) uv[part.triangles[t][k]] = part.uv[t][k];
-            const std::vector<Index> rim = loop_points(builder, part.loops[0].uses);
-            Outline outline;
-            outline.add_loop(flat_places(plane, places_at(builder, rim)), rim);
-            const geometry::Triangulation made = geometry::triangulate(outline.flat, outline.loops,
-                                                                       {.interior_points = false}, context_);
-            part.triangles = filling_of(builder, outline, made, [](std::size_t) { return Vec3(); }).triangles;
-            part.uv.clear();
-            if (uv.empty()) continue;
-            for (const Triangle& t : part.triangles)
-                part.uv.push_back({uv.at(t[0]), uv.at(t[1]), uv.at(t[2])});
-        }
-        builder.build_loops(context_);
-        model_ = std::move(builder).finish();
     }
 
     VertexId add_vertex(const Vec3& place)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/shared/partition.h>
 
+#include <lacuna/closure/detail/cut_planes.h>
 #include <lacuna/closure/detail/midpoint.h>
-#include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
 #include <lacuna/closure/shared/branches.h>
@@ -10,7 +10,6 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/topology/shared/face_plane.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,35 +26,25 @@ namespace {
 
 /// Bounds of the search, so that a part with hundreds of features ends in seconds.
 constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
-/// Of the cuts that leave the shortest concave edges, those whose pieces are searched for ends, which costs
-/// more than the cut.
+/// Of the cuts that leave the least to cut, those whose pieces are searched for ends, which costs more than
+/// the cut; and of the planes between features, those that are tried.
 constexpr std::size_t kMostRead = 6;
 
-/// The concave edges of a volume.
-struct Concave {
-    std::vector<EdgeId> edges;
-    double length = 0; ///< [model length]
-};
-
-Concave concave_edges(const OpenVolume& volume, const RunContext& context)
-{
-    Concave found;
-    const std::vector<double> turns = concave_turns(volume, context);
-    for (std::size_t e = 0; e < turns.size(); ++e) {
-        if (!(turns[e] > kCreaseAngle)) continue;
-        found.edges.emplace_back(e);
-        found.length += edge_length(volume.model, EdgeId(e));
-    }
-    return found;
-}
-
-/// A piece, and its concave edges if it has no ends.
+/// A piece, and what is left to cut of it if it has no ends.
 struct CutPart {
     StepPiece piece;
-    Concave concave;
+    std::vector<Bend> bends;
+    double left = 0; ///< length_to_cut() [model length]
     bool has_ends = false;
     bool is_done = false; ///< it has ends, or no cut helps
 };
+
+CutPart part_of(StepPiece piece, const RunContext& context)
+{
+    std::vector<Bend> bends = bends_of(piece.volume, context);
+    const double left = length_to_cut(bends);
+    return {std::move(piece), std::move(bends), left};
+}
 
 /// Give a piece ends to sweep between, if it has some.
 bool find_ends(StepPiece& piece, const CanSweep& can_sweep, const RunContext& context)
@@ -82,37 +71,31 @@ bool find_ends(StepPiece& piece, const CanSweep& can_sweep, const RunContext& co
 /// The pieces of one cut, and what is left to do.
 struct CutTried {
     std::vector<CutPart> parts;
-    double left = 0; ///< length of concave edges in pieces without ends [model length]
+    double left = 0; ///< of pieces without ends [model length]
 };
 
-/// Cut a piece by the planes of its flat faces beside concave edges; the cuts that leave the least first.
+/// Cut a piece by the planes that may help; the cuts that leave the least first.
 std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const RunContext& context)
 {
-    const Model& model = part.piece.volume.model;
+    const OpenVolume& volume = part.piece.volume;
     std::vector<CutTried> cuts;
-    for (const FaceId face : all_faces(model)) {
-        std::vector<EdgeId> edges;
-        for (const EdgeId edge : part.concave.edges)
-            if (std::ranges::any_of(model.uses_of_edge(edge), [&](FaceUse use) { return use.face == face; }))
-                edges.push_back(edge);
-        const auto plane = edges.empty() ? std::nullopt : plane_of(model, face);
-        if (!plane || tried == kMostCuts) continue;
+    for (const auto& [plane, edges] : cut_planes(volume, part.bends, kMostRead)) {
+        if (tried == kMostCuts) break;
         ++tried;
         // Refused: the plane crosses given quads, or leaves the volume in one piece.
-        auto pieces = unless_refused([&] { return cut_at_edges(part.piece.volume, *plane, edges, context); });
+        auto pieces = unless_refused([&] { return cut_at_edges(volume, plane, edges, context); });
         if (!pieces || pieces->size() < 2) continue;
         CutTried& cut = cuts.emplace_back();
         for (StepPiece& piece : *pieces) {
-            Concave concave = concave_edges(piece.volume, context);
-            cut.left += concave.length;
-            cut.parts.push_back({std::move(piece), std::move(concave)});
+            cut.parts.push_back(part_of(std::move(piece), context));
+            cut.left += cut.parts.back().left;
         }
     }
     std::ranges::stable_sort(cuts, {}, &CutTried::left);
     return cuts;
 }
 
-/// The best cut of a piece; empty if none reduces the length of concave edges without ends.
+/// The best cut of a piece; empty if none reduces what is left to cut in pieces without ends.
 std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const CanSweep& can_sweep,
                               const RunContext& context)
 {
@@ -122,7 +105,7 @@ std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const Can
         cut.left = 0;
         for (CutPart& own : cut.parts) {
             own.has_ends = own.is_done = find_ends(own.piece, can_sweep, context);
-            if (!own.has_ends) cut.left += own.concave.length;
+            if (!own.has_ends) cut.left += own.left;
         }
     }
     const auto better = [](const CutTried& a, const CutTried& b) {
@@ -133,7 +116,7 @@ std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const Can
                std::tuple(b.left, without(b), b.parts.size());
     };
     const auto best = std::ranges::min_element(cuts, better);
-    if (best == cuts.end() || !(best->left < part.concave.length)) return {};
+    if (best == cuts.end() || !(best->left < (1 - kFileAccuracy) * part.left)) return {};
     return std::move(best->parts);
 }
 
@@ -212,15 +195,15 @@ bool has_ends(const OpenVolume& piece)
 std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_sweep,
                                  const RunContext& context)
 {
-    Concave concave = concave_edges(volume, context);
     std::vector<CutPart> parts;
-    parts.push_back({{volume}, std::move(concave)});
+    parts.push_back(part_of({volume}, context));
+    const auto suits = [&](const OpenVolume& piece) { return ends_suit_columns(piece) && can_sweep(piece); };
     for (std::size_t tried = 0; tried < kMostCuts && parts.size() < kMostPieces;) {
         check_cancelled(context);
         const auto next = std::ranges::max_element(
-            parts, {}, [](const CutPart& part) { return part.is_done ? -1 : part.concave.length; });
+            parts, {}, [](const CutPart& part) { return part.is_done ? -1 : part.left; });
         if (next->is_done) break;
-        std::vector<CutPart> made = best_cut(*next, tried, can_sweep, context);
+        std::vector<CutPart> made = best_cut(*next, tried, suits, context);
         if (made.empty()) {
             next->is_done = true;
             continue;

@@ -3,7 +3,9 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <bit>
@@ -30,6 +32,9 @@ constexpr std::size_t kMostEnds = 600;
 /// Any two faces of one end have normals at less than 110°; this is its cosine. A lower cosine joins faces
 /// that fold back on each other; a higher one separates the slopes of a steep roof.
 constexpr double kOneEnd = -0.35;
+/// A face of an end turns from the end's mean normal by less than 70°; this is its cosine. Columns run along
+/// a steeper face, such as a riser between two steps, and cells beside it have no volume.
+constexpr double kFacesEnd = 0.34;
 /// An end is flat within this share of its area.
 constexpr double kFlat = 0.1;
 /// Bonus of an end named by the user against ends that are flatter or more square to their walls. A higher
@@ -47,6 +52,30 @@ template <class Do>
 void for_each(FaceSet set, const Do& use)
 {
     for (; set != 0; set &= set - 1) use(static_cast<std::size_t>(std::countr_zero(set)));
+}
+
+/// Pairs of faces beside successive edges of a face that run in one line.
+using Beside = std::vector<std::pair<FaceId, FaceId>>;
+
+Beside faces_in_line(const Model& model, FaceId face)
+{
+    Beside found;
+    const auto face_beside = [&](const EdgeUse& use) {
+        for (const FaceUse& user : model.uses_of_edge(use.edge))
+            if (user.face != face) return user.face;
+        return face;
+    };
+    for (const Loop& loop : border_loops(model, face)) {
+        EdgeUse before = loop.uses.back();
+        for (const EdgeUse& use : loop.uses) {
+            const std::vector<Vec3> a = use_places(model, before), b = use_places(model, use);
+            const Vec3 in = a.back() - a[a.size() - 2], out = b[1] - b[0];
+            if (in.stableNormalized().dot(out.stableNormalized()) > kOneCurve)
+                found.emplace_back(face_beside(before), face_beside(use));
+            before = use;
+        }
+    }
+    return found;
 }
 
 /// The faces of a closed skin, with adjacency and shape.
@@ -99,6 +128,27 @@ public:
                 if (fits) add(set | one(next));
             });
         }
+        return found;
+    }
+
+    /// The faces whose mean normal is within 60° of a direction: a flat end with its grooves.
+    [[nodiscard]] FaceSet facing(const Vec3& direction) const
+    {
+        FaceSet set = 0;
+        for (std::size_t f = 0; f < faces_.size(); ++f)
+            if (2 * faces_[f].normal.dot(direction) > faces_[f].normal.norm()) set |= one(f);
+        return set;
+    }
+
+    /// Directions in which flat faces face.
+    [[nodiscard]] std::vector<Vec3> directions() const
+    {
+        std::vector<Vec3> found;
+        for (const OneFace& face : faces_)
+            if (face.normal.norm() > 1 - kFlatShare && std::ranges::none_of(found, [&](const Vec3& own) {
+                    return own.cross(face.normal).norm() < kParallel;
+                }))
+                found.push_back(face.normal);
         return found;
     }
 
@@ -262,18 +312,24 @@ std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
     const bool fits = skin.are_ends(source, target);
     if (fits) add(source, target, skin.cost(source, target) - 2 * kNamed, true);
     const std::vector<FaceSet> ends = skin.ends();
+    const auto consider = [&](FaceSet a, FaceSet b) {
+        if (!skin.are_ends(a, b)) return;
+        const FaceSet both = a | b;
+        if (fits && both == (source | target)) return;
+        double cost = skin.cost(a, b);
+        for (const FaceSet named : {source, target})
+            if (named != 0 && (named & both) == named) cost -= kNamed;
+        const bool turned = (b & source) != 0 || (a & target) != 0;
+        add(turned ? b : a, turned ? a : b, cost, false);
+    };
     for (std::size_t a = 0; a < ends.size(); ++a) {
         check_cancelled(context);
-        for (std::size_t b = a + 1; b < ends.size(); ++b) {
-            if (!skin.are_ends(ends[a], ends[b])) continue;
-            const FaceSet both = ends[a] | ends[b];
-            if (fits && both == (source | target)) continue;
-            double cost = skin.cost(ends[a], ends[b]);
-            for (const FaceSet named : {source, target})
-                if (named != 0 && (named & both) == named) cost -= kNamed;
-            const bool turned = (ends[b] & source) != 0 || (ends[a] & target) != 0;
-            add(ends[turned ? b : a], ends[turned ? a : b], cost, false);
-        }
+        for (std::size_t b = a + 1; b < ends.size(); ++b) consider(ends[a], ends[b]);
+    }
+    const auto is_known = [&](FaceSet set) { return std::ranges::find(ends, set) != ends.end(); };
+    for (const Vec3& direction : skin.directions()) {
+        const FaceSet a = skin.facing(direction), b = skin.facing(-direction);
+        if (!is_known(a) || !is_known(b)) consider(a, b);
     }
     if (ways.empty()) ways.emplace_back();
     return ways;
@@ -329,6 +385,24 @@ bool walls_run_between_ends(const OpenVolume& volume)
     return volume.model.faces.size() <= kMostFaces && free_edges(volume).empty() &&
            Skin(volume.model)
                .are_ends(set_of(volume.faces(Role::source)), set_of(volume.faces(Role::target)));
+}
+
+bool ends_suit_columns(const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    for (const Role end : {Role::source, Role::target}) {
+        const Vec3 mean = area_vector_of(model, volume.faces(end)).stableNormalized();
+        for (const FaceId face : volume.faces(end)) {
+            const Vec3 own = face_area_vector(model, face);
+            if (own.dot(mean) < kFacesEnd * own.norm()) return false;
+        }
+    }
+    const auto is_wall = [&](FaceId face) { return volume.role[face.index()] == Role::wall; };
+    return std::ranges::all_of(volume.faces(Role::wall), [&](FaceId wall) {
+        return std::ranges::all_of(faces_in_line(model, wall), [&](const auto& pair) {
+            return is_wall(pair.first) == is_wall(pair.second);
+        });
+    });
 }
 
 void check_ends(const OpenVolume& volume, const std::string& what)

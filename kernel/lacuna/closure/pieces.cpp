@@ -2,6 +2,7 @@
 #include <lacuna/closure/detail/pieces.h>
 
 #include <lacuna/closure/detail/outline.h>
+#include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 #include <set>
 
 namespace lacuna::closure {
@@ -303,6 +305,37 @@ std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<V
         }
     }
     return regions;
+}
+
+void straighten_lines(Model& model, const std::vector<FaceId>& parts, const geometry::Plane& plane,
+                      const std::vector<std::vector<EdgeUse>>& lines, const RunContext& context)
+{
+    ModelBuilder builder(std::move(model));
+    for (const EdgeUse& use : lines | std::views::join) {
+        Edge& edge = builder[use.edge];
+        edge.points = {edge.points.front(), edge.points.back()};
+        edge.params.clear();
+        edge.curve = nullptr;
+    }
+    for (const FaceId id : parts) {
+        Face& part = builder[id];
+        std::map<Index, Vec2> uv;
+        for (std::size_t t = 0; t < part.uv.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k) uv[part.triangles[t][k]] = part.uv[t][k];
+        Outline outline;
+        for (const Loop& loop : part.loops) {
+            const std::vector<Index> rim = loop_points(builder, loop.uses);
+            outline.add_loop(flat_places(plane, places_at(builder, rim)), rim);
+        }
+        const geometry::Triangulation made = geometry::triangulate(outline.flat, outline.loops,
+                                                                   {.interior_points = false}, context);
+        part.triangles = filling_of(builder, outline, made, [](std::size_t) { return Vec3(); }).triangles;
+        part.uv.clear();
+        if (uv.empty()) continue;
+        for (const Triangle& t : part.triangles) part.uv.push_back({uv.at(t[0]), uv.at(t[1]), uv.at(t[2])});
+    }
+    builder.build_loops(context);
+    model = std::move(builder).finish();
 }
 
 std::string partition_name(const Model& model)

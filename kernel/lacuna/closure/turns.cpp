@@ -110,12 +110,18 @@ std::vector<bool> parts_facing_void(const OpenVolume& volume, const std::vector<
 
 std::vector<double> concave_turns(const OpenVolume& volume, const RunContext& context)
 {
+    return skin_turns(volume, context).concave;
+}
+
+SkinTurns skin_turns(const OpenVolume& volume, const RunContext& context)
+{
     const std::vector<std::vector<FaceId>> parts = parts_of(volume.model);
-    std::vector<double> turns = folds_across(volume.model, context);
-    const std::vector<bool> facing = parts_facing_void(volume, parts, turns, context);
+    SkinTurns turns{folds_across(volume.model, context), std::vector<bool>(volume.model.faces.size(), true)};
+    const std::vector<bool> facing = parts_facing_void(volume, parts, turns.concave, context);
     for (std::size_t p = 0; p < parts.size(); ++p) {
         if (facing[p]) continue;
-        for (const EdgeId edge : edges_of(volume.model, parts[p])) turns[edge.index()] *= -1;
+        for (const EdgeId edge : edges_of(volume.model, parts[p])) turns.concave[edge.index()] *= -1;
+        for (const FaceId face : parts[p]) turns.faces_void[face.index()] = false;
     }
     return turns;
 }

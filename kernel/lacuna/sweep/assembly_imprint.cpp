@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/sweep/detail/assembly_imprint.h>
 
+#include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
@@ -8,6 +9,7 @@
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/sweep/detail/rim_arcs.h>
+#include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/side_points.h>
 #include <lacuna/topology/shared/split_edge.h>
@@ -187,6 +189,7 @@ std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::v
                                 const RunContext& context)
 {
     if (lines.empty()) return {side.face};
+    const std::optional<geometry::Plane> flat = plane_of(side.model(), side.face);
     ModelBuilder model(side.model());
     FaceCutter cutter(model, side.face);
     std::vector<SectionWalk> walks;
@@ -212,6 +215,13 @@ std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::v
         side.volume->role.push_back(side.volume->role[made.parent[f].index()]);
         if (made.parent[f] == side.face) parts.emplace_back(f);
     }
+    if (!flat) return parts;
+    std::vector<std::vector<EdgeUse>> straight;
+    for (std::size_t l = 0; l < lines.size(); ++l)
+        if (geometry::length(lines[l]) - (lines[l].back() - lines[l].front()).norm() <=
+            side.model().tolerance)
+            straight.push_back(made.lines[l]);
+    if (!straight.empty()) closure::straighten_lines(side.model(), parts, *flat, straight, context);
     return parts;
 }
 

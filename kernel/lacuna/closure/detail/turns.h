@@ -16,6 +16,13 @@ namespace lacuna::closure {
 /// @note  O(facets · parts).
 std::vector<double> concave_turns(const topology::OpenVolume& volume, const RunContext& context);
 
+/// As above, and of each face, whether its facets face the void.
+struct SkinTurns {
+    std::vector<double> concave;
+    std::vector<bool> faces_void;
+};
+SkinTurns skin_turns(const topology::OpenVolume& volume, const RunContext& context);
+
 /// Orient the parts of the skin so that they face away from the void.
 void face_away(topology::OpenVolume& volume, const RunContext& context);
 

@@ -31,7 +31,8 @@ namespace lacuna::closure {
 std::vector<StepPiece> cut_by_plane(const topology::OpenVolume& volume, const geometry::Plane& plane,
                                     const RunContext& context = {});
 
-/// As above, only along the regions of the plane whose rims run along some of these edges.
+/// As above, only along the regions of the plane whose rims run along some of these edges; without edges,
+/// along all. Lines across flat faces have no points inside, so that coarse meshes fold no facets.
 std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const geometry::Plane& plane,
                                     const std::vector<EdgeId>& edges, const RunContext& context = {});
 

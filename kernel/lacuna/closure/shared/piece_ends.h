@@ -20,10 +20,11 @@ struct ReadPieces {
 /// Choose the ends of closed cut pieces again, if a piece cannot be swept between its current ends.
 ///
 /// A plane that crosses an end obliquely leaves pieces whose cut is adjacent to the rest of that end. An end
-/// is a connected set of faces whose normals differ by less than 110°; two sets can be ends if each wall runs
-/// from one to the other between two neighbouring walls. The function takes the pair with the flattest and
-/// most similar ends, most square to their walls. It prefers ends that the user named, and pairs under which
-/// a cut that is a wall of both adjacent pieces has the same sides along the ends of both.
+/// is a connected set of faces whose normals differ by less than 110°, or all faces within 60° of the normal
+/// of a flat one; two sets can be ends if each wall runs from one to the other between two neighbours. The
+/// function takes the pair with the flattest and most similar ends, most square to their walls. It
+/// prefers ends that the user named, and pairs under which a cut that is a wall of both adjacent pieces has
+/// the same sides along the ends of both.
 /// Pieces without such ends, or with missing faces, are unchanged.
 /// @throw Cancelled
 /// @note  O(ends² · faces) per piece, for at most 600 ends; pieces with more than 40 faces are unchanged.
@@ -32,6 +33,11 @@ ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context = 
 /// Whether a closed volume has two ends between which each wall runs, as `read_ends()` requires; false for
 /// more than 40 faces.
 bool walls_run_between_ends(const topology::OpenVolume& volume);
+
+/// Whether columns can run from end to end of a closed volume: no face of an end is as steep as a wall, and
+/// each wall has a corner wherever it meets both an end and a wall. Otherwise cells have two sides in line
+/// there, and no volume.
+bool ends_suit_columns(const topology::OpenVolume& volume);
 
 /// @param what  name of the volume in the message: "volume_2".
 /// @throw NotSweepable "closure.no_ends"  a closed volume that lacks a source or a target; names its faces.

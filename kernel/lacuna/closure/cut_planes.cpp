@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/closure/detail/cut_planes.h>
+
+#include <lacuna/closure/detail/turns.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/topology/shared/cone_shape.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/use_places.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace lacuna::closure {
+
+using namespace topology;
+
+namespace {
+
+/// Length of the mean normal of a cylinder that turns by a right angle.
+constexpr double kQuarterTurn = 2 * std::numbers::sqrt2 / std::numbers::pi;
+
+bool are_parallel(const Vec3& a, const Vec3& b) { return a.cross(b).norm() < kParallel; }
+
+/// The direction of a straight edge.
+std::optional<Vec3> straight_along(const Model& model, EdgeId edge)
+{
+    const Vec3 chord = model.at(model[model[edge].to].point) - model.at(model[model[edge].from].point);
+    if (chord.norm() < (1 - kFlatShare) * edge_length(model, edge)) return std::nullopt;
+    return chord.stableNormalized();
+}
+
+/// The bend of a face; empty if it is convex, turns by no more than a right angle, or is no cylinder.
+std::optional<Bend> round_bend(const Model& model, FaceId face, bool faces_void)
+{
+    const double area = face_area(model, face);
+    const double mean_normal = face_area_vector(model, face).norm() / area;
+    if (mean_normal >= kQuarterTurn) return std::nullopt;
+    const auto shape = round_shape(model, face);
+    if (!shape || !shape->axis) return std::nullopt;
+    double outward = 0;
+    for (const Triangle& t : model[face].triangles) {
+        const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
+        outward += (a - shape->centre).dot((b - a).cross(c - a));
+    }
+    if ((outward > 0) != faces_void) return std::nullopt;
+    const double turned = area / shape->radius / kRightAngle; // length times right angles
+    return Bend{{}, face, turned * (1 - mean_normal / kQuarterTurn), shape->axis};
+}
+
+/// A bend as far as it lies on one side of a plane.
+struct Share {
+    double length;
+    const std::optional<Vec3>* axis;
+};
+
+double length_to_cut(const std::vector<Share>& shares)
+{
+    double all = 0, most = 0;
+    for (const Share& one : shares) {
+        all += one.length;
+        if (!*one.axis) continue;
+        double along = 0;
+        for (const Share& other : shares)
+            if (*other.axis && are_parallel(**one.axis, **other.axis)) along += other.length;
+        most = std::max(most, along);
+    }
+    return 2 * all - most;
+}
+
+/// An interval along a normal.
+struct Interval {
+    double low = kInfinity, high = -kInfinity;
+
+    void add(double height)
+    {
+        low = std::min(low, height);
+        high = std::max(high, height);
+    }
+};
+
+class Planner {
+public:
+    Planner(const OpenVolume& volume, const std::vector<Bend>& bends, std::size_t most)
+        : model_(volume.model), bends_(bends), most_(most)
+    {
+    }
+
+    std::vector<CutPlane> run()
+    {
+        add_face_planes();
+        find_features();
+        for (const Vec3& normal : normals()) add_between(normal);
+        std::ranges::stable_sort(between_, {}, &std::pair<double, geometry::Plane>::first);
+        for (std::size_t b = 0; b < std::min(between_.size(), most_); ++b)
+            planes_.push_back({between_[b].second, {}});
+        add_through_axes();
+        return std::move(planes_);
+    }
+
+private:
+    void add_face_planes()
+    {
+        for (const FaceId face : all_faces(model_)) {
+            std::vector<EdgeId> edges;
+            for (const Bend& bend : bends_)
+                if (bend.edge.valid() &&
+                    std::ranges::any_of(model_.uses_of_edge(bend.edge),
+                                        [&](const FaceUse& use) { return use.face == face; }))
+                    edges.push_back(bend.edge);
+            const auto plane = edges.empty() ? std::nullopt : plane_of(model_, face);
+            if (plane) planes_.push_back({*plane, std::move(edges)});
+        }
+    }
+
+    /// The feature of each bend: those whose faces are the same or share an edge are one.
+    void find_features()
+    {
+        std::vector<bool> bent(model_.faces.size(), false);
+        geometry::UnionFind sets(model_.faces.size());
+        for (const Bend& bend : bends_) {
+            if (bend.face.valid()) bent[bend.face.index()] = true;
+            if (bend.edge.valid())
+                for (const FaceUse& use : model_.uses_of_edge(bend.edge)) bent[use.face.index()] = true;
+        }
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+            const std::span<const FaceUse> uses = model_.uses_of_edge(EdgeId(e));
+            if (uses.size() == 2 && bent[uses[0].face.index()] && bent[uses[1].face.index()])
+                sets.unite_least(uses[0].face.index(), uses[1].face.index());
+        }
+        for (const Bend& bend : bends_)
+            feature_.push_back(sets.find(
+                bend.face.valid() ? bend.face.index() : model_.uses_of_edge(bend.edge).front().face.index()));
+    }
+
+    /// Normals of flat faces and common normals of two axes, without parallels.
+    [[nodiscard]] std::vector<Vec3> normals() const
+    {
+        std::vector<Vec3> found;
+        const auto add = [&](const Vec3& normal) {
+            if (std::ranges::none_of(found, [&](const Vec3& own) { return are_parallel(own, normal); }))
+                found.push_back(normal);
+        };
+        for (const FaceId face : all_faces(model_))
+            if (const auto plane = plane_of(model_, face)) add(plane->normal);
+        for (const Bend& a : bends_)
+            for (const Bend& b : bends_)
+                if (a.face.valid() && b.face.valid() && !are_parallel(*a.axis, *b.axis))
+                    add(a.axis->cross(*b.axis).normalized());
+        return found;
+    }
+
+    /// Planes midway between features, each with the length that it leaves to cut.
+    void add_between(const Vec3& normal)
+    {
+        std::vector<Interval> own(bends_.size());
+        std::map<std::size_t, Interval> whole;
+        for (std::size_t b = 0; b < bends_.size(); ++b) {
+            const Bend& bend = bends_[b];
+            for (const Index p :
+                 bend.face.valid() ? corner_points(model_[bend.face]) : model_[bend.edge].points) {
+                own[b].add(normal.dot(model_.at(p)));
+                whole[feature_[b]].add(normal.dot(model_.at(p)));
+            }
+        }
+        for (const auto& [feature, interval] : whole) {
+            double next = kInfinity;
+            for (const auto& [other, there] : whole)
+                if (there.low > interval.high + model_.tolerance) next = std::min(next, there.low);
+            if (next == kInfinity) continue;
+            const double height = (interval.high + next) / 2;
+            std::vector<Share> below, above, all;
+            for (std::size_t b = 0; b < bends_.size(); ++b) {
+                const Bend& bend = bends_[b];
+                const double reach = std::max(own[b].high - own[b].low, model_.tolerance);
+                const double share = std::clamp((height - own[b].low) / reach, 0.0, 1.0);
+                all.push_back({bend.length, &bend.axis});
+                if (share > 0) below.push_back({share * bend.length, &bend.axis});
+                if (share < 1) above.push_back({(1 - share) * bend.length, &bend.axis});
+            }
+            const double left = length_to_cut(below) + length_to_cut(above);
+            if (left < (1 - kVisible) * length_to_cut(all))
+                between_.emplace_back(left, geometry::plane_across(height * normal, normal));
+        }
+    }
+
+    /// Planes through the axes of crossing cylinders.
+    void add_through_axes()
+    {
+        const auto bend_at = [&](const FaceUse& use) {
+            return std::ranges::find_if(bends_, [&](const Bend& bend) { return bend.face == use.face; });
+        };
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+            const std::span<const FaceUse> uses = model_.uses_of_edge(EdgeId(e));
+            if (uses.size() != 2) continue;
+            const auto a = bend_at(uses[0]), b = bend_at(uses[1]);
+            if (a == bends_.end() || b == bends_.end() || are_parallel(*a->axis, *b->axis)) continue;
+            const Vec3 across = a->axis->cross(*b->axis).normalized();
+            for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
+                const Vec3 centre = round_shape(model_, one->face)->centre;
+                for (const Vec3& normal : {across, Vec3(one->axis->cross(across))})
+                    add_new(geometry::plane_across(centre, normal));
+            }
+        }
+    }
+
+    void add_new(const geometry::Plane& plane)
+    {
+        if (std::ranges::none_of(planes_, [&](const CutPlane& other) {
+                return other.edges.empty() && are_parallel(other.plane.normal, plane.normal) &&
+                       std::abs(geometry::height(other.plane, plane.origin)) <= model_.tolerance;
+            }))
+            planes_.push_back({plane, {}});
+    }
+
+    const Model& model_;
+    const std::vector<Bend>& bends_;
+    std::size_t most_;
+    std::vector<std::size_t> feature_; ///< by bend
+    std::vector<std::pair<double, geometry::Plane>> between_;
+    std::vector<CutPlane> planes_;
+};
+
+} // namespace
+
+std::vector<Bend> bends_of(const OpenVolume& volume, const RunContext& context)
+{
+    std::vector<Bend> bends;
+    const Model& model = volume.model;
+    const SkinTurns turns = skin_turns(volume, context);
+    for (std::size_t e = 0; e < turns.concave.size(); ++e)
+        if (turns.concave[e] > kCreaseAngle)
+            bends.push_back({EdgeId(e), {}, edge_length(model, EdgeId(e)), straight_along(model, EdgeId(e))});
+    for (const FaceId face : all_faces(model))
+        if (auto bend = round_bend(model, face, turns.faces_void[face.index()]))
+            bends.push_back(std::move(*bend));
+    return bends;
+}
+
+double length_to_cut(const std::vector<Bend>& bends)
+{
+    std::vector<Share> shares;
+    for (const Bend& bend : bends) shares.push_back({bend.length, &bend.axis});
+    return length_to_cut(shares);
+}
+
+std::vector<CutPlane> cut_planes(const OpenVolume& volume, const std::vector<Bend>& bends, std::size_t most)
+{
+    return Planner(volume, bends, most).run();
+}
+
+} // namespace lacuna::closure
