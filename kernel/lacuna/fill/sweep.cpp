@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <utility>
@@ -153,6 +154,13 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
         const std::string cut = formatted("cut into {} pieces, because {}", pieces.size(), why.text());
         try {
             FilledParts mesh = sweep_pieces(sealed, std::move(pieces), options, context);
+            // The sizes of the pieces are no wish of the user's, so a volume that they lose is no note.
+            const sweep::Fidelity shape = fidelity(mesh);
+            if (const double off = std::abs(shape.volume / shape.sealed_volume - 1);
+                !request.options.size && off > kVolumeNoted)
+                throw NotSweepable("sweep.volume",
+                                   "the pieces have {:.2g} % more or less volume than the sealed skin",
+                                   found(100 * off));
             mesh.swept.report.insert(mesh.swept.report.begin(), cut);
             log_line(context,
                      formatted("note: no single sweep fills the volume, so it is cut into pieces; the "
