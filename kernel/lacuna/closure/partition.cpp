@@ -37,15 +37,15 @@ constexpr std::size_t kMostRead = 6;
 struct CutPart {
     StepPiece piece;
     std::vector<Bend> bends;
-    double left = 0; ///< length_to_cut() [model length]
+    double left = 0; ///< [model length]
     bool has_ends = false;
     bool is_done = false; ///< it has ends, or no cut helps
 };
 
-CutPart part_of(StepPiece piece, const RunContext& context)
+CutPart part_of(StepPiece piece, Planes planes, const RunContext& context)
 {
     std::vector<Bend> bends = bends_of(piece.volume, context);
-    const double left = length_to_cut(bends);
+    const double left = planes == Planes::of_faces ? concave_length(bends) : length_to_cut(bends);
     return {std::move(piece), std::move(bends), left};
 }
 
@@ -78,11 +78,12 @@ struct CutTried {
 };
 
 /// Cut a piece by the planes that may help; the cuts that leave the least first.
-std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const RunContext& context)
+std::vector<CutTried> try_cuts(const CutPart& part, Planes planes, std::size_t& tried,
+                               const RunContext& context)
 {
     const OpenVolume& volume = part.piece.volume;
     std::vector<CutTried> cuts;
-    for (const auto& [plane, edges] : cut_planes(volume, part.bends, kMostRead)) {
+    for (const auto& [plane, edges] : cut_planes(volume, part.bends, planes, kMostRead)) {
         if (tried == kMostCuts) break;
         ++tried;
         // Refused: the plane crosses given quads, or leaves the volume in one piece.
@@ -90,7 +91,7 @@ std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const Ru
         if (!pieces || pieces->size() < 2) continue;
         CutTried& cut = cuts.emplace_back();
         for (StepPiece& piece : *pieces) {
-            cut.parts.push_back(part_of(std::move(piece), context));
+            cut.parts.push_back(part_of(std::move(piece), planes, context));
             cut.left += cut.parts.back().left;
         }
     }
@@ -99,10 +100,10 @@ std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const Ru
 }
 
 /// The best cut of a piece; empty if none reduces what is left to cut in pieces without ends.
-std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const CanSweep& can_sweep,
-                              const RunContext& context)
+std::vector<CutPart> best_cut(const CutPart& part, Planes planes, std::size_t& tried,
+                              const CanSweep& can_sweep, const RunContext& context)
 {
-    std::vector<CutTried> cuts = try_cuts(part, tried, context);
+    std::vector<CutTried> cuts = try_cuts(part, planes, tried, context);
     if (cuts.size() > kMostRead) cuts.resize(kMostRead);
     for (CutTried& cut : cuts) {
         cut.left = 0;
@@ -121,6 +122,32 @@ std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const Can
     const auto best = std::ranges::min_element(cuts, better);
     if (best == cuts.end() || !(best->left < (1 - kFileAccuracy) * part.left)) return {};
     return std::move(best->parts);
+}
+
+/// Cut a volume, and its parts in turn, as long as a cut leaves less to cut in parts without ends.
+std::vector<CutPart> cut_by(Planes planes, const OpenVolume& volume, const CanSweep& can_sweep,
+                            const RunContext& context)
+{
+    std::vector<CutPart> parts;
+    parts.push_back(part_of({volume}, planes, context));
+    const auto suits = [&](const OpenVolume& piece) {
+        return (planes == Planes::of_faces || ends_suit_columns(piece)) && can_sweep(piece);
+    };
+    for (std::size_t tried = 0; tried < kMostCuts && parts.size() < kMostPieces;) {
+        check_cancelled(context);
+        const auto next = std::ranges::max_element(
+            parts, {}, [](const CutPart& part) { return part.is_done ? -1 : part.left; });
+        if (next->is_done) break;
+        std::vector<CutPart> made = best_cut(*next, planes, tried, suits, context);
+        if (made.empty()) {
+            next->is_done = true;
+            continue;
+        }
+        *next = std::move(made.back());
+        made.pop_back();
+        std::ranges::move(made, std::back_inserter(parts));
+    }
+    return parts;
 }
 
 /// Directions in which a volume has flat faces to either side, those with the most area first.
@@ -198,25 +225,16 @@ bool has_ends(const OpenVolume& piece)
 std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_sweep,
                                  const RunContext& context)
 {
-    std::vector<CutPart> parts;
-    parts.push_back(part_of({volume}, context));
-    const auto suits = [&](const OpenVolume& piece) { return ends_suit_columns(piece) && can_sweep(piece); };
-    for (std::size_t tried = 0; tried < kMostCuts && parts.size() < kMostPieces;) {
-        check_cancelled(context);
-        const auto next = std::ranges::max_element(
-            parts, {}, [](const CutPart& part) { return part.is_done ? -1 : part.left; });
-        if (next->is_done) break;
-        std::vector<CutPart> made = best_cut(*next, tried, suits, context);
-        if (made.empty()) {
-            next->is_done = true;
-            continue;
-        }
-        *next = std::move(made.back());
-        made.pop_back();
-        std::ranges::move(made, std::back_inserter(parts));
+    const auto are_swept = [](const std::vector<CutPart>& parts) {
+        return std::ranges::all_of(parts, &CutPart::has_ends);
+    };
+    std::vector<CutPart> parts = cut_by(Planes::of_faces, volume, can_sweep, context);
+    if (!are_swept(parts)) {
+        std::vector<CutPart> more = cut_by(Planes::all, volume, can_sweep, context);
+        if (are_swept(more)) parts = std::move(more);
     }
     std::vector<StepPiece> pieces;
-    if (!std::ranges::all_of(parts, &CutPart::has_ends)) {
+    if (!are_swept(parts)) {
         pieces = cut_in_steps(volume, can_sweep, context);
         if (pieces.empty()) pieces = divided_at_middle(volume, kMostPieces, can_sweep, context);
     }

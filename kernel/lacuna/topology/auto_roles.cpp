@@ -11,7 +11,6 @@
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
 #include <lacuna/topology/detail/wall_tally.h>
-#include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -19,7 +18,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <tuple>
 
 namespace lacuna::topology {
@@ -714,10 +712,6 @@ std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector
     Model part = extract(model, faces);
     check_cancelled(context);
     orient_consistently(part);
-    const auto is_open = [&](std::size_t e) { return part.uses_of_edge(EdgeId(e)).size() == 1; };
-    const auto edges = std::views::iota(std::size_t{0}, part.edges.size());
-    if (connected_parts(part, all_faces(part)).size() > 1 && std::ranges::none_of(edges, is_open))
-        orient_skin(part, context); // which end a face belongs to depends on the side of the void
     std::vector<RoleCandidate> candidates = candidates_of(part, false, options, context);
     if (candidates.empty()) candidates = candidates_of(part, true, options, context);
     for (RoleCandidate& candidate : candidates) {
