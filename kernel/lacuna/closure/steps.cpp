@@ -35,8 +35,8 @@ using namespace topology;
 namespace {
 
 /// An end turns into the walls at a step by more than half of a right angle, or smoothly into walls that lead
-/// away from the opposite end at more than this angle to the level: those of a round that was divided do so at
-/// half of a right angle, up to its facets [degrees].
+/// away from the opposite end at more than this angle to the level: those of a round that was divided do so
+/// at half of a right angle, up to its facets [degrees].
 constexpr double kStep = 45, kLeadsAway = 30;
 
 /// Each cut reduces the number of steps; more rounds than this indicate an error.
@@ -161,7 +161,7 @@ private:
         FaceId face;
         Vec2 uv = Vec2::Zero();
     };
-    /// The point where the line through a point along the sweep meets the opposite end first, or a face of it.
+    /// Where the line through a point along the sweep first meets the opposite end, or one face of it.
     std::optional<Hit> above(const Vec3& p, FaceId only = {})
     {
         geometry::FacetTree::RayHit hit;
@@ -462,8 +462,8 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
     return levels;
 }
 
-/// Close a flat brim of walls across the sweep if nothing else is missing, such as that of a box round a floating
-/// board: what stands beside the board would have nothing to reach up to.
+/// Close a flat brim of walls across the sweep if nothing else is missing, such as that of a box round a
+/// floating board: what stands beside the board would have nothing to reach up to.
 void close_brim(OpenVolume& volume, const RunContext& context)
 {
     const std::vector<Rim> open = free_loops(volume);

@@ -25,8 +25,8 @@
 namespace lacuna::healing {
 namespace {
 
-/// Sides over which the turn of a border of a noisy surface is measured: with noise of 40 % of the sides it is
-/// then off by 9 degrees, a quarter of the feature angle.
+/// Sides over which the turn of a border of a noisy surface is measured: with noise of 40 % of the sides it
+/// is then off by 9 degrees, a quarter of the feature angle.
 constexpr int kNoisyReach = 8;
 
 struct Flood {

@@ -11,8 +11,8 @@
 /// facets.
 namespace lacuna::healing {
 
-/// Facets of a patch of `patch_normals()`. With noise of 40 % of the sides, 32 join sides of a square tube; 64
-/// turn too far from the surface of a round one of 40 sides.
+/// Facets of a patch of `patch_normals()`. With noise of 40 % of the sides, 32 join sides of a square tube;
+/// 64 turn too far from the surface of a round one of 40 sides.
 inline constexpr std::size_t kPatch = 40;
 
 /// The only other side of the same label on the side's segment; -1 if there is none, there are several, or a
@@ -38,7 +38,7 @@ bool is_noisy(const Facets& facets, const FacetSides& sides, const std::vector<V
 /// For each facet the mean normal of the flattest patch that contains it: the mean over its neighbourhood,
 /// beside a crease over that of one side. The area vectors of a patch add up to a sum that its border alone
 /// determines, so noise inside it has no effect. To choose the flattest patch is the filter of Kuwahara
-/// @cite kuwahara_1976 for images.
+/// @cite kuwahara_1976_smoothing for images.
 std::vector<Vec3> patch_normals(const Facets& facets, const FacetSides& sides, const RunContext& context);
 
 } // namespace lacuna::healing
