@@ -218,6 +218,8 @@ def _work(jobs, own):
             if interpreter is not None:
                 interpreter._release(job)
             del interpreter
+        elif isinstance(job, _thread.LockType):
+            job.release()
         else:
             handle, _ = job  # and the callbacks, which have to stay until here
             _library.lacuna_close(handle)
@@ -444,9 +446,18 @@ def _end():
 
 
 def _forks():
-    """Objects that were dropped are released first; a call that runs is not waited for."""
+    """Objects that were dropped are released first; a call that runs is not waited for. The queue of jobs is
+    left with its thread waiting for more: between an item and the thread that it woke, it would be copied
+    into the new process as woken, and nothing would wake it there."""
     for own in list(_interpreters):
-        if own._job is None and not own._lock._is_owned() and own._lock.acquire(timeout=_CALLBACKS_END):
+        if own._job is not None or own._lock._is_owned():
+            continue
+        if own._process == os.getpid():
+            waiting = threading.Lock()
+            waiting.acquire()
+            own._jobs.put(waiting)
+            waiting.acquire(timeout=_CALLBACKS_END)
+        if own._lock.acquire(timeout=_CALLBACKS_END):
             _held_for_fork.append(own)
 
 

@@ -604,6 +604,23 @@ class Threads(unittest.TestCase):
                 os._exit(1)
         self.assertEqual(os.waitpid(child, 0)[1], 0)
 
+    def test_a_process_may_be_forked_while_objects_are_released(self):
+        void = prism()
+        for _ in range(20):
+            dropped = prism()
+            del dropped
+            until = time.perf_counter() + 0.001
+            while time.perf_counter() < until:
+                pass  # the thread that releases it is woken, and waits for this one
+            child = os.fork()
+            if child == 0:
+                signal.alarm(10)
+                for _ in range(2):
+                    void.sweep(layers=1, size=0.5)
+                    time.sleep(0.01)  # its own thread waits for the next call
+                os._exit(0)
+            self.assertEqual(os.waitpid(child, 0)[1], 0)
+
 
 class Memory(unittest.TestCase):
     def test_a_thousand_models_leave_nothing(self):
