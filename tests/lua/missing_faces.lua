@@ -1,22 +1,11 @@
 -- SPDX-License-Identifier: MIT
--- CAD bodies with one to three faces taken away at random: what their rims tell is sealed and meshed as the
--- whole body is, and no other shape is made without a note.
+-- CAD bodies with one to three faces taken away: what their rims tell is sealed and meshed as the whole body
+-- is, and no other shape is made without a note.
 -- usage: lacuna missing_faces.lua shared=FOLDER scratch=FOLDER
 local lacuna = require "lacuna"
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local params = lacuna.params { shared = "", scratch = "." }
 local whole = os.getenv "LACUNA_WHOLE_FAMILIES"
-
-local folder = params.shared .. "/data/bodies/"
-if params.shared == "" or not check.exists(folder .. "bodies.json") then
-  print("skipped: " .. folder .. "bodies.json is not here")
-  return
-end
-
---- Bodies that are drawn from, and the least number of draws that are sealed right and swept.
-local few = { ["n08o_pentapyr.geo"] = true, ["s02o_prism.geo"] = true,
-  ["s14o_cube_corner_sub_sphere.stp"] = true, ["s12o_cube_rounded_1.stp"] = true }
-local draws, least = whole and 4 or 1, whole and { sealed = 65, swept = 15 } or { sealed = 4, swept = 0 }
 
 --- The volume that the facets of a binary or text file enclose.
 local function enclosed(path)
@@ -50,6 +39,67 @@ local function has_note(void)
   end
   return false
 end
+
+--- A body with faces taken away, sealed.
+local function sealed_without(model, gone)
+  local left = {}
+  for _, face in ipairs(model:faces()) do
+    if not gone[face.tag] then left[#left + 1] = face.tag end
+  end
+  local void = model:open_volume { faces = left }
+  void:close()
+  void:write_facets(params.scratch .. "/sealed.stl")
+  return void, enclosed(params.scratch .. "/sealed.stl")
+end
+
+-- Generated bodies of varying lengths, of which faces are missing: { what, script, a place on each missing
+-- face, whether a note is due; nil: it depends on the reading }.
+local random = check.random(7)
+for _ = 1, whole and 6 or 1 do
+  local r1, r2, r3, h = random(0.8, 1.2), random(2, 3), random(1.3, 1.6), random(1, 3)
+  local top = 3 + h
+  local shaft = ("Cylinder(1)={0,0,0,0,0,3,%g}; Cylinder(2)={0,0,3,0,0,%g,%g};"):format(r1, h, r2)
+      .. ("Cylinder(3)={0,0,%g,0,0,3,%g};"):format(top, r3)
+      .. "BooleanUnion{Volume{1};Delete;}{Volume{2,3};Delete;}"
+  local blind = ("Box(1)={-3,-3,0,6,6,%g}; Cylinder(2)={0,0,1,0,0,%g,%g};"):format(top, top, r3)
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}"
+  local counterbore = ("Box(1)={-4,-4,0,8,8,%g}; Cylinder(2)={0,0,-1,0,0,9,%g};"):format(top, r1)
+      .. ("Cylinder(3)={0,0,2,0,0,9,%g};"):format(r2)
+      .. "BooleanUnion(4)={Volume{2};Delete;}{Volume{3};Delete;};"
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{4};Delete;}"
+  local corner = ("Box(1)={0,0,0,4,4,4}; Sphere(2)={4,4,4,%g}; "):format(r2)
+      .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}"
+  for _, case in ipairs {
+    { "wall and shoulder of a shaft", shaft, { { r2, 0, 3 + h / 2 }, { (r2 + r3) / 2, 0, top } }, true },
+    { "other shoulder and wall", shaft, { { r2, 0, 3 + h / 2 }, { (r2 + r1) / 2, 0, 3 } }, true },
+    { "blind bore and the face round its mouth", blind, { { r3, 0, top - 0.5 }, { 2.8, 2.8, top } }, true },
+    { "wall of a counterbore", counterbore, { { r2, 0, 2 + h / 2 } } },
+    { "three faces at a corner", corner, { { 0, 2, 2 }, { 2, 0, 2 }, { 2, 2, 0 } }, false },
+    { "three faces at a corner, two at a ball", corner, { { 0, 2, 2 }, { 1, 4, 1 }, { 1, 1, 4 } }, false },
+  } do
+    local path = params.scratch .. "/body.geo"
+    local file <close> = assert(io.open(path, "w"))
+    file:write('SetFactory("OpenCASCADE");\nMesh.CharacteristicLengthMax = 0.5;\n', case[2], "\n")
+    file:close()
+    local model, gone = lacuna.load(path), {}
+    local _, wanted = sealed_without(model, gone)
+    for _, place in ipairs(case[3]) do gone[model:face { near = place }.tag] = true end
+    local void, found = sealed_without(model, gone)
+    check.near(found / wanted, 1, 0.01)
+    check.that(case[4] == nil or has_note(void) == case[4], case[1] .. ": notes")
+  end
+end
+
+local folder = params.shared .. "/data/bodies/"
+if params.shared == "" or not check.exists(folder .. "bodies.json") then
+  print("skipped: " .. folder .. "bodies.json is not here")
+  return
+end
+
+--- Bodies that are drawn from, and the least number of draws that are sealed right and swept.
+local few = { ["n08o_pentapyr.geo"] = true, ["s02o_prism.geo"] = true,
+  ["s14o_cube_corner_sub_sphere.stp"] = true, ["s12o_cube_rounded_1.stp"] = true }
+local draws, least = whole and 4 or 1, whole and { sealed = 65, swept = 15 } or { sealed = 4, swept = 0 }
 
 --- Some of the faces, chosen at random, and whether a bent one of them touches another: an edge between
 --- missing faces leaves no trace if one is bent.

@@ -80,7 +80,10 @@ std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const
     Model& model = filling.volume.model;
     ToFill result;
     std::vector<Rim> loops = free_loops(filling.volume);
-    if (missing == Missing::any) loops = add_tubes(filling, simple_loops(model, loops), context);
+    if (missing == Missing::any) {
+        loops = add_tubes(filling, simple_loops(model, loops), context);
+        loops = add_straight_walls(filling, std::move(loops), context);
+    }
     for (const Rim& rim : loops) {
         if (is_flat(model, rim)) {
             result.flat.push_back({rim.uses});

@@ -32,10 +32,10 @@ bool is_straight(const Model& model, const std::vector<EdgeUse>& side)
     const std::vector<Vec3> points = use_places(model, side);
     const Vec3 chord = points.back() - points.front();
     const Vec3 along = chord.stableNormalized();
-    return std::ranges::all_of(points, [&](const Vec3& p) {
-        return (p - points.front()).cross(along).norm() <=
-               std::max(model.tolerance, kFileAccuracy * chord.norm());
-    });
+    return chord.norm() > model.tolerance && std::ranges::all_of(points, [&](const Vec3& p) {
+               return (p - points.front()).cross(along).norm() <=
+                      std::max(model.tolerance, kFileAccuracy * chord.norm());
+           });
 }
 
 bool turns_sharply(const Model& model, EdgeUse before, EdgeUse after)

@@ -6,12 +6,14 @@
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/closure/detail/thin_plate.h>
+#include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/face_radius.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -259,6 +261,17 @@ std::vector<ClosedHole> closed_holes(std::size_t given, const Model& own,
     return holes;
 }
 
+/// The given faces beside a void face.
+std::vector<NamedEntity> given_beside(const Model& model, FaceId face)
+{
+    std::set<int> tags;
+    for (const FaceId other : faces_beside(model, face))
+        if (model[other].origin == Origin::given) tags.insert(model[other].tag);
+    std::vector<NamedEntity> beside;
+    for (const int tag : tags) beside.push_back({"face", tag});
+    return beside;
+}
+
 /// Largest distance of the other void faces from the plane of one [model length].
 double reach_of_others(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
@@ -277,13 +290,9 @@ std::optional<Message> guess_of_bent(const OpenVolume& sealed, const Closure& cl
     const double enclosed = enclosed_volume(sealed);
     for (const FaceId face : closure.void_faces) {
         if (!is_in_doubt(sealed, enclosed, face, by)) continue;
-        std::set<int> tags;
-        for (const FaceId other : faces_beside(model, face))
-            if (model[other].origin == Origin::given) tags.insert(model[other].tag);
-        std::vector<NamedEntity> beside;
-        for (const int tag : tags) beside.push_back({"face", tag});
         return Message(by == RolesBy::person ? "closure.shape_open" : "topology.shape_open",
-                       "the shape of the missing face beside {} is ambiguous: its rim is not planar", beside);
+                       "the shape of the missing face beside {} is ambiguous: its rim is not planar",
+                       given_beside(model, face));
     }
     return std::nullopt;
 }
@@ -316,6 +325,17 @@ void note_closed_holes(const Model& model, const std::vector<FaceId>& given, con
                        Closure& closure)
 {
     const bool inward = look_inward(model, given, sealed.model);
+    for (const FaceId face : closure.void_faces) {
+        const auto shape = round_shape(sealed.model, face);
+        if (inward && shape && shape->is_sphere())
+            assume(closure,
+                   Message("closure.ball_part",
+                           "{} is the smaller part of the ball through its rim, although the faces beside it "
+                           "face into the volume",
+                           entity_of(sealed.model, face))
+                       .remedy("if the other part bounds the volume, give it"),
+                   1);
+    }
     for (const auto& [round, filler] : closed_holes(given.size(), sealed.model, closure.void_faces)) {
         const bool wall = sealed.role[filler.index()] == Role::wall;
         if (wall == inward) continue;
@@ -350,6 +370,15 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                    .remedy("if the true face bulges otherwise, give it"),
                std::abs(beside_thin_plate(model, face).above) / enclosed);
     for (const FaceId face : closure.void_faces) {
+        // Named roles tell that one wall is missing there. Without them it may stand for several faces.
+        if (by == RolesBy::finding && !is_membrane(model, face) &&
+            (is_untold(model, face) || closes_hole_in_bent_face(model, face)))
+            assume(closure,
+                   Message("closure.wall_assumed",
+                           "{} stands for all that is missing beside {}, which its rim does not determine",
+                           entity_of(model, face), given_beside(model, face))
+                       .remedy("if several faces or a whole part are missing there, give them"),
+                   1);
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
         assume(closure,
                Message("closure.rough_rim", "the rim of {} is rough and is closed by a smooth face",

@@ -4,8 +4,8 @@
 #include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/hollow_readings.h>
-#include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/no_roles.h>
+#include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/sealed_voids.h>
 #include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/closure/detail/unless_refused.h>
@@ -155,19 +155,21 @@ std::optional<Closed> sealed_state(const Reading& reading)
 }
 
 /// Take the void closed as its rims tell instead of an ambiguous one, or one with a void face that its rim
-/// does not determine, if that has more void faces or a membrane.
+/// does not determine.
 void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& reading,
                  const RunContext& context)
 {
     const auto sealed = sealed_state(reading);
-    const bool untold = sealed && untold_face(sealed->volume, sealed->closure);
+    const bool untold = sealed && (untold_face(sealed->volume, sealed->closure) ||
+                                   std::ranges::any_of(sealed->closure.void_faces, [&](FaceId face) {
+                                       return is_bent_ring(sealed->volume.model, face);
+                                   }));
     if (reading.holed.valid() || (!untold && !reading.guess)) return;
     auto told = read_filled(model, faces, context);
     const bool is_sure = told && !told->guess && told->closure->assumptions.empty();
+    // Without a guess the void is one body, which must not be closed as several.
     if (is_sure &&
-        (reading.guess || (!same_volume(told->enclosed, reading.enclosed) &&
-                           (told->closure->void_faces.size() < sealed->closure.void_faces.size() ||
-                            !membranes(sealed->volume.model, sealed->closure.void_faces).empty()))))
+        (reading.guess || connected_parts(told->volume.model, all_faces(told->volume.model)).size() == 1))
         reading = std::move(*told);
 }
 

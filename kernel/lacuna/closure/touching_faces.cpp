@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <set>
 
@@ -39,7 +40,7 @@ constexpr std::size_t kMostSides = 48;
 bool are_similar(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
 {
     constexpr std::size_t kPieces = 16;
-    const double scale = (b.back() - b.front()).norm() / (a.back() - a.front()).norm();
+    const double scale = geometry::length(b) / geometry::length(a);
     if (!std::isfinite(scale)) return false;
     const std::vector<Vec3> from = geometry::even_places(a, kPieces), to = geometry::even_places(b, kPieces);
     const double allowed = kVisible * geometry::length(b);
@@ -143,7 +144,8 @@ public:
                 const auto image = both ? std::nullopt : image_of_opposite(rest);
                 if (image && tells_face(closed(rest, *image)) && tells_face(closed(flat, turned(*image))))
                     found.push_back({closed(flat, turned(*image)), closed(rest, *image)});
-                else if ((told || (both && loop.size() == 4)) && fits(chord, flat, rest) &&
+                else if ((told || (both && loop.size() == 4)) &&
+                         fits(chord, {start_of(flat), end_of(flat), start_of(rest), end_of(rest)}) &&
                          (both || tells_face(closed(rest, chord))))
                     found.push_back({closed(flat, turned(chord)), closed(rest, chord)});
             }
@@ -172,7 +174,8 @@ public:
                 const FaceChain &flat = run(i, j).sides, &rest = run(j, i).sides;
                 if (!run(i, j).plane) continue;
                 const FaceSide chord = across(rest);
-                if (rest.size() > 1 && count_turns(points_along(flat)) > 1 && fits(chord, flat, rest)) {
+                if (rest.size() > 1 && count_turns(points_along(flat)) > 1 &&
+                    fits(chord, {start_of(flat), end_of(flat), start_of(rest), end_of(rest)})) {
                     for (FaceSplit split : in_two(closed(rest, chord))) {
                         split.push_back(closed(flat, turned(chord)));
                         if (!is_known(found, split)) found.push_back(std::move(split));
@@ -241,18 +244,27 @@ private:
         return run;
     }
 
-    /// Whether a straight edge may separate two runs: it goes from the end of `rest` to its start, and is
-    /// neither an edge already nor in line with the sides at its ends.
-    [[nodiscard]] bool fits(const FaceSide& chord, const FaceChain& flat, const FaceChain& rest) const
+    /// Direction of a run at its start.
+    static Vec3 start_of(const FaceChain& run)
+    {
+        const std::vector<Vec3>& points = run.front().points;
+        return (points[1] - points[0]).stableNormalized();
+    }
+
+    /// Direction of a run at its end.
+    static Vec3 end_of(const FaceChain& run)
+    {
+        const std::vector<Vec3>& points = run.back().points;
+        return (points.back() - points[points.size() - 2]).stableNormalized();
+    }
+
+    /// Whether a straight edge may separate faces: it is neither an edge already nor in line with the sides
+    /// at its ends.
+    [[nodiscard]] bool fits(const FaceSide& chord, std::initializer_list<Vec3> sides) const
     {
         const Vec3 way = end_to_end(chord.points).stableNormalized();
-        for (const FaceChain* run : {&flat, &rest})
-            for (const FaceSide* side : {&run->front(), &run->back()}) {
-                const std::vector<Vec3>& points = side->points;
-                const Vec3 along = side == &run->front() ? points[1] - points[0]
-                                                         : points.back() - points[points.size() - 2];
-                if (along.stableNormalized().cross(way).norm() <= kParallel) return false;
-            }
+        if (std::ranges::any_of(sides, [&](const Vec3& side) { return side.cross(way).norm() <= kParallel; }))
+            return false;
         return std::ranges::none_of(model_.edges, [&](const Edge& edge) {
             return std::minmax(edge.from, edge.to) == std::minmax(chord.from, chord.to) &&
                    count_turns(places_at(model_, edge.points)) == 0;
@@ -315,7 +327,7 @@ private:
             const FaceChain& run = runs[r]->sides;
             const FaceSide in = straight(run.back().to, run.back().points.back(), {}, place);
             const FaceSide out = straight({}, place, run.front().from, run.front().points.front());
-            if (!fits(out, runs[(r + 2) % 3]->sides, run)) return std::nullopt;
+            if (!fits(out, {end_of(runs[(r + 2) % 3]->sides), start_of(run)})) return std::nullopt;
             split.push_back(closed(closed(run, in), out));
             if (!plane_of_run(split.back())) return std::nullopt;
         }
@@ -416,13 +428,23 @@ std::optional<std::vector<Loop>> split_touching(Model& model, const Rim& rim, co
     return add_split(model, splits.front());
 }
 
+bool closes_hole_in_bent_face(const Model& model, FaceId face)
+{
+    return !has_flat_loops(model, face) && is_hole_in_round_face(model, model[face].loops.front());
+}
+
+bool is_untold(const Model& model, FaceId face)
+{
+    if (rims(model, {face}).size() == 2) return is_ring_at_step(model, face);
+    return !has_flat_loops(model, face) && !is_about_flat(model, face) && !round_shape(model, face) &&
+           !cone_shape(model, face) && !tells_face(model, model[face].loops.front());
+}
+
 std::optional<Message> untold_face(const OpenVolume& sealed, const Closure& closure)
 {
     const Model& model = sealed.model;
     for (const FaceId face : closure.void_faces) {
-        if (has_flat_loops(model, face) || is_about_flat(model, face) || round_shape(model, face) ||
-            cone_shape(model, face) || tells_face(model, model[face].loops.front()))
-            continue;
+        if (!is_untold(model, face)) continue;
         std::vector<NamedEntity> beside;
         for (const FaceId other : faces_beside(model, face))
             if (model[other].origin == Origin::given) beside.push_back(entity_of(model, other));

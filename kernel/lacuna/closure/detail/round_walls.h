@@ -21,6 +21,24 @@ namespace lacuna::closure {
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);
 
+/// Whether a flat face in a rim would lie in the plane of all given faces round it: a wall is missing there.
+bool continues_given_planes(const topology::Model& model, const topology::Rim& rim);
+
+/// Whether a void face joins two rims of different lengths of which one needs a wall: a straight wall that
+/// ends in a flat face is as likely.
+bool is_ring_at_step(const topology::Model& model, FaceId face);
+
+/// Whether a void face joins two rims and is neither round nor straight from rim to rim.
+bool is_bent_ring(const topology::Model& model, FaceId face);
+
+/// Add straight walls between the flat rims that need one and the plane of another flat rim, where the images
+/// of the former bound the face that is missing at the latter: a bore is missing together with the face at
+/// its mouth, or a shaft with the face at its shoulder. The given faces at the other rim run along these
+/// walls; the nearest such plane is taken.
+/// @return  the free loops that are left, the images among them.
+std::vector<topology::Rim> add_straight_walls(FlatFilling& filling, std::vector<topology::Rim> loops,
+                                              const RunContext& context);
+
 /// A face on the circular cylinder or cone through an arc of its rim and all of the rim, which does not run
 /// round the axis. The facets are laid on the unrolled surface.
 /// @return  empty if the rim lies on no such surface.

@@ -28,6 +28,13 @@ bool tells_face(const topology::Model& model, const topology::Loop& loop, const 
 std::optional<std::vector<topology::Loop>> split_touching(topology::Model& model, const topology::Rim& rim,
                                                           const RunContext& context);
 
+/// Whether a void face closes a hole in one bent given face, or in parts of one cylinder or sphere, as where
+/// a whole bore or boss is missing.
+bool closes_hole_in_bent_face(const topology::Model& model, FaceId face);
+
+/// Whether a void face is bent and its rim does not determine its shape.
+bool is_untold(const topology::Model& model, FaceId face);
+
 /// The error "topology.shape_open" about the first bent void face that its rim does not determine, without a
 /// remedy.
 std::optional<Message> untold_face(const topology::OpenVolume& sealed, const Closure& closure);
