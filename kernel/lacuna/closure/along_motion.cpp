@@ -324,7 +324,7 @@ std::vector<double> thickness_at(const Model& model, const std::function<double(
 }
 
 /// Move the source's points and forget the exact geometry, which they leave.
-void move_source(Model& model, const std::vector<Vec3>& by)
+void shift_points(Model& model, const std::vector<Vec3>& by)
 {
     ModelBuilder builder(std::move(model));
     for (std::size_t p = 0; p < builder.points.size(); ++p) builder.points[p] += by[p];
@@ -351,7 +351,7 @@ geometry::Motion motion_along_normals(OpenVolume& source, const Along::Normals& 
         reach[p] = (inside[p] + outside[p]) * offsets[p];
         back[p] = -inside[p] * offsets[p];
     }
-    if (normals.inside) move_source(source.model, back);
+    if (normals.inside) shift_points(source.model, back);
     geometry::Motion motion;
     motion.at = [](double) { return Eigen::Affine3d(Eigen::Affine3d::Identity()); };
     motion.reach = [vectors = std::make_shared<const PointVectors>(source.model, std::move(reach)),
