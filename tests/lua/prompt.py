@@ -55,8 +55,10 @@ class Terminal:
         end = time.time() + PATIENCE
         while text not in self.told and time.time() < end:
             self.type("\x03")
-            # One may be met late; a second one at once ends nothing.
-            if select.select([self.terminal], [], [], 4)[0]:
+            # One may be met late, and its answer may come in parts: a second one at once would end the program.
+            again = time.time() + 4
+            while text not in self.told and select.select([self.terminal], [], [],
+                                                          max(0, again - time.time()))[0]:
                 self.told += os.read(self.terminal, 4096).decode(errors="replace")
         self.wait_for(text)
         time.sleep(0.3)  # for the last one to be met before anything runs
