@@ -162,22 +162,29 @@ void read_along_vector(lua_State* L, int index, const Where& where, AlongArgumen
     set_course<Along::Vector>(L, where, arguments).way = read_vector(L, index, where);
 }
 
+/// A path round a line, given by an array of a point, a direction and what else it has.
+template <class Course>
+Course& read_line(lua_State* L, int index, const Where& where, AlongArguments& arguments, std::size_t size,
+                  const char* expected)
+{
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != size)
+        fail_value(L, where, expected, index);
+    auto& course = set_course<Course>(L, where, arguments);
+    course.point = read_vector(L, push_element(L, index, 1), where);
+    course.direction = read_vector(L, push_element(L, index, 2), where);
+    return course;
+}
+
 void read_along_axis(lua_State* L, int index, const Where& where, AlongArguments& arguments)
 {
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2)
-        fail_value(L, where, "an axis { point, direction }, as { { 0, 0, 0 }, { 0, 0, 1 } }", index);
-    auto& axis = set_course<Along::Axis>(L, where, arguments);
-    axis.point = read_vector(L, push_element(L, index, 1), where);
-    axis.direction = read_vector(L, push_element(L, index, 2), where);
+    read_line<Along::Axis>(L, index, where, arguments, 2,
+                           "an axis { point, direction }, as { { 0, 0, 0 }, { 0, 0, 1 } }");
 }
 
 void read_along_helix(lua_State* L, int index, const Where& where, AlongArguments& arguments)
 {
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 4)
-        fail_value(L, where, "a helix { point, direction, pitch, turns }", index);
-    auto& helix = set_course<Along::Helix>(L, where, arguments);
-    helix.point = read_vector(L, push_element(L, index, 1), where);
-    helix.direction = read_vector(L, push_element(L, index, 2), where);
+    auto& helix = read_line<Along::Helix>(L, index, where, arguments, 4,
+                                          "a helix { point, direction, pitch, turns }");
     helix.pitch = read_number(L, push_element(L, index, 3), where);
     helix.turns = read_number(L, push_element(L, index, 4), where);
 }

@@ -3,10 +3,12 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/segment.h>
 #include <lacuna/geometry/shared/swept_surface.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -23,11 +25,6 @@ namespace lacuna::closure {
 using namespace topology;
 
 namespace {
-
-std::string in_words(const Vec3& place)
-{
-    return formatted("{:.4g}, {:.4g}, {:.4g}", place.x(), place.y(), place.z());
-}
 
 /// The sets of the source's edges, for the edges that half a turn makes of them.
 std::map<EdgeId, std::vector<std::string>> sets_above(const SweptSource& swept, const Model& moved)
@@ -150,12 +147,12 @@ private:
         if (motion_->reach)
             throw NotClosed(Message("closure.along_folds",
                                     "the layers over {} would fold at {}: {:.3g} of the thickness fits",
-                                    entity_of(given_, face), in_words(at), found(largest_share()))
+                                    entity_of(given_, face), place_with_digits(at, 4), found(largest_share()))
                                 .remedy("use a smaller thickness"));
         Message message("closure.along_folds",
                         "{} does not advance at {}, at {:.3g} of the path: the path bends there within the "
                         "width of the source, or runs along it",
-                        entity_of(given_, face), in_words(at), found(rows_[row]));
+                        entity_of(given_, face), place_with_digits(at, 4), found(rows_[row]));
         throw NotClosed(std::move(message).remedy("use a wider bend, or a smaller source"));
     }
 
@@ -202,7 +199,8 @@ private:
                 if (!geometry::triangles_cross(corners(one), corners(other), model.tolerance)) return true;
                 const Vec3 middle = (model.at(one[0]) + model.at(one[1]) + model.at(one[2])) / 3;
                 throw NotClosed(Message("closure.along_crosses",
-                                        "the volume along this path crosses itself at {}", in_words(middle))
+                                        "the volume along this path crosses itself at {}",
+                                        place_with_digits(middle, 4))
                                     .remedy("use another path, or a smaller source"));
             },
             0, context_);
@@ -325,25 +323,13 @@ private:
                     }
                 }
             }
-            if (is_flat(wall)) {
+            if (plane_of(builder_, made)) {
                 wall.geometry = Geometry::newell;
                 wall.kind = "plane";
             }
             wall.surface = std::make_shared<geometry::SweptSurface>(motion_, line, rows_[low], rows_[high]);
             walls_.push_back(made);
         }
-    }
-
-    [[nodiscard]] bool is_flat(const Face& face) const
-    {
-        const Vec3 origin = builder_.at(face.triangles.front()[0]);
-        Vec3 normal = Vec3::Zero();
-        for (const Triangle& t : face.triangles)
-            normal += (builder_.at(t[1]) - builder_.at(t[0])).cross(builder_.at(t[2]) - builder_.at(t[0]));
-        normal.stableNormalize();
-        return std::ranges::all_of(corners_of(face), [&](Index p) {
-            return std::abs(normal.dot(builder_.at(p) - origin)) <= given_.tolerance;
-        });
     }
 
     void add_targets()
@@ -360,7 +346,7 @@ private:
                 target.triangles.push_back({at[index(own[0])], at[index(own[2])], at[index(own[1])]});
                 if (exact) target.uv.push_back({source.uv[t][0], source.uv[t][2], source.uv[t][1]});
             }
-            if (!is_flat(target)) continue;
+            if (!plane_of(builder_, made)) continue;
             target.kind = "plane";
             target.surface.reset();
             target.uv.clear();

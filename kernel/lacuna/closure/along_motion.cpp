@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/segment.h>
@@ -34,11 +35,6 @@ constexpr int kProfileSteps = 128;
 constexpr int kPathSteps = 1024;
 /// Points between two of a CAD curve's facets, at which the curve is read for a path.
 constexpr int kCurveSteps = 8;
-
-std::string place_in_words(const Vec3& place)
-{
-    return formatted("{:.4g}, {:.4g}, {:.4g}", place.x(), place.y(), place.z());
-}
 
 // --- twist and scale ---------------------------------------------------------------------------------------
 
@@ -185,7 +181,7 @@ std::vector<geometry::PathPart> path_of_function(const std::function<Vec3(double
     if (parts.size() > 1)
         throw InvalidInput(Message("closure.along_path",
                                    "along: the path turns sharply at {}, where a function must be smooth",
-                                   found(place_in_words(parts.front().back())))
+                                   found(place_with_digits(parts.front().back(), 4)))
                                .remedy("give a path with corners as an array of points"));
     return parts;
 }
@@ -318,7 +314,7 @@ std::vector<double> thickness_at(const Model& model, const std::function<double(
             at[index(p)] = thickness(model.at(p));
             if (!std::isfinite(at[index(p)]))
                 throw InvalidInput("closure.along_thickness", "along: the thickness at {} is no number",
-                                   place_in_words(model.at(p)));
+                                   place_with_digits(model.at(p), 4));
         }
     return at;
 }
@@ -353,7 +349,6 @@ geometry::Motion motion_along_normals(OpenVolume& source, const Along::Normals& 
     }
     if (normals.inside) shift_points(source.model, back);
     geometry::Motion motion;
-    motion.at = [](double) { return Eigen::Affine3d(Eigen::Affine3d::Identity()); };
     motion.reach = [vectors = std::make_shared<const PointVectors>(source.model, std::move(reach)),
                     round](const Vec3& place) -> Vec3 {
         const Vec3 vector = (*vectors)(place);
@@ -388,13 +383,12 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
                 continue;
             }
             throw InvalidInput(Message("closure.along_to", "along: the ray from {} meets {} {}",
-                                       place_in_words(place), entity_of(*to.model, to.face),
+                                       place_with_digits(place, 4), entity_of(*to.model, to.face),
                                        found(least > most ? "nowhere" : "more than once"))
                                    .remedy("use a face that covers the source once, seen along its normal"));
         }
     }
     geometry::Motion motion;
-    motion.at = [](double) { return Eigen::Affine3d(Eigen::Affine3d::Identity()); };
     motion.reach = [tree, way, vectors = std::make_shared<const PointVectors>(model, std::move(reach))](
                        const Vec3& place) -> Vec3 {
         const geometry::FacetTree::RayHit hit = tree->first_along(place, way);

@@ -72,7 +72,8 @@ private:
         const std::set<FaceId> divided(rounds.begin(), rounds.end());
         for (std::size_t f = 0; f < made.parent.size(); ++f)
             if (divided.contains(made.parent[f]))
-                volume_.role[f] = mean_height(FaceId(f)) < *height ? end_ : Role::wall;
+                volume_.role[f] = face_centroid(volume_.model, FaceId(f)).dot(out_) < *height ? end_
+                                                                                              : Role::wall;
         return true;
     }
 
@@ -117,19 +118,6 @@ private:
             most = std::max(most, cosine);
         }
         return least < kHalfway && most > kHalfway && volume_.model[face].given_quads.empty();
-    }
-
-    [[nodiscard]] double mean_height(FaceId face) const
-    {
-        double sum = 0, area = 0;
-        for (const Triangle& t : volume_.model[face].triangles) {
-            const double own = (volume_.model.at(t[1]) - volume_.model.at(t[0]))
-                                   .cross(volume_.model.at(t[2]) - volume_.model.at(t[0]))
-                                   .norm();
-            sum += own * slope_of(volume_.model, t, out_).height;
-            area += own;
-        }
-        return sum / area;
     }
 
     /// The height that parts flat facets from steep ones, with the fewest on the wrong side.

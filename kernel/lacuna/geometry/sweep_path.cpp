@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/minimal_frame.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -135,8 +136,7 @@ std::vector<Part> parts_of(std::span<const PathPart> given)
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
             if ((points[i + 1] - points[i]).norm() > 0) continue;
             throw InvalidInput(Message("geometry.path_short", "the path has two points at {}",
-                                       found(formatted("{:.6g}, {:.6g}, {:.6g}", points[i].x(), points[i].y(),
-                                                       points[i].z())))
+                                       found(place_with_digits(points[i], 6)))
                                    .remedy("leave one of them out"));
         }
         parts.emplace_back(points, length);
@@ -154,13 +154,11 @@ void set_mitres(std::vector<Part>& parts)
         const Vec3 in = parts[i].last().tangent, out = parts[i + 1].first().tangent;
         const double turn = angle_between(in, out);
         if (turn > kRightAngle + kFileAccuracy) {
-            const Vec3 at = parts[i].last().point;
-            throw InvalidInput(
-                Message(
-                    "geometry.path_corner",
-                    "the path turns by {:.3g}° at {:.6g}, {:.6g}, {:.6g}, and corners are mitred up to {}°",
-                    found(turn / kDegree), at.x(), at.y(), at.z(), needed(90))
-                    .remedy("add a point that divides the corner, or use frame = \"fixed\""));
+            throw InvalidInput(Message("geometry.path_corner",
+                                       "the path turns by {:.3g}° at {}, and corners are mitred up to {}°",
+                                       found(turn / kDegree), place_with_digits(parts[i].last().point, 6),
+                                       needed(90))
+                                   .remedy("add a point that divides the corner, or use frame = \"fixed\""));
         }
         frame = least_turn(in, out) * end;
         const Eigen::Matrix3d halved = mitre(in, out) * end;

@@ -109,6 +109,7 @@ std::vector<Vec3> own_normals(const Facets& facets, const FacetSides& sides, dou
 bool is_noisy(const Facets& facets, const FacetSides& sides, const std::vector<Vec3>& normal,
               const std::vector<bool>& flipped, double feature, const RunContext& context)
 {
+    const double crease = std::cos(feature), even = std::cos(kRough * feature);
     std::vector<char> on_crease(facets.points.size(), 0), turns_up(on_crease), turns_down(on_crease);
     for (Index side = 0; index(side) < 3 * facets.count(); ++side) {
         if (index(side) % kBetweenPolls == 0) check_cancelled(context);
@@ -116,15 +117,16 @@ bool is_noisy(const Facets& facets, const FacetSides& sides, const std::vector<V
         if (other < side || (facets.quad[index(f)] >= 0 && facets.quad[index(f)] == facets.quad[index(g)]))
             continue;
         const double agree = sides.from(other) != sides.from(side) ? 1 : -1;
-        const double turn = std::acos(std::clamp(agree * normal[index(f)].dot(normal[index(g)]), -1.0, 1.0));
+        const double cosine = agree * normal[index(f)].dot(normal[index(g)]);
+        if (cosine >= even) continue;
         const Index apex = sides.to(3 * g + (other + 1) % 3);
         const double rise = normal[index(f)].dot(facets.points[index(apex)] -
                                                  facets.points[index(sides.from(side))]);
         const bool up = (rise > 0) != flipped[index(f)];
         for (const Index p : {sides.from(side), sides.to(side)}) {
-            if (turn > feature)
+            if (cosine < crease)
                 on_crease[index(p)] = 1;
-            else if (turn > kRough * feature)
+            else
                 (up ? turns_up : turns_down)[index(p)] = 1;
         }
     }

@@ -14,15 +14,20 @@ using namespace topology;
 geometry::MotionPointer swept_motion(const OpenVolume& volume)
 {
     const Model& model = volume.model;
+    const std::vector<FaceId> walls = volume.faces(Role::wall);
+    const auto surface_of = [&](FaceId wall) {
+        return dynamic_cast<const geometry::SweptSurface*>(model[wall].surface.get());
+    };
+    if (walls.empty() || surface_of(walls.front()) == nullptr) return nullptr; // as for most volumes
     std::vector<std::optional<Role>> end(model.points.size());
     for (std::size_t f = 0; f < model.faces.size(); ++f)
         if (volume.role[f] != Role::wall)
             for (const Index p : corners_of(model.faces[f])) end[index(p)] = volume.role[f];
     geometry::MotionPointer motion;
     std::optional<double> first; // height of the source
-    for (const FaceId wall : volume.faces(Role::wall)) {
+    for (const FaceId wall : walls) {
         const Face& face = model[wall];
-        const auto* swept = dynamic_cast<const geometry::SweptSurface*>(face.surface.get());
+        const auto* swept = surface_of(wall);
         if (swept == nullptr || (motion && motion != swept->motion())) return nullptr;
         motion = swept->motion();
         for (std::size_t t = 0; t < face.triangles.size(); ++t) {

@@ -283,14 +283,11 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
 void add_ends_on_rim(const Model& model, FaceId face, std::vector<Vec3>& places)
 {
     const std::set<EdgeId> rim = rim_edges(model, face);
-    std::set<VertexId> on_rim;
-    for (const EdgeId edge : rim) on_rim.insert({model[edge].from, model[edge].to});
-    for (const VertexId vertex : on_rim) {
-        bool ends = false;
-        for (std::size_t e = 0; e < model.edges.size() && !ends; ++e)
-            ends = !rim.contains(EdgeId(e)) && (model.edges[e].from == vertex || model.edges[e].to == vertex);
-        if (ends) places.push_back(model.at(model[vertex].point));
-    }
+    std::set<VertexId> on_rim, of_others;
+    for (std::size_t e = 0; e < model.edges.size(); ++e)
+        (rim.contains(EdgeId(e)) ? on_rim : of_others).insert({model.edges[e].from, model.edges[e].to});
+    for (const VertexId vertex : on_rim)
+        if (of_others.contains(vertex)) places.push_back(model.at(model[vertex].point));
 }
 
 } // namespace
