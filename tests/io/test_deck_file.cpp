@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <random>
 #include <span>
@@ -197,9 +198,10 @@ TEST_CASE("sets of nodes, elements and sides come back from an Abaqus deck, text
     const std::string text =
         "*HEADING\n a deck\n*NODE, NSET=every\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n"
         "6,1,0,1\n7,1,1,1\n8,0,1,1\n*ELEMENT, TYPE=C3D8I, ELSET=solid\n11,1,2,3,4,5,6,7,8\n"
-        "*ELEMENT, TYPE=S4, ELSET=skin\n12,1,2,3,4\n*ELEMENT, TYPE=SPRINGA, ELSET=springs\n"
-        "20,1,7\n*NSET, NSET=ends\n1,7\n*ELSET, ELSET=both\nsolid,springs\n*SURFACE, NAME=top\n"
-        "solid,S2\nskin,SPOS\n*MATERIAL, NAME=m\n*ELASTIC\n1.,0.\n";
+        "*ELEMENT, TYPE=S4, ELSET=skin\n12,1,2,3,4\n*ELEMENT, TYPE=CPS4, ELSET=plane\n13,1,2,3,4\n"
+        "*ELEMENT, TYPE=SPRINGA, ELSET=springs\n20,1,7\n*NSET, NSET=ends\n1,7\n*ELSET, "
+        "ELSET=both\nsolid,springs\n*SURFACE, NAME=top\n"
+        "solid,S2\nskin,SPOS\n*SURFACE, NAME=rim\n12,E3\nplane,S4\n*MATERIAL, NAME=m\n*ELASTIC\n1.,0.\n";
     const Deck deck = io::read_deck("a.inp", text);
     const Deck again = written(deck, kTargets[1]);
     check_same(deck, again, 0);
@@ -215,6 +217,11 @@ TEST_CASE("sets of nodes, elements and sides come back from an Abaqus deck, text
         CHECK(same->sides == set.sides);
     }
     CHECK(again.sets.size() == deck.sets.size());
+    const Folder folder;
+    io::write_deck(deck, DeckFormat::abaqus, folder.file("deck.inp"));
+    std::ifstream file(folder.file("deck.inp"));
+    const std::string out((std::istreambuf_iterator<char>(file)), {});
+    CHECK(out.find("12, E3\n13, S4\n") != std::string::npos); // edges of shells, sides of elements in a plane
 }
 
 TEST_CASE("real decks written in their own format are the same decks")

@@ -501,10 +501,11 @@ private:
         int number = 0;
         if (side == "SNEG")
             number = -1;
-        else if (side.size() == 2 && side[0] == 'S' && side[1] >= '1' && side[1] <= '6')
+        else if (side.size() == 2 && side[1] >= '1' &&
+                 (side[0] == 'S' ? side[1] <= '6' : side[0] == 'E' && side[1] <= '4'))
             number = side[1] - '0';
         else if (side != "SPOS")
-            fail("expected a side S1 to S6, SPOS or SNEG, found {}", found(shown(side)));
+            fail("expected a side S1 to S6, E1 to E4, SPOS or SNEG, found {}", found(shown(side)));
         for (const DeckTag element : elements) set().sides.push_back({element, number});
     }
 

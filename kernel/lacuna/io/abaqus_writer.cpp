@@ -88,7 +88,7 @@ public:
             file_.add(view_->kept->head);
             cards = cards_of(*view_->kept);
         }
-        find_bricks();
+        find_bricks_and_shells();
         add_nodes();
         choose_sets();
         choose_names();
@@ -128,13 +128,19 @@ private:
     {
         return is_merged_brick(block.shape, is_abaqus_element(type_of(block), DeckShape::hex8));
     }
-    /// Collect the numbers of pyramids that are written as bricks, because their sides are those of a brick.
-    void find_bricks()
+    /// Collect the numbers of pyramids that are written as bricks, because their sides are those of a brick, and
+    /// of shells, whose edges are E1, E2, …; those of elements in a plane are S1, S2, …
+    void find_bricks_and_shells()
     {
-        for (const MeshView::Block& block : view_->blocks)
-            if (is_brick(block))
-                block.tags.each(0, block.count, [&](std::size_t, DeckTag tag) { bricks_.push_back(tag); });
+        for (const MeshView::Block& block : view_->blocks) {
+            const bool shell = shape_info(block.shape).dimension == 2 &&
+                               type_of(block).substr(0, 2).find('C') == std::string_view::npos;
+            if (!shell && !is_brick(block)) continue;
+            std::vector<DeckTag>& found = shell ? shells_ : bricks_;
+            block.tags.each(0, block.count, [&](std::size_t, DeckTag tag) { found.push_back(tag); });
+        }
         std::ranges::sort(bricks_);
+        std::ranges::sort(shells_);
     }
 
     /// Whether a set of elements has exactly the elements of a region.
@@ -263,10 +269,11 @@ private:
     {
         const MeshView::Set& set = view_->sets[s];
         if (set.kind == mesh::SetKind::sides) {
-            const auto put = [sides = set.sides, bricks = bricks_](std::size_t i, char* out) {
+            const auto put = [sides = set.sides, bricks = bricks_, shells = shells_](std::size_t i,
+                                                                                     char* out) {
                 DeckSide side = sides[i];
                 if (side.side > 1 && std::ranges::binary_search(bricks, side.element)) ++side.side;
-                return put_side(side, out);
+                return put_side(side, std::ranges::binary_search(shells, side.element), out);
             };
             file_.sections.push_back({"*SURFACE, TYPE=ELEMENT, NAME=" + names_[s] + "\n", set.sides.size(),
                                       2 * kNumberBytes, each(put)});
@@ -284,11 +291,11 @@ private:
                                                     s, kNumberBytes + 2, put));
     }
 
-    static char* put_side(const DeckSide& side, char* out)
+    static char* put_side(const DeckSide& side, bool of_shell, char* out)
     {
         out = put_text(out, side.element);
         if (side.side < 1) return put_words(out, side.side == 0 ? ", SPOS\n" : ", SNEG\n");
-        out = put_words(out, ", S");
+        out = put_words(out, of_shell ? ", E" : ", S");
         out = put_text(out, side.side);
         *out++ = '\n';
         return out;
@@ -297,10 +304,10 @@ private:
     View view_;
     bool same_; ///< same format: names and text stay
     DeckFile file_;
-    std::vector<DeckTag> bricks_;      ///< see `find_bricks()`
-    std::vector<bool> by_elements_;    ///< sets
-    std::vector<bool> makes_set_;      ///< regions
-    std::vector<Index> set_of_region_; ///< set that each region creates; -1: none
+    std::vector<DeckTag> bricks_, shells_; ///< see `find_bricks_and_shells()`
+    std::vector<bool> by_elements_;        ///< sets
+    std::vector<bool> makes_set_;          ///< regions
+    std::vector<Index> set_of_region_;     ///< set that each region creates; -1: none
     /// Dimension of the elements of each region; 0: there are none.
     std::vector<int> dimensions_;
     std::vector<std::string> names_, region_names_; ///< names of sets and of regions in the file
