@@ -109,7 +109,10 @@ public:
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
             check_cancelled(context_);
             try {
-                plan_.request.faces.push_back(plan(FaceId(f)));
+                SolidFace made = plan(FaceId(f));
+                // Parts of a divided CAD face are that face.
+                if (made.kind != SolidFace::exact || written_.insert({made.source, made.face}).second)
+                    plan_.request.faces.push_back(std::move(made));
             } catch (const BackendError& error) {
                 throw BackendError("cad.face_failed", "{} cannot be written as a CAD face: {}",
                                    entity_of(model_, FaceId(f)), error.message().parts());
@@ -262,6 +265,7 @@ private:
     const RunContext& context_;
     double precision_ = 0, motion_precision_ = 0;
     std::map<const CadSource*, Source> source_;
+    std::set<std::pair<Index, std::int32_t>> written_; ///< sources and faces in the plan
     std::vector<Index> edge_at_; ///< position in the plan of each edge of the model; -1: not added yet
     SolidPlan plan_;
 };

@@ -51,9 +51,10 @@ int cut_out(Session& session, const gmsh::vectorpair& shapes, const MakeSolidReq
     const Vec3 side = 3 * box.diagonal().norm() * Vec3::Ones(), low = box.center() - side / 2;
     const int around = gmsh::model::occ::addBox(low.x(), low.y(), low.z(), side.x(), side.y(), side.z());
     session.set("Geometry.ToleranceBoolean", tolerance);
-    gmsh::vectorpair out;
+    gmsh::vectorpair own, out; // copies, for the faces that stay as they are are parts of the result
+    gmsh::model::occ::copy(shapes, own);
     std::vector<gmsh::vectorpair> map;
-    gmsh::model::occ::fragment({{3, around}}, shapes, out, map, -1, true, false);
+    gmsh::model::occ::fragment({{3, around}}, own, out, map);
     session.set("Geometry.ToleranceBoolean", 0.0);
     gmsh::model::occ::synchronize();
     int solid = 0;
