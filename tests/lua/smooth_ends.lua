@@ -78,3 +78,19 @@ for _, volume in ipairs { cup(5, 30, 2), cup(5, 8, 0) } do
   assert(tostring(volume:tree()):find('"fillet", wall', 1, true), "the fillet is a wall")
 end
 print(members .. " cups")
+
+-- A dome is divided for the sweep, and is one face of the solid again, where there is CAD.
+local has_cad, version = pcall(function() return lacuna.gmsh_version end)
+if has_cad and version then
+  local path = os.tmpname()
+  local file = assert(io.open(path .. ".geo", "w"))
+  file:write('SetFactory("OpenCASCADE"); Sphere(1) = { 0, 0, 0, 1, 0, Pi/2 };',
+    "Delete { Volume{1}; } Delete { Surface{2}; }")
+  file:close()
+  local dome = lacuna.load(path .. ".geo"):open_volume()
+  dome:close {}
+  local written = dome:write_cad(path .. ".step")
+  for _, ending in ipairs { "", ".geo", ".step" } do os.remove(path .. ending) end
+  check.equal(written.faces, 2)
+  check.near(written.volume, 2 / 3 * math.pi, 1e-6)
+end
