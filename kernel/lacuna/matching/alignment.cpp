@@ -77,16 +77,18 @@ std::vector<Vec3> source_samples(const LoopShape& source, bool by_length)
 }
 
 /// Every alignment, best first.
-/// @param hard  pairs to keep; null: pair by length.
+/// @param hard           pairs to keep; null: pair by length.
+/// @param only_backward  the direction; empty: both.
 std::vector<Alignment> rated(const Problem& problem, const Hard* hard, const LoopShape& source,
-                             const LoopShape& target, bool with_scale, const PointPairs& known)
+                             const LoopShape& target, bool with_scale, std::optional<bool> only_backward,
+                             const PointPairs& known)
 {
     const bool by_length = hard == nullptr;
     const std::vector<Vec3> from = with(source_samples(source, by_length), known.from);
     const std::size_t places = by_length ? places_of(target) : target.vertices.size();
     std::vector<Alignment> result;
     for (const bool backward : {true, false}) {
-        if (problem.backward && *problem.backward != backward) continue;
+        if (only_backward && *only_backward != backward) continue;
         for (std::size_t shift = 0; shift < places; ++shift) {
             check_cancelled(problem.context);
             if (!by_length && !allowed(*hard, source, target, shift, backward)) continue;
@@ -158,9 +160,11 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     const auto low = corners(source), high = corners(target);
     const auto all = static_cast<std::ptrdiff_t>(n);
     if (problem.hard.empty() && low == all && high == all) return false;
-    const std::vector<Alignment> found = rated(problem, &problem.hard, source, target, true, problem.led);
+    const std::vector<Alignment> found = rated(problem, &problem.hard, source, target, true, problem.backward,
+                                               problem.led_near(s));
     // Do not split edges because of the user's pairs alone: if they contradict, they are refused.
-    if (found.empty()) return rated(problem, &problem.walls, source, target, true, {}).empty();
+    if (found.empty())
+        return rated(problem, &problem.walls, source, target, true, problem.backward, {}).empty();
     if (low == all && high == all) return false;
     std::ptrdiff_t unlike = 0, met = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -171,16 +175,17 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     }
     if (unlike > std::abs(low - high)) return true;
     if (met > 0 || problem.has_hard(s)) return false;
-    const Alignment straight = slid(problem, source, target,
-                                    rated(problem, nullptr, source, target, true, problem.led).front(),
-                                    problem.led);
+    const PointPairs led = problem.led_near(s);
+    const Alignment straight = slid(
+        problem, source, target, rated(problem, nullptr, source, target, true, problem.backward, led).front(),
+        led);
     return straight.backward != found.front().backward ||
            mean_twist(source, target, found.front(), straight) > kMostTwist;
 }
 
-PointPairs with_led(const Problem& problem, PointPairs known)
+PointPairs with_led(const Problem& problem, std::size_t s, PointPairs known)
 {
-    known.add(problem.led);
+    known.add(problem.led_near(s));
     return known;
 }
 
@@ -192,16 +197,16 @@ double turn_of(const Alignment& alignment)
 }
 
 std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
-                                     const PointPairs& known)
+                                     std::optional<bool> backward, const PointPairs& known)
 {
     return rated(problem, problem.paired_by_length(s, t) ? nullptr : &problem.hard, problem.source[s],
-                 problem.target[t], with_scale, with_led(problem, known));
+                 problem.target[t], with_scale, backward, with_led(problem, s, known));
 }
 
 Alignment refined(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment,
                   const PointPairs& known)
 {
-    return slid(problem, problem.source[s], problem.target[t], alignment, with_led(problem, known));
+    return slid(problem, problem.source[s], problem.target[t], alignment, with_led(problem, s, known));
 }
 
 PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment)
@@ -247,15 +252,12 @@ std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, c
     return unlike;
 }
 
-void choose_how(Problem& problem)
+bool Problem::paired_by_length(std::size_t s, std::size_t t) const
 {
-    problem.by_length.clear();
-    for (std::size_t s = 0; s < problem.source.size(); ++s) {
-        for (std::size_t t = 0; t < problem.target.size(); ++t) {
-            const bool open = problem.forced[s] < 0 || problem.forced[s] == static_cast<int>(t);
-            problem.by_length.push_back(open && goes_by_length(problem, s, t));
-        }
-    }
+    if (forced[s] >= 0 && forced[s] != static_cast<int>(t)) return false;
+    const auto [known, fresh] = by_length.try_emplace(s * target.size() + t, false);
+    if (fresh) known->second = goes_by_length(*this, s, t);
+    return known->second;
 }
 
 } // namespace lacuna::matching

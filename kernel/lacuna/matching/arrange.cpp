@@ -43,31 +43,74 @@ double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geo
            relative(a.area.norm() * scale * scale, b.area.norm()) + counts;
 }
 
+/// Finds the cheapest target loop for a source loop: those near the place it is moved to are tried first, and
+/// none that is farther away than the cheapest costs.
+class CheapestTarget {
+public:
+    CheapestTarget(const Problem& problem, double reach) : problem_(problem), reach_(reach)
+    {
+        Eigen::AlignedBox3d box;
+        for (const LoopShape& shape : problem.target) box.extend(shape.centroid);
+        if (!box.isEmpty()) box.sizes().maxCoeff(&axis_);
+        for (std::size_t t = 0; t < problem.target.size(); ++t)
+            along_.emplace_back(problem.target[t].centroid[axis_], t);
+        std::ranges::sort(along_);
+    }
+
+    /// @return  least cost, and the first target with it; infinite if none is allowed
+    template <class Cost>
+    std::pair<double, std::size_t> find(std::size_t s, const geometry::RigidFit& fit, const Cost& cost) const
+    {
+        std::pair<double, std::size_t> best{kInfinity, 0};
+        const auto take = [&](std::size_t t) { best = std::min(best, {cost(s, t), t}); };
+        if (problem_.forced[s] >= 0) {
+            take(static_cast<std::size_t>(problem_.forced[s]));
+            return best;
+        }
+        const double at = fit(problem_.source[s].centroid)[axis_];
+        auto above = std::ranges::lower_bound(along_, std::pair(at, std::size_t{0})), below = above;
+        while (below != along_.begin() || above != along_.end()) {
+            const double down = below == along_.begin() ? kInfinity : at - std::prev(below)->first;
+            const double up = above == along_.end() ? kInfinity : above->first - at;
+            if (std::min(down, up) > best.first * reach_) break;
+            take(down < up ? (--below)->second : (above++)->second);
+        }
+        return best;
+    }
+
+private:
+    const Problem& problem_;
+    double reach_;
+    Eigen::Index axis_ = 0;
+    std::vector<std::pair<double, std::size_t>> along_; ///< places of the target loops on the axis
+};
+
 /// The arrangement that an alignment of the anchor leads to; empty if no complete one is cheaper than
 /// `limit`.
 std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t anchor, std::size_t t,
                                           const Alignment& alignment, double scale, double reach,
-                                          double limit)
+                                          const CheapestTarget& targets, double limit)
 {
     const std::size_t n = problem.source.size();
-    const auto at = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
-    Eigen::MatrixXd cost(at(n), at(n));
+    const auto cost = [&](std::size_t i, std::size_t j) {
+        if ((i == anchor) != (j == t)) return kInfinity;
+        return loop_cost(problem, i, j, alignment.fit, scale, reach);
+    };
+    // The least cost of each loop; most alignments are rejected before the assignment is solved.
+    std::vector<std::size_t> cheapest;
+    double least = alignment.score;
     for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) {
-            const bool fixed = (i == anchor) != (j == t);
-            cost(at(i), at(j)) = fixed ? kInfinity : loop_cost(problem, i, j, alignment.fit, scale, reach);
-        }
+        const auto [own, at] = i == anchor ? std::pair(cost(i, t), t) : targets.find(i, alignment.fit, cost);
+        least += own / static_cast<double>(n);
+        if (!(least < limit)) return std::nullopt;
+        cheapest.push_back(at);
     }
-    // Lower bound: each row's least cost. Most alignments are rejected before the assignment is solved.
-    if (!(alignment.score + cost.rowwise().minCoeff().sum() / static_cast<double>(n) < limit))
-        return std::nullopt;
-    Arrangement result{assign(cost), static_cast<int>(anchor), alignment, {}, alignment.score};
+    Arrangement result{assign(cost, cheapest), static_cast<int>(anchor), alignment, {}, alignment.score};
     for (std::size_t i = 0; i < n; ++i) {
         if (result.target[i] < 0) return std::nullopt;
-        result.score += cost(at(i), result.target[i]) / static_cast<double>(n);
-        result.alignment.score += misfit(problem, i, static_cast<std::size_t>(result.target[i]),
-                                         alignment.fit, reach) /
-                                  static_cast<double>(n);
+        const auto at = static_cast<std::size_t>(result.target[i]);
+        result.score += cost(i, at) / static_cast<double>(n);
+        result.alignment.score += misfit(problem, i, at, alignment.fit, reach) / static_cast<double>(n);
     }
     return result.score < limit ? std::optional(result) : std::nullopt;
 }
@@ -106,17 +149,19 @@ std::vector<Arrangement> arrange(const Problem& problem)
     const auto anchor = first_forced == problem.forced.end()
                             ? std::size_t{0}
                             : static_cast<std::size_t>(first_forced - problem.forced.begin());
+    const CheapestTarget targets(problem, reach);
     std::vector<Arrangement> best;
     for (std::size_t t = 0; t < n; ++t) {
         if (problem.forced[anchor] >= 0 && problem.forced[anchor] != static_cast<int>(t)) continue;
         for (const bool with_scale : {false, true}) {
             const double low = problem.source[anchor].length, high = problem.target[t].length;
             const double scale = with_scale && low > 0 ? high / low : 1;
-            for (const Alignment& alignment : alignments_of(problem, anchor, t, with_scale)) {
+            for (const Alignment& alignment :
+                 alignments_of(problem, anchor, t, with_scale, problem.backward)) {
                 check_cancelled(problem.context);
                 // With three loops or more, only arrangements better than the second best matter.
                 const double limit = n > 2 && best.size() > 1 ? best.back().score : kInfinity;
-                auto found = arrangement_of(problem, anchor, t, alignment, scale, reach, limit);
+                auto found = arrangement_of(problem, anchor, t, alignment, scale, reach, targets, limit);
                 if (found) keep(problem, std::move(*found), best);
             }
         }

@@ -103,10 +103,9 @@ private:
             if (!flip && chosen_.size() == 1) prefer_given_sides(s, t, found);
         }
         if (flip || arrangement == nullptr) {
-            Problem local = problem_;
-            local.backward = backward_;
-            if (flip) local.backward = !(backward_ ? *backward_ : arrangement->alignment.backward);
-            found = alignments_of(local, s, t, true, known_);
+            std::optional<bool> backward = backward_;
+            if (flip) backward = !(backward_ ? *backward_ : arrangement->alignment.backward);
+            found = alignments_of(problem_, s, t, true, backward, known_near(s));
         }
         if (found.empty()) {
             const auto [from, to] = fixed_vertices(s);
@@ -125,7 +124,31 @@ private:
         if (!backward_) backward_ = flip ? !best.backward : best.backward;
         match_.loops[s].flipped = !best.backward;
         rate(s, found);
-        known_.add(samples(problem_, s, t, best));
+        aligned_.push_back(s);
+    }
+
+    /// Up to kNear of some loops, those nearest to loop s, in their order.
+    [[nodiscard]] std::vector<std::size_t> nearest(std::size_t s, std::vector<std::size_t> loops) const
+    {
+        // They fix the motion next to a loop; with all loops the cost of each would grow with their number.
+        constexpr std::size_t kNear = 16;
+        if (loops.size() <= kNear) return loops;
+        const auto away = [&](std::size_t other) {
+            return (problem_.source[other].centroid - problem_.source[s].centroid).squaredNorm();
+        };
+        std::ranges::nth_element(loops, loops.begin() + kNear, {}, away);
+        loops.resize(kNear);
+        std::ranges::sort(loops);
+        return loops;
+    }
+
+    /// Corresponding points of the aligned loops near loop s.
+    [[nodiscard]] PointPairs known_near(std::size_t s) const
+    {
+        PointPairs known;
+        for (const std::size_t other : nearest(s, aligned_))
+            known.add(samples(problem_, other, target(other), chosen_[other]));
+        return known;
     }
 
     /// If the shape does not decide the alignment, prefer the one under which both given meshes can be kept.
@@ -134,7 +157,7 @@ private:
         std::size_t least = unlike_sides(problem_, s, t, found.front());
         if (least == 0) return;
         const Alignment likeliest = found.front();
-        for (const Alignment& other : alignments_of(problem_, s, t, true)) {
+        for (const Alignment& other : alignments_of(problem_, s, t, true, problem_.backward)) {
             const bool turns_more = turn_of(other) > turn_of(likeliest) + kAsMuch;
             if (sureness(likeliest.score, other.score) >= (turns_more ? kTie : kUnsureBesideSides)) continue;
             const std::size_t unlike = unlike_sides(problem_, s, t, other);
@@ -170,8 +193,10 @@ private:
         const std::size_t t = target(s);
         if (!problem_.paired_by_length(s, t) || problem_.has_hard(s) || problem_.source[s].by_sides) return;
         PointPairs known;
-        for (std::size_t other = 0; other < chosen_.size(); ++other) {
-            if (other == s) continue;
+        std::vector<std::size_t> others;
+        for (std::size_t other = 0; other < chosen_.size(); ++other)
+            if (other != s) others.push_back(other);
+        for (const std::size_t other : nearest(s, std::move(others))) {
             const std::size_t its = target(other);
             if (!problem_.paired_by_length(other, its)) {
                 known.add(samples(problem_, other, its, chosen_[other]));
@@ -271,7 +296,7 @@ private:
     const Problem& problem_;
     Match& match_;
     std::vector<Alignment> chosen_;
-    PointPairs known_; ///< corresponding points of the loops aligned so far
+    std::vector<std::size_t> aligned_; ///< loops aligned so far
     std::optional<bool> backward_;
 };
 
@@ -326,7 +351,6 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
         }
     }
 
-    choose_how(problem);
     const std::vector<Arrangement> pairings = arrange(problem);
     if (pairings.empty()) {
         throw NotClosed(

@@ -17,14 +17,24 @@ using namespace topology;
 
 namespace {
 
-/// Number of the loop with a vertex; -1: none.
-int loop_with(const std::vector<LoopShape>& loops, VertexId vertex)
-{
-    const auto loop = std::ranges::find_if(loops, [&](const LoopShape& shape) {
-        return std::ranges::find(shape.vertices, vertex) != shape.vertices.end();
-    });
-    return loop == loops.end() ? -1 : static_cast<int>(loop - loops.begin());
-}
+/// The loop with each vertex.
+class LoopsAt {
+public:
+    explicit LoopsAt(const std::vector<LoopShape>& loops)
+    {
+        for (std::size_t l = 0; l < loops.size(); ++l)
+            for (const VertexId vertex : loops[l].vertices) loop_.try_emplace(vertex, static_cast<int>(l));
+    }
+    /// @return  -1: none
+    [[nodiscard]] int operator()(VertexId vertex) const
+    {
+        const auto loop = loop_.find(vertex);
+        return loop == loop_.end() ? -1 : loop->second;
+    }
+
+private:
+    std::map<VertexId, int> loop_;
+};
 
 void force(Problem& problem, int s, int t, const Argument& because)
 {
@@ -41,16 +51,16 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
 {
     const OpenVolume& volume = problem.volume;
     const Model& model = volume.model;
+    const LoopsAt source(problem.source), target(problem.target);
     for (const SideLine& line : lines) {
         problem.hard[line.source] = problem.walls[line.source] = line.target;
-        force(problem, loop_with(problem.source, line.source), loop_with(problem.target, line.target),
-              "its walls");
+        force(problem, source(line.source), target(line.target), "its walls");
     }
     for (const std::vector<FaceId>& part : connected_parts(model, volume.faces(Role::wall))) {
         std::set<int> s, t;
         for (const VertexId vertex : vertices_of(model, part)) {
-            s.insert(loop_with(problem.source, vertex));
-            t.insert(loop_with(problem.target, vertex));
+            s.insert(source(vertex));
+            t.insert(target(vertex));
         }
         s.erase(-1);
         t.erase(-1);
@@ -128,7 +138,7 @@ void read_options(Problem& problem)
                 problem.walls.contains(taken->first) ? ", which walls pair with the first" : "");
         }
         problem.hard[from] = to;
-        force(problem, loop_with(problem.source, from), loop_with(problem.target, to), "its vertices");
+        force(problem, LoopsAt(problem.source)(from), LoopsAt(problem.target)(to), "its vertices");
     }
 }
 
@@ -152,6 +162,24 @@ void count_given_sides(Problem& problem)
 bool Problem::has_hard(std::size_t s) const
 {
     return std::ranges::any_of(source[s].vertices, [&](VertexId v) { return hard.contains(v); });
+}
+
+PointPairs Problem::led_near(std::size_t s) const
+{
+    // As many as the samples of 16 loops: more than fix a motion, and few enough that a loop's cost does not
+    // grow with the number of loops.
+    constexpr std::size_t kMost = 16 * kSamples;
+    if (led.from.size() <= kMost) return led;
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t p = 0; p < led.from.size(); ++p)
+        near.emplace_back((led.from[p] - source[s].centroid).squaredNorm(), p);
+    std::ranges::nth_element(near, near.begin() + kMost);
+    PointPairs pairs;
+    for (std::size_t k = 0; k < kMost; ++k) {
+        pairs.from.push_back(led.from[near[k].second]);
+        pairs.to.push_back(led.to[near[k].second]);
+    }
+    return pairs;
 }
 
 Problem problem_of(const OpenVolume& volume, const MatchOptions& options, Match& match,

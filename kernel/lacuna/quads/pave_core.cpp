@@ -1,58 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/quads/detail/pave_core.h>
 
+#include <lacuna/quads/detail/pave_bridge.h>
 #include <lacuna/quads/detail/pave_cut.h>
 #include <lacuna/quads/detail/pave_fit.h>
 #include <lacuna/quads/detail/pave_patch.h>
 
-#include <tuple>
-
 namespace lacuna::quads::paving {
 namespace {
-
-/// The best bridge between any two loops. Pairs of loops farther apart than the best bridge costs are
-/// skipped, because no bridge costs less than its length.
-/// @param boxes  around the loops.
-std::optional<LoopBridge> nearest_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops,
-                                         const std::vector<Eigen::AlignedBox2d>& boxes)
-{
-    std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
-    for (std::size_t a = 0; a < loops.size(); ++a) {
-        for (std::size_t b = a + 1; b < loops.size(); ++b) {
-            if (!loops[a].empty() && !loops[b].empty())
-                pairs.emplace_back(boxes[a].exteriorDistance(boxes[b]), a, b);
-        }
-    }
-    std::ranges::sort(pairs);
-    std::optional<LoopBridge> best;
-    for (const auto& [gap, a, b] : pairs) {
-        if (best && gap > best->cost) break;
-        const std::optional<LoopBridge> found = best_bridge(partial, loops, a, b);
-        if (found &&
-            (!best || std::tie(found->cost, a, b) < std::tie(best->cost, best->loop_a, best->loop_b)))
-            best = found;
-    }
-    return best;
-}
-
-/// Join all loops into one, the nearest first.
-Cycle join_all(PartialMesh& partial, std::vector<Cycle> loops)
-{
-    std::vector<Eigen::AlignedBox2d> boxes(loops.size());
-    for (std::size_t l = 0; l < loops.size(); ++l)
-        for (const Index p : loops[l]) boxes[l].extend(partial.at(p));
-    for (std::size_t left = loops.size(); left > 1; --left) {
-        std::optional<LoopBridge> best = nearest_bridge(partial, loops, boxes);
-        if (!best) best = blind_bridge(partial, loops);
-        const Cycle line = nodes_along(partial, loops[best->loop_a][best->cut.from],
-                                       loops[best->loop_b][best->cut.to], best->cut.edges);
-        if (best->cut.edges == 1) partial.link(line.front(), line.back());
-        loops[best->loop_a] = join(loops[best->loop_a], loops[best->loop_b], best->cut, line);
-        loops[best->loop_b].clear();
-        boxes[best->loop_a].extend(boxes[best->loop_b]);
-    }
-    return std::move(loops.front());
-}
 
 /// The quality above which a part with this many nodes is filled without a cut. A cut costs a few irregular
 /// nodes whatever the size of the part; a poor patch makes all its quads poor.
@@ -71,7 +26,7 @@ bool fill_core(PartialMesh& partial, const std::vector<Cycle>& loops, const RunC
 {
     bool is_one_patch = false;
     for_sides_of(loops, [&](Index a, Index b) { partial.link(a, b); });
-    std::vector<Cycle> parts{join_all(partial, loops)};
+    std::vector<Cycle> parts{join_loops(partial, loops)};
     for (bool is_whole = true; !parts.empty(); is_whole = false) {
         check_cancelled(context);
         const Cycle cycle = std::move(parts.back());

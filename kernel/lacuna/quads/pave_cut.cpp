@@ -2,13 +2,11 @@
 #include <lacuna/quads/detail/pave_cut.h>
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/quads/detail/loop_sides.h>
 #include <lacuna/quads/detail/patch_template.h>
 
 namespace lacuna::quads::paving {
 namespace {
-
-using geometry::orient2d;
 
 /// Smallest angle between a line and the outline, 15°: a sharper quad would be a sliver.
 constexpr double kLeastAngle = kRightAngle / 6;
@@ -20,55 +18,11 @@ double angle_cost(double angle)
     return off * off;
 }
 
-/// The cost of a line that divides an angle: 0 if both parts suit whole quads and no quad is added.
-double end_cost(double whole, double part, const CutWeights& weights)
-{
-    const double rest = whole - part;
-    const int added = quads_in(part) + quads_in(rest) - quads_in(whole);
-    return weights.corners * ((angle_cost(part) + angle_cost(rest)) / 2 + weights.added * std::abs(added));
-}
-
-/// Whether the open segment from a to b meets no side of the loop.
-bool is_clear(const PartialMesh& partial, const Cycle& cycle, Index a, Index b)
-{
-    const Vec2 &pa = partial.at(a), &pb = partial.at(b);
-    const Vec2 low = pa.cwiseMin(pb), high = pa.cwiseMax(pb);
-    const std::size_t n = cycle.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        const Index c = cycle[k], d = cycle[k + 1 == n ? 0 : k + 1];
-        const Vec2 &pc = partial.at(c), &pd = partial.at(d);
-        if (std::max(pc.x(), pd.x()) < low.x() || std::min(pc.x(), pd.x()) > high.x() ||
-            std::max(pc.y(), pd.y()) < low.y() || std::min(pc.y(), pd.y()) > high.y())
-            continue;
-        const bool c_shared = c == a || c == b, d_shared = d == a || d == b;
-        if (c_shared && d_shared) return false;
-        const double oc = orient2d(pa, pb, pc), od = orient2d(pa, pb, pd);
-        if (c_shared || d_shared) {
-            const Vec2& other = c_shared ? pd : pc;
-            if ((c_shared ? od : oc) != 0) continue;
-            const double along = (other - pa).dot(pb - pa);
-            if (along > 0 && along < (pb - pa).squaredNorm()) return false;
-            continue;
-        }
-        if ((oc > 0 && od > 0) || (oc < 0 && od < 0)) continue;
-        const double oa = orient2d(pc, pd, pa), ob = orient2d(pc, pd, pb);
-        if ((oa > 0 && ob > 0) || (oa < 0 && ob < 0)) continue;
-        return false;
-    }
-    return true;
-}
-
-double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b)
-{
-    // The number of edges is proportional to the mean of 1 / size.
-    return 3 / (1 / partial.size(a) + 1 / partial.size((a + b) / 2) + 1 / partial.size(b));
-}
-
 /// Finds the best line across a loop.
 class CutFinder {
 public:
     CutFinder(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles)
-        : partial_(partial), cycle_(cycle), angles_(angles), n_(cycle.size())
+        : partial_(partial), cycle_(cycle), angles_(angles), sides_(partial, cycle), n_(cycle.size())
     {
         arc_.assign(n_ + 1, 0);
         heading_.resize(n_);
@@ -115,7 +69,7 @@ private:
             if (best && next.cost >= best->cost) break;
             if (next.reach > longest) continue;
             const auto choice = judge(next, best ? best->cost : kInfinity);
-            if (!choice || !is_clear(partial_, cycle_, cycle_[next.from], cycle_[next.to])) continue;
+            if (!choice || !sides_.is_clear(cycle_[next.from], cycle_[next.to])) continue;
             if (keeps_away(*choice, kAway))
                 best = choice;
             else if (!near_miss || choice->cost < near_miss->cost)
@@ -288,8 +242,7 @@ private:
             if (i == j) return;
             const auto line = line_between(i, j);
             const auto choice = line ? judge(*line, best.cost) : std::nullopt;
-            if (choice && is_clear(partial_, cycle_, cycle_[i], cycle_[j]) &&
-                (away == 0 || keeps_away(*choice, away)))
+            if (choice && sides_.is_clear(cycle_[i], cycle_[j]) && (away == 0 || keeps_away(*choice, away)))
                 best = *choice;
         };
         for (std::size_t step = stride_; step > 0; step /= 2) {
@@ -311,6 +264,7 @@ private:
     const PartialMesh& partial_;
     const Cycle& cycle_;
     const std::vector<double>& angles_;
+    LoopSides sides_;
     std::size_t n_;
     std::vector<double> arc_;     ///< along the loop, up to each node
     std::vector<double> heading_; ///< direction of the side that leaves each node [radians]
@@ -320,85 +274,24 @@ private:
     std::size_t stride_ = 1;
 };
 
-/// Bridges start at every n-th node of a loop.
-std::size_t stride_of(std::size_t n)
-{
-    constexpr std::size_t kMost = 48; // limit of the nodes of a loop that are tried
-    return std::max<std::size_t>(1, n / kMost);
-}
-
-std::vector<std::size_t> spread(std::size_t n)
-{
-    std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < n; i += stride_of(n)) places.push_back(i);
-    return places;
-}
-
 } // namespace
+
+double end_cost(double whole, double part, const CutWeights& weights)
+{
+    const double rest = whole - part;
+    const int added = quads_in(part) + quads_in(rest) - quads_in(whole);
+    return weights.corners * ((angle_cost(part) + angle_cost(rest)) / 2 + weights.added * std::abs(added));
+}
+
+double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b)
+{
+    // The number of edges is proportional to the mean of 1 / size.
+    return 3 / (1 / partial.size(a) + 1 / partial.size((a + b) / 2) + 1 / partial.size(b));
+}
 
 std::optional<Cut> best_cut(const PartialMesh& partial, const Cycle& cycle, const std::vector<double>& angles)
 {
     return CutFinder(partial, cycle, angles).find();
-}
-
-std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops,
-                                      std::size_t a, std::size_t b)
-{
-    const Cycle &one = loops[a], &two = loops[b];
-    const std::vector<double> angles_one = corner_angles(partial.points, one),
-                              angles_two = corner_angles(partial.points, two);
-    std::optional<LoopBridge> best;
-    // Only bridges cheaper than the cheapest so far are checked; none costs less than its length.
-    const auto consider = [&](std::size_t i, std::size_t j) {
-        const Vec2 &p = partial.at(one[i]), &q = partial.at(two[j]);
-        if (best && (q - p).squaredNorm() >= best->cost * best->cost) return;
-        const double part_i = turn_between(partial.at(one[(i + 1) % one.size()]) - p, q - p);
-        if (part_i >= angles_one[i]) return;
-        const double part_j = turn_between(partial.at(two[(j + 1) % two.size()]) - q, p - q);
-        if (part_j >= angles_two[j]) return;
-        const double length = (q - p).norm();
-        LoopBridge bridge{a, b, {i, j, 1}, 0};
-        bridge.cost = length * (1 + 0.3 * (end_cost(angles_one[i], part_i, partial.weights) +
-                                           end_cost(angles_two[j], part_j, partial.weights)));
-        if (best && bridge.cost >= best->cost) return;
-        if (one[i] == two[j] || std::ranges::any_of(loops, [&](const Cycle& loop) {
-                return !is_clear(partial, loop, one[i], two[j]);
-            }))
-            return;
-        const double wanted = length / local_size(partial, p, q);
-        bridge.cut.edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
-        best = bridge;
-    };
-    for (const std::size_t i : spread(one.size())) {
-        for (const std::size_t j : spread(two.size())) consider(i, j);
-    }
-    if (!best) return std::nullopt;
-    // The nodes between those already tried.
-    const std::size_t n = one.size(), m = two.size(), reach_n = stride_of(n), reach_m = stride_of(m);
-    const Cut found = best->cut;
-    for (std::size_t di = 0; di <= 2 * reach_n; ++di) {
-        for (std::size_t dj = 0; dj <= 2 * reach_m; ++dj)
-            consider((found.from + n + di - reach_n) % n, (found.to + m + dj - reach_m) % m);
-    }
-    return best;
-}
-
-LoopBridge blind_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops)
-{
-    LoopBridge best;
-    best.cost = kInfinity;
-    for (std::size_t b = 1; b < loops.size(); ++b) {
-        for (const std::size_t i : spread(loops[0].size())) {
-            for (const std::size_t j : spread(loops[b].size())) {
-                const Vec2 &p = partial.at(loops[0][i]), &q = partial.at(loops[b][j]);
-                const double length = (q - p).norm();
-                if (length >= best.cost) continue;
-                const double edges = length / local_size(partial, p, q);
-                best = {0, b, {i, j, static_cast<std::size_t>(std::max(2L, std::lround(edges)))}, length};
-            }
-        }
-    }
-    return best;
 }
 
 Cut blind_cut(const PartialMesh& partial, const Cycle& cycle)

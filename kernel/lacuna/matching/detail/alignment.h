@@ -30,8 +30,9 @@ double turn_of(const Alignment& alignment);
 
 /// Every alignment of source loop s on target loop t that hard pairs and direction allow, best first. Pairs
 /// already matched are part of the fit.
+/// @param backward  the direction; empty: both.
 std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
-                                     const PointPairs& known = {});
+                                     std::optional<bool> backward, const PointPairs& known = {});
 
 /// Shift an alignment of loops paired by length to its best fit between the neighbouring samples.
 Alignment refined(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment,
@@ -47,13 +48,5 @@ bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignmen
 /// number of sides and, for loops measured in sides, vertices of the loop with fewer that are paired with
 /// none.
 std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment);
-
-/// Decide for every two loops whether they are paired vertex by vertex or by length.
-///
-/// Loops with different numbers of vertices, or with one each, are paired by length. Others are paired vertex
-/// by vertex, unless no such pairing keeps the pairs joined by walls; or the best one pairs a corner with a
-/// smooth vertex although a corner is available; or it pairs no two corners and its mean twist exceeds
-/// `kMostTwist`.
-void choose_how(Problem& problem);
 
 } // namespace lacuna::matching

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace lacuna::matching {
@@ -39,14 +40,18 @@ struct Problem {
     std::vector<int> forced;            ///< target loop of each source loop, -1: not fixed
     std::vector<bool> on_wall;          ///< for each vertex of the model
     std::optional<bool> backward; ///< set if walls join the ends: the target loops run against the source's
-    std::vector<bool> by_length;  ///< whether loops are paired by length, at source · targets + target
+    /// Answers of `paired_by_length()` so far, at source · targets + target.
+    mutable std::unordered_map<std::size_t, bool> by_length;
     PointPairs led; ///< source rim points and their images under the given walls; empty if all loops have
                     ///< walls
 
-    [[nodiscard]] bool paired_by_length(std::size_t s, std::size_t t) const
-    {
-        return by_length[s * target.size() + t];
-    }
+    /// Whether two loops are paired by length rather than vertex by vertex: if they have different numbers of
+    /// vertices, or one each; if no pairing of vertices keeps the pairs joined by walls; if the best one pairs a
+    /// corner with a smooth vertex although a corner is available; or if it pairs no two corners and its mean
+    /// twist exceeds `kMostTwist`.
+    [[nodiscard]] bool paired_by_length(std::size_t s, std::size_t t) const;
+    /// The pairs of `led` nearest to a source loop.
+    [[nodiscard]] PointPairs led_near(std::size_t s) const;
     [[nodiscard]] bool has_hard(std::size_t s) const;
 };
 

@@ -14,6 +14,12 @@ struct Cut {
     std::size_t edges = 1;        ///< mesh edges along the line
 };
 
+/// The cost of a line that divides an angle: 0 if both parts suit whole quads and no quad is added.
+double end_cost(double whole, double part, const CutWeights& weights);
+
+/// The length of edges between two points: the number of edges is proportional to the mean of 1 / size.
+double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b);
+
 /// The best line that divides a loop into two even ones, by the weights of `PartialMesh`. It meets the
 /// outline at multiples of a right angle, is short relative to the outline it cuts off, leaves parts whose
 /// sides agree in number, and stays away from other nodes.
@@ -21,18 +27,6 @@ struct Cut {
 /// @note  At most about 96 nodes are tried, in all pairs, then the nodes near the best ones.
 std::optional<Cut> best_cut(const PartialMesh& partial, const Cycle& cycle,
                             const std::vector<double>& angles);
-
-/// The best line from one loop to another; empty if every line crosses one of the loops.
-struct LoopBridge {
-    std::size_t loop_a = 0, loop_b = 0;
-    Cut cut;
-    double cost = 0;
-};
-std::optional<LoopBridge> best_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops,
-                                      std::size_t a, std::size_t b);
-
-/// The shortest line from the first loop to another, even if it crosses sides: folds are opened later.
-LoopBridge blind_bridge(const PartialMesh& partial, const std::vector<Cycle>& loops);
 
 /// Cut one quad off a loop where it has the best shape: for loops in which `best_cut()` finds no line. Both
 /// parts are even and smaller.

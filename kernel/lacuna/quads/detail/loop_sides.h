@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/quads/detail/partial_mesh.h>
+
+#include <vector>
+
+namespace lacuna::quads::paving {
+
+/// The sides of a loop in boxes around runs of them, which answers in a few steps whether a line crosses them.
+class LoopSides {
+public:
+    /// @pre mesh and loop stay; points may be added to the mesh.
+    LoopSides(const PartialMesh& partial, const Cycle& loop);
+
+    /// Whether the open segment between two nodes meets no side.
+    [[nodiscard]] bool is_clear(Index a, Index b) const;
+
+    [[nodiscard]] const Eigen::AlignedBox2d& box() const { return whole_; }
+
+private:
+    [[nodiscard]] bool passes(Index a, Index b, Index c, Index d) const;
+
+    const PartialMesh& partial_;
+    const Cycle& loop_;
+    Eigen::AlignedBox2d whole_;
+    std::vector<Eigen::AlignedBox2d> runs_;
+};
+
+} // namespace lacuna::quads::paving

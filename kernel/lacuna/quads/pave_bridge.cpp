@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/quads/detail/pave_bridge.h>
+
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/quads/detail/loop_sides.h>
+#include <lacuna/quads/detail/pave_cut.h>
+
+#include <deque>
+#include <numeric>
+#include <queue>
+#include <tuple>
+#include <unordered_set>
+
+namespace lacuna::quads::paving {
+namespace {
+
+/// Loops that each loop is tried with. In a plane a loop has six neighbours on average; more are tried because
+/// others may stand between.
+constexpr std::size_t kNearest = 16;
+
+/// Bridges start at every n-th node of a loop.
+std::size_t stride_of(std::size_t n)
+{
+    constexpr std::size_t kMost = 48; // limit of the nodes of a loop that are tried
+    return std::max<std::size_t>(1, n / kMost);
+}
+
+class LoopJoiner {
+public:
+    LoopJoiner(PartialMesh& partial, const std::vector<Cycle>& loops)
+        : partial_(partial), loops_(loops), cycles_(loops), tree_(loops.size())
+    {
+        std::iota(tree_.begin(), tree_.end(), 0);
+        for (const Cycle& loop : loops) {
+            angles_.push_back(corner_angles(partial.points, loop));
+            sides_.emplace_back(partial, loop);
+        }
+    }
+
+    Cycle run()
+    {
+        add_pairs();
+        for (std::size_t left = loops_.size(); left > 1;) {
+            if (waiting_.empty()) {
+                lay_blindly();
+                --left;
+                continue;
+            }
+            const Bridge next = waiting_.top();
+            waiting_.pop();
+            if (root(next.a) == root(next.b)) continue;
+            if (next.from < 0 || !is_current(next)) {
+                if (const auto found = best_between(next.a, next.b)) waiting_.push(*found);
+                continue;
+            }
+            lay(next);
+            --left;
+        }
+        return std::move(cycles_.front());
+    }
+
+private:
+    /// A line between two loops, or the distance of their boxes, which no line between them costs less than.
+    struct Bridge {
+        double cost = 0;
+        std::size_t a = 0, b = 0;
+        Index from = -1, to = -1; ///< nodes; -1: a distance
+        std::size_t lines = 0;    ///< number of lines when it was found
+        bool operator>(const Bridge& other) const
+        {
+            return std::tie(cost, a, b) > std::tie(other.cost, other.a, other.b);
+        }
+    };
+
+    void add_pairs()
+    {
+        std::vector<std::pair<std::size_t, std::size_t>> pairs;
+        std::vector<std::pair<double, std::size_t>> near;
+        for (std::size_t a = 0; a < loops_.size(); ++a) {
+            near.clear();
+            for (std::size_t b = 0; b < loops_.size(); ++b)
+                if (b != a) near.emplace_back(gap(a, b), b);
+            const auto end = near.begin() + static_cast<std::ptrdiff_t>(std::min(near.size(), kNearest));
+            std::ranges::partial_sort(near, end);
+            for (auto one = near.begin(); one != end; ++one) pairs.emplace_back(std::minmax(a, one->second));
+        }
+        std::ranges::sort(pairs);
+        pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+        for (const auto& [a, b] : pairs) waiting_.push({gap(a, b), a, b});
+    }
+
+    [[nodiscard]] double gap(std::size_t a, std::size_t b) const
+    {
+        return sides_[a].box().exteriorDistance(sides_[b].box());
+    }
+
+    std::size_t root(std::size_t loop)
+    {
+        while (tree_[loop] != loop) loop = tree_[loop] = tree_[tree_[loop]];
+        return loop;
+    }
+
+    /// Whether no line that was laid since the bridge was found touches it.
+    [[nodiscard]] bool is_current(const Bridge& bridge) const
+    {
+        return std::ranges::none_of(lines_.begin() + static_cast<std::ptrdiff_t>(bridge.lines), lines_.end(),
+                                    [&](const Cycle& line) {
+                                        return std::ranges::count(line, bridge.from) > 0 ||
+                                               std::ranges::count(line, bridge.to) > 0;
+                                    }) &&
+               clears_lines(bridge.from, bridge.to, bridge.lines);
+    }
+
+    [[nodiscard]] bool clears_lines(Index from, Index to, std::size_t first) const
+    {
+        return std::all_of(of_lines_.begin() + static_cast<std::ptrdiff_t>(first), of_lines_.end(),
+                           [&](const LoopSides& line) { return line.is_clear(from, to); });
+    }
+
+    /// A corner of a loop into which a line leaves: its position, its angle, and the part up to the line.
+    struct Corner {
+        std::size_t at;
+        double angle, part;
+    };
+
+    /// The corner of a node in the loop as it is now; empty if the line leaves into none.
+    std::optional<Corner> corner_now(std::size_t loop, Index node, const Vec2& along)
+    {
+        const Cycle& cycle = cycles_[root(loop)];
+        const std::size_t n = cycle.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            if (cycle[k] != node) continue;
+            const Vec2 next = partial_.at(cycle[(k + 1) % n]) - partial_.at(node),
+                       last = partial_.at(cycle[(k + n - 1) % n]) - partial_.at(node);
+            const Corner corner{k, turn_between(next, last), turn_between(next, along)};
+            if (corner.part < corner.angle) return corner;
+        }
+        return std::nullopt;
+    }
+
+    /// The cost of an end, 0 if it divides the angle well; empty if the line leaves the loop outward.
+    std::optional<double> end_cost_at(std::size_t loop, std::size_t i, const Vec2& along)
+    {
+        const Cycle& own = loops_[loop];
+        Corner corner{i, angles_[loop][i], 0};
+        if (met_.contains(own[i])) {
+            const auto now = corner_now(loop, own[i], along);
+            if (!now) return std::nullopt;
+            corner = *now;
+        } else {
+            corner.part = turn_between(partial_.at(own[(i + 1) % own.size()]) - partial_.at(own[i]), along);
+        }
+        if (corner.part >= corner.angle) return std::nullopt;
+        return end_cost(corner.angle, corner.part, partial_.weights);
+    }
+
+    std::optional<Bridge> best_between(std::size_t a, std::size_t b)
+    {
+        const Cycle &one = loops_[a], &two = loops_[b];
+        std::optional<Bridge> best;
+        Cut place;
+        // Only bridges cheaper than the cheapest so far are checked; none costs less than its length.
+        const auto consider = [&](std::size_t i, std::size_t j) {
+            const Vec2 along = partial_.at(two[j]) - partial_.at(one[i]);
+            const double length = along.norm();
+            if (one[i] == two[j] || (best && length >= best->cost)) return;
+            const auto start = end_cost_at(a, i, along);
+            const auto end = start ? end_cost_at(b, j, -along) : std::nullopt;
+            if (!end) return;
+            const double cost = length * (1 + 0.3 * (*start + *end));
+            if (best && cost >= best->cost) return;
+            if (!std::ranges::all_of(sides_,
+                                     [&](const LoopSides& loop) { return loop.is_clear(one[i], two[j]); }) ||
+                !clears_lines(one[i], two[j], 0))
+                return;
+            best = {cost, a, b, one[i], two[j], lines_.size()};
+            place = {i, j};
+        };
+        const std::size_t n = one.size(), m = two.size(), step_n = stride_of(n), step_m = stride_of(m);
+        for (std::size_t i = 0; i < n; i += step_n)
+            for (std::size_t j = 0; j < m; j += step_m) consider(i, j);
+        if (!best) return std::nullopt;
+        const Cut found = place; // then the nodes between those already tried
+        for (std::size_t i = 0; i <= 2 * step_n; ++i)
+            for (std::size_t j = 0; j <= 2 * step_m; ++j)
+                consider((found.from + n + i - step_n) % n, (found.to + m + j - step_m) % m);
+        return best;
+    }
+
+    void lay(const Bridge& bridge)
+    {
+        const Vec2 &p = partial_.at(bridge.from), &q = partial_.at(bridge.to);
+        const double wanted = (q - p).norm() / local_size(partial_, p, q);
+        const auto from = corner_now(bridge.a, bridge.from, q - p),
+                   to = corner_now(bridge.b, bridge.to, p - q);
+        lines_.push_back({bridge.from, bridge.to});
+        of_lines_.emplace_back(partial_, lines_.back());
+        met_.insert({bridge.from, bridge.to});
+        join_cycles(bridge.a, bridge.b,
+                    {from->at, to->at, static_cast<std::size_t>(std::max(1L, std::lround(wanted)))});
+    }
+
+    /// Lay the shortest line between the first loop and another, even if it crosses sides.
+    void lay_blindly()
+    {
+        std::size_t to = 0;
+        Cut best;
+        double least = kInfinity;
+        const Cycle& first = cycles_.front();
+        for (std::size_t b = 1; b < cycles_.size(); ++b) {
+            for (std::size_t i = 0; i < first.size(); i += stride_of(first.size())) {
+                for (std::size_t j = 0; j < cycles_[b].size(); j += stride_of(cycles_[b].size())) {
+                    const Vec2 &p = partial_.at(first[i]), &q = partial_.at(cycles_[b][j]);
+                    const double length = (q - p).norm();
+                    if (length >= least) continue;
+                    least = length;
+                    to = b;
+                    best = {i, j,
+                            static_cast<std::size_t>(
+                                std::max(2L, std::lround(length / local_size(partial_, p, q))))};
+                }
+            }
+        }
+        join_cycles(0, to, best);
+    }
+
+    void join_cycles(std::size_t a, std::size_t b, Cut cut)
+    {
+        a = root(a), b = root(b);
+        if (a > b) std::swap(a, b), std::swap(cut.from, cut.to); // the first loop stays the first
+        const Cycle &one = cycles_[a], &two = cycles_[b];
+        const Cycle line = nodes_along(partial_, one[cut.from], two[cut.to], cut.edges);
+        if (cut.edges == 1) partial_.link(line.front(), line.back());
+        cycles_[a] = join(one, two, cut, line);
+        cycles_[b].clear();
+        tree_[b] = a;
+    }
+
+    PartialMesh& partial_;
+    const std::vector<Cycle>& loops_;
+    std::vector<Cycle> cycles_;     ///< joined so far, at their first loops; empty at the others
+    std::vector<std::size_t> tree_; ///< of each loop, one that it was joined to, or itself
+    std::vector<std::vector<double>> angles_;
+    std::vector<LoopSides> sides_;
+    std::deque<Cycle> lines_; ///< the ends of each
+    std::deque<LoopSides> of_lines_;
+    std::unordered_set<Index> met_; ///< nodes where lines end
+    std::priority_queue<Bridge, std::vector<Bridge>, std::greater<>> waiting_;
+};
+
+} // namespace
+
+Cycle join_loops(PartialMesh& partial, const std::vector<Cycle>& loops)
+{
+    return LoopJoiner(partial, loops).run();
+}
+
+} // namespace lacuna::quads::paving
