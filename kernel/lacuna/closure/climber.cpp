@@ -41,9 +41,10 @@ std::vector<EdgeUse> Climber::climb(VertexId start) const
     return way;
 }
 
-bool Climber::joined(VertexId from, VertexId to, const std::vector<Rim>& loops) const
+bool Climber::joined(VertexId from, VertexId to, const std::vector<const Rim*>& loops) const
 {
-    for (const Rim& loop : loops) {
+    for (const Rim* rim : loops) {
+        const Rim& loop = *rim;
         const std::size_t uses = loop.uses.size();
         const auto leads = [&](std::size_t at, VertexId wanted) {
             for (std::size_t k = 0; k < uses; ++k) {

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -279,6 +280,7 @@ public:
     void by_hand(const std::vector<VoidEdge>& edges)
     {
         const std::set<VertexId> free = free_vertices(volume_);
+        ModelBuilder with_edges(volume_.model);
         for (const VoidEdge& edge : edges) {
             const VertexId from = vertex_on_rim(volume_, edge, edge.from, free);
             const VertexId to = vertex_on_rim(volume_, edge, edge.to, free);
@@ -288,22 +290,24 @@ public:
             whole.insert(whole.end(), way.begin(), way.end());
             whole.push_back(volume_.model.at(volume_.model[to].point));
             check_clear(volume_.model, edge, whole, context_);
-            add(from, to, way);
+            add(with_edges, from, to, way);
         }
+        volume_.model = std::move(with_edges).finish();
     }
 
     void run(const Course& course)
     {
         std::erase_if(gaps_, [&](const Gap& gap) { return pairs_.contains(std::minmax(gap.from, gap.to)); });
         const double side = course.smooth ? side_of_void(volume_, gaps_, course.walls) : 1;
-        for (const Gap& gap : gaps_) {
-            const Model& model = volume_.model;
-            add(gap.from, gap.to,
+        const Model& model = volume_.model;
+        ModelBuilder with_edges(model);
+        for (const Gap& gap : gaps_)
+            add(with_edges, gap.from, gap.to,
                 course.smooth ? smooth_course(model, gap, tangents_of(volume_, gap, course.walls, side))
                 : course.follower != nullptr
                     ? followed_course(model, gap, *course.follower)
                     : straight_course(model, gap, spacing_[gap.from.index()].mean()));
-        }
+        volume_.model = std::move(with_edges).finish();
     }
 
     [[nodiscard]] std::vector<EdgeId> made() { return std::move(made_); }
@@ -335,9 +339,8 @@ private:
         }
     }
 
-    void add(VertexId from, VertexId to, const std::vector<Vec3>& between)
+    void add(ModelBuilder& model, VertexId from, VertexId to, const std::vector<Vec3>& between)
     {
-        Model& model = volume_.model;
         made_.push_back(add_void_edge_through(model, from, to, between));
         add_edge(model, made_.back(), spacing_);
         pairs_.insert(std::minmax(from, to));
@@ -359,6 +362,9 @@ std::vector<Gap> find_gaps(const OpenVolume& volume, const matching::Match& matc
     const Climber climber(volume);
     const std::set<VertexId> free = free_vertices(volume);
     const std::vector<Rim> loops = free_loops(volume);
+    std::map<VertexId, std::vector<const Rim*>> through; // the loops at each vertex
+    for (const Rim& loop : loops)
+        for (const EdgeUse& use : loop.uses) through[use_from(model, use)].push_back(&loop);
     std::vector<Gap> gaps;
     for (const auto& [source, target] : match.vertices) {
         Gap gap{source, target, source, target, climber.climb(source), climber.climb(target)};
@@ -367,7 +373,7 @@ std::vector<Gap> find_gaps(const OpenVolume& volume, const matching::Match& matc
         bool joined = reached.contains(target);
         for (const EdgeUse& use : gap.above) joined = joined || reached.contains(gap.to = use_to(model, use));
         joined = joined || !free.contains(gap.from) || !free.contains(gap.to) ||
-                 climber.joined(gap.from, gap.to, loops);
+                 climber.joined(gap.from, gap.to, through[gap.from]);
         if (!joined) gaps.push_back(std::move(gap));
     }
     return gaps;

@@ -18,7 +18,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <set>
 
 namespace lacuna::closure {
 
@@ -183,12 +182,16 @@ std::array<Argument, 2> crossing_edges(const Model& model, const std::vector<Loo
 
 std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const Loop& loop)
 {
-    const std::set<EdgeId> source = rim_edges(volume.model, volume.faces(Role::source));
-    const std::set<EdgeId> target = rim_edges(volume.model, volume.faces(Role::target));
+    const auto on_rim = [&](EdgeId edge, Role end) {
+        std::array<bool, 2> used{}; // by faces of the end, in each direction
+        for (const FaceUse& use : volume.model.uses_of_edge(edge))
+            if (volume.role[use.face.index()] == end) used[use.reversed ? 1 : 0] = true;
+        return used[0] != used[1];
+    };
     const std::size_t n = loop.uses.size();
     const auto kind = [&](std::size_t i) {
         const EdgeId edge = loop.uses[i % n].edge;
-        return source.contains(edge) ? 0 : target.contains(edge) ? 2 : 1;
+        return on_rim(edge, Role::source) ? 0 : on_rim(edge, Role::target) ? 2 : 1;
     };
     std::size_t start = 0;
     while (start < n && !(kind(start) == 0 && kind(start + n - 1) != 0)) ++start;
@@ -287,15 +290,21 @@ VoidFilling fill_as(const OpenVolume& volume, const std::vector<Loop>& loops,
     return result;
 }
 
-EdgeId add_void_edge_through(Model& model, VertexId from, VertexId to, const std::vector<Vec3>& between)
+EdgeId add_void_edge_through(ModelBuilder& builder, VertexId from, VertexId to,
+                             const std::vector<Vec3>& between)
 {
-    ModelBuilder builder(std::move(model));
     std::vector<Index> points(between.size() + 2);
     std::iota(points.begin() + 1, points.end(), static_cast<Index>(builder.points.size()));
     points.front() = builder[from].point;
     points.back() = builder[to].point;
     builder.points.insert(builder.points.end(), between.begin(), between.end());
-    const EdgeId edge = builder.add_void_edge(from, to, std::move(points));
+    return builder.add_void_edge(from, to, std::move(points));
+}
+
+EdgeId add_void_edge_through(Model& model, VertexId from, VertexId to, const std::vector<Vec3>& between)
+{
+    ModelBuilder builder(std::move(model));
+    const EdgeId edge = add_void_edge_through(builder, from, to, between);
     model = std::move(builder).finish();
     return edge;
 }

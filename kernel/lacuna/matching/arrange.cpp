@@ -55,6 +55,18 @@ public:
         for (std::size_t t = 0; t < problem.target.size(); ++t)
             along_.emplace_back(problem.target[t].centroid[axis_], t);
         std::ranges::sort(along_);
+        for (const LoopShape& shape : problem.target) lengths_.push_back(shape.length);
+        std::ranges::sort(lengths_);
+    }
+
+    /// The least cost of a source loop for its length.
+    [[nodiscard]] double by_length(std::size_t s, double scale) const
+    {
+        const double length = problem_.source[s].length * scale;
+        if (problem_.forced[s] >= 0) return 0;
+        const auto above = std::ranges::lower_bound(lengths_, length);
+        return std::min(above == lengths_.end() ? kInfinity : relative(length, *above),
+                        above == lengths_.begin() ? kInfinity : relative(length, *std::prev(above)));
     }
 
     /// @return  least cost, and the first target with it; infinite if none is allowed
@@ -83,6 +95,7 @@ private:
     double reach_;
     Eigen::Index axis_ = 0;
     std::vector<std::pair<double, std::size_t>> along_; ///< places of the target loops on the axis
+    std::vector<double> lengths_;                       ///< of the target loops, rising
 };
 
 /// The arrangement that an alignment of the anchor leads to; empty if no complete one is cheaper than
@@ -96,9 +109,13 @@ std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t an
         if ((i == anchor) != (j == t)) return kInfinity;
         return loop_cost(problem, i, j, alignment.fit, scale, reach);
     };
-    // The least cost of each loop; most alignments are rejected before the assignment is solved.
-    std::vector<std::size_t> cheapest;
+    // Lower bounds, cheap ones first: most alignments are rejected before the assignment is solved.
     double least = alignment.score;
+    for (std::size_t i = 0; i < n && least < limit; ++i)
+        if (i != anchor) least += targets.by_length(i, scale) / static_cast<double>(n);
+    if (!(least < limit)) return std::nullopt;
+    least = alignment.score;
+    std::vector<std::size_t> cheapest;
     for (std::size_t i = 0; i < n; ++i) {
         const auto [own, at] = i == anchor ? std::pair(cost(i, t), t) : targets.find(i, alignment.fit, cost);
         least += own / static_cast<double>(n);

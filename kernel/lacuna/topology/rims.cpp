@@ -5,6 +5,7 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -19,7 +20,7 @@ std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces)
                 next_in_face[loop.uses[i]] = loop.uses[(i + 1) % loop.uses.size()];
 
     std::map<EdgeUse, bool> seen;
-    std::vector<Rim> result;
+    std::vector<std::pair<double, Rim>> found; // with their lengths
     for (const auto& [start, next] : next_in_face) {
         if (next_in_face.contains(opposite(start)) || seen[start]) continue;
         Rim rim;
@@ -33,11 +34,12 @@ std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces)
                  ++turns)
                 use = next_in_face.at(opposite(use));
         }
-        result.push_back(std::move(rim));
+        const double length = length_of(model, rim.uses);
+        found.emplace_back(length, std::move(rim));
     }
-    std::stable_sort(result.begin(), result.end(), [&](const Rim& a, const Rim& b) {
-        return length_of(model, a.uses) > length_of(model, b.uses);
-    });
+    std::ranges::stable_sort(found, std::greater{}, [](const auto& rim) { return rim.first; });
+    std::vector<Rim> result;
+    for (auto& [length, rim] : found) result.push_back(std::move(rim));
     return result;
 }
 

@@ -21,7 +21,8 @@ public:
 
     /// Whether exactly one of the two paths along a free loop joins the vertices without passing an end: the
     /// rim of the walls is then the side line there. Round a hole in the walls both paths do.
-    [[nodiscard]] bool joined(VertexId from, VertexId to, const std::vector<topology::Rim>& loops) const;
+    [[nodiscard]] bool joined(VertexId from, VertexId to,
+                              const std::vector<const topology::Rim*>& loops) const;
 
 private:
     /// The mean direction of the wall edges that leave a rim vertex.
