@@ -63,9 +63,16 @@ Message Message::about(std::string_view subject) const
 std::string Message::text() const
 {
     std::string all = text_of(parts_);
+    std::vector<const Message*> said{this};
     for (const Message& failed : attempts_) {
-        const std::string why = failed.text();
-        if (all.find(why) == std::string::npos) all += " (" + why + ")";
+        const auto same = [&](const Message* other) {
+            return other->code() == failed.code() && other->entities() == failed.entities();
+        };
+        if (std::ranges::any_of(said, same)) continue; // the same reason
+        said.push_back(&failed);
+        Message reason = failed;
+        if (reason.remedy() == remedy()) reason.parts_.remedy.clear();
+        all += " (" + reason.text() + ")";
     }
     return all;
 }

@@ -128,8 +128,8 @@ private:
     {
         return is_merged_brick(block.shape, is_abaqus_element(type_of(block), DeckShape::hex8));
     }
-    /// Collect the numbers of pyramids that are written as bricks, because their sides are those of a brick, and
-    /// of shells, whose edges are E1, E2, …; those of elements in a plane are S1, S2, …
+    /// Collect the numbers of pyramids that are written as bricks, because their sides are those of a brick,
+    /// and of shells, whose edges are E1, E2, …; those of elements in a plane are S1, S2, …
     void find_bricks_and_shells()
     {
         for (const MeshView::Block& block : view_->blocks) {

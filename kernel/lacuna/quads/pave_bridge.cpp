@@ -14,8 +14,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Loops that each loop is tried with. In a plane a loop has six neighbours on average; more are tried because
-/// others may stand between.
+/// Loops that each loop is tried with. In a plane a loop has six neighbours on average; more are tried
+/// because others may stand between.
 constexpr std::size_t kNearest = 16;
 
 /// Bridges start at every n-th node of a loop.

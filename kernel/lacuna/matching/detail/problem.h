@@ -46,9 +46,9 @@ struct Problem {
                     ///< walls
 
     /// Whether two loops are paired by length rather than vertex by vertex: if they have different numbers of
-    /// vertices, or one each; if no pairing of vertices keeps the pairs joined by walls; if the best one pairs a
-    /// corner with a smooth vertex although a corner is available; or if it pairs no two corners and its mean
-    /// twist exceeds `kMostTwist`.
+    /// vertices, or one each; if no pairing of vertices keeps the pairs joined by walls; if the best one
+    /// pairs a corner with a smooth vertex although a corner is available; or if it pairs no two corners and
+    /// its mean twist exceeds `kMostTwist`.
     [[nodiscard]] bool paired_by_length(std::size_t s, std::size_t t) const;
     /// The pairs of `led` nearest to a source loop.
     [[nodiscard]] PointPairs led_near(std::size_t s) const;

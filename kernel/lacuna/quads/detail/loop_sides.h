@@ -7,7 +7,7 @@
 
 namespace lacuna::quads::paving {
 
-/// The sides of a loop in boxes around runs of them, which answers in a few steps whether a line crosses them.
+/// The sides of a loop in boxes around runs of them, which tells in a few steps whether a line crosses them.
 class LoopSides {
 public:
     /// @pre mesh and loop stay; points may be added to the mesh.
