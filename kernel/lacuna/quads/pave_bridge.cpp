@@ -103,18 +103,12 @@ private:
     /// Whether no line that was laid since the bridge was found touches it.
     [[nodiscard]] bool is_current(const Bridge& bridge) const
     {
-        return std::ranges::none_of(lines_.begin() + static_cast<std::ptrdiff_t>(bridge.lines), lines_.end(),
-                                    [&](const Cycle& line) {
-                                        return std::ranges::count(line, bridge.from) > 0 ||
-                                               std::ranges::count(line, bridge.to) > 0;
-                                    }) &&
-               clears_lines(bridge.from, bridge.to, bridge.lines);
-    }
-
-    [[nodiscard]] bool clears_lines(Index from, Index to, std::size_t first) const
-    {
-        return std::all_of(of_lines_.begin() + static_cast<std::ptrdiff_t>(first), of_lines_.end(),
-                           [&](const LoopSides& line) { return line.is_clear(from, to); });
+        for (std::size_t k = bridge.lines; k < lines_.size(); ++k)
+            if (std::ranges::count(lines_[k], bridge.from) > 0 ||
+                std::ranges::count(lines_[k], bridge.to) > 0 ||
+                !of_lines_[k].is_clear(bridge.from, bridge.to))
+                return false;
+        return true;
     }
 
     /// A corner of a loop into which a line leaves: its position, its angle, and the part up to the line.
@@ -157,6 +151,13 @@ private:
     std::optional<Bridge> best_between(std::size_t a, std::size_t b)
     {
         const Cycle &one = loops_[a], &two = loops_[b];
+        const Eigen::AlignedBox2d both = sides_[a].box().merged(sides_[b].box());
+        std::vector<const LoopSides*> near; // what a bridge may meet
+        const auto add = [&](const LoopSides& sides) {
+            if (sides.box().intersects(both)) near.push_back(&sides);
+        };
+        std::ranges::for_each(sides_, add);
+        std::ranges::for_each(of_lines_, add);
         std::optional<Bridge> best;
         Cut place;
         // Only bridges cheaper than the cheapest so far are checked; none costs less than its length.
@@ -169,9 +170,8 @@ private:
             if (!end) return;
             const double cost = length * (1 + 0.3 * (*start + *end));
             if (best && cost >= best->cost) return;
-            if (!std::ranges::all_of(sides_,
-                                     [&](const LoopSides& loop) { return loop.is_clear(one[i], two[j]); }) ||
-                !clears_lines(one[i], two[j], 0))
+            if (!std::ranges::all_of(near,
+                                     [&](const LoopSides* sides) { return sides->is_clear(one[i], two[j]); }))
                 return;
             best = {cost, a, b, one[i], two[j], lines_.size()};
             place = {i, j};

@@ -24,6 +24,9 @@ namespace lacuna::topology {
 
 namespace {
 
+constexpr const char* kRepair =
+    "repair or remesh the face, or load with a larger tolerance if its facets have gaps";
+
 /// A directed mesh segment on an edge.
 struct SegmentOnEdge {
     EdgeUse use;
@@ -75,7 +78,8 @@ public:
             Message("topology.not_manifold",
                     "the facets of {} overlap or are not consistently oriented at the point {}", entity(),
                     place(from(index(twice))))
-                .remedy("repair or remesh the face"));
+                .remedy(
+                    "repair or remesh the face, or load with a larger tolerance if its facets have gaps"));
     }
 
     [[nodiscard]] std::size_t size() const { return sides_.size(); }
@@ -99,7 +103,8 @@ public:
                 throw InvalidInput(Message("topology.not_manifold",
                                            "the facets of {} do not form a surface at the point {}", entity(),
                                            place(to(half)))
-                                       .remedy("repair or remesh the face"));
+                                       .remedy("repair or remesh the face, or load with a larger tolerance "
+                                               "if its facets have gaps"));
             }
         }
         return next;
