@@ -131,7 +131,7 @@ private:
     [[nodiscard]] std::vector<std::size_t> nearest(std::size_t s, std::vector<std::size_t> loops) const
     {
         // They fix the motion next to a loop; with all loops the cost of each would grow with their number.
-        constexpr std::size_t kNear = 16;
+        constexpr std::size_t kNear = 8;
         if (loops.size() <= kNear) return loops;
         const auto away = [&](std::size_t other) {
             return (problem_.source[other].centroid - problem_.source[s].centroid).squaredNorm();
