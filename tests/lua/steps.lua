@@ -355,4 +355,41 @@ for _, taken in ipairs { { ["121"] = true }, { ["111"] = true }, { ["111"] = tru
   end
 end
 
+-- A boss in a pocket of a solid, with a bore through both: the boss's top is a part of the floor, with the bore
+-- covered, and the pocket's lid is flat.
+do
+  local model = lacuna.model()
+  local function corners(x, y, X, Y, z) return { { x, y, z }, { X, y, z }, { X, Y, z }, { x, Y, z } } end
+  local function ring(name, around, inside, up)
+    local points, cells = {}, {}
+    for k = 1, 4 do points[k], points[k + 4] = around[k], inside and inside[k] end
+    if not inside then cells[1] = { 1, 2, 3, 4 } end
+    for k = 1, inside and 4 or 0 do cells[k] = { k, k % 4 + 1, k % 4 + 5, k + 4 } end
+    for k, c in ipairs(cells) do cells[k] = up and c or { c[1], c[4], c[3], c[2] } end
+    model:add_face { name = name, points = points, cells = cells }
+  end
+  local function sides(name, low, high, outward)
+    for k = 1, 4 do
+      local n = k % 4 + 1
+      model:add_face { name = name .. k, points = { low[k], low[n], high[n], high[k] },
+        cells = { outward and { 1, 2, 3, 4 } or { 1, 4, 3, 2 } } }
+    end
+  end
+  local function box(z) return corners(0, 0, 12, 8, z) end
+  local function pocket(z) return corners(1, 1, 11, 7, z) end
+  local function boss(z) return corners(4, 2, 8, 6, z) end
+  local function bore(z) return corners(5, 3, 7, 5, z) end
+  ring("bottom", box(0), bore(0), false)
+  sides("outside", box(0), box(4), true)
+  ring("brim", box(4), pocket(4), true)
+  sides("pocket", pocket(1.5), pocket(4), false)
+  ring("floor", pocket(1.5), boss(1.5), true)
+  sides("boss", boss(1.5), boss(3), true)
+  ring("top", boss(3), bore(3), true)
+  sides("bore", bore(0), bore(3), false)
+  local mesh = model:open_volume { source = "floor", walls = "auto" }:sweep { size = 1 }
+  check.near(mesh.fidelity.volume, 10 * 6 * 2.5 - 4 * 4 * 1.5, 1e-9)
+  check.that(mesh:quality().certified)
+end
+
 check.done()

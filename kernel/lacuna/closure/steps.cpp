@@ -6,6 +6,7 @@
 #include <lacuna/closure/detail/round_rims.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
+#include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/shared/cut.h>
@@ -482,6 +483,24 @@ void close_brim(OpenVolume& volume, const RunContext& context)
     volume.model = with_loops(std::move(volume.model));
 }
 
+/// Cover the holes without walls in the tops of steps: a bore in a boss that ends below the brim. Extended to
+/// the other end they would be pins.
+void cover_step_holes(OpenVolume& volume, const RunContext& context)
+{
+    std::set<FaceId> tops;
+    for (const Steps& own : steps_of(volume, context))
+        for (const Hanging& hanging : own.closed)
+            tops.insert(own.parts[hanging.part].begin(), own.parts[hanging.part].end());
+    std::vector<EndHole> holes = holes_without_walls(volume);
+    std::erase_if(holes, [&](const EndHole& hole) { return !tops.contains(hole.face); });
+    if (holes.empty()) return;
+    for (const EndHole& hole : holes)
+        log_line(context, formatted("note: a hole in {}, the top of a step, is covered by a flat face",
+                                    entity_of(volume.model, hole.face)));
+    cover_holes(volume, holes, context);
+    volume.model = with_loops(std::move(volume.model));
+}
+
 /// Extrude void faces from closed rims, one end after the other, until no piece has such a rim.
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round)
 {
@@ -553,6 +572,7 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
     face_away(volume, context);
     if (!has_steps(volume, context)) return {{whole, 0}};
     close_brim(volume, context);
+    cover_step_holes(volume, context);
     split_round_rims(volume, context);
     const std::array<Steps, 2> steps = steps_of(volume, context);
     std::vector<FaceId> risers = steps[0].risers;

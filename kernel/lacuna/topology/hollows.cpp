@@ -79,12 +79,18 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
 }
 
 /// Faces that stand in a cavity: parts of the skin bounded by the cavity's rims, without the largest part,
-/// which is the outside, and without parts that reach a mouth, a rim of the outside. @pre oriented
-std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity)
+/// which is the outside, and without parts that reach a mouth, a rim of the outside. A bore joins no parts: it
+/// stands in the cavity if none of its rims is on the outside.
+/// @pre oriented
+std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity,
+                                const std::vector<Hollow>& hollows)
 {
     std::vector<FaceId> rest, result;
+    std::set<FaceId> apart(cavity.begin(), cavity.end());
+    for (const Hollow& hollow : hollows)
+        if (hollow.mouths > 1) apart.insert(hollow.faces.begin(), hollow.faces.end());
     std::ranges::copy_if(all_faces(model), std::back_inserter(rest),
-                         [&](FaceId face) { return std::ranges::find(cavity, face) == cavity.end(); });
+                         [&](FaceId face) { return !apart.contains(face); });
     const std::vector<Rim> mouths = rims(model, cavity);
     std::set<EdgeId> brims;
     for (const Rim& rim : mouths)
@@ -95,7 +101,7 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
         if (std::ranges::any_of(own, [&](const Rim& r) { return brims.contains(r.uses.front().edge); }))
             parts.push_back(std::move(part));
     }
-    if (parts.size() < 2) return {};
+    if (parts.empty()) return {};
     const auto outside = std::ranges::max_element(parts, {}, [&](const std::vector<FaceId>& part) {
         double area = 0;
         for (const FaceId face : part) area += face_area(model, face);
@@ -103,6 +109,13 @@ std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& c
     });
     const std::set<EdgeId> of_outside = rim_edges(model, *outside);
     parts.erase(outside);
+    for (const Hollow& hollow : hollows) {
+        const std::set<EdgeId> own = rim_edges(model, hollow.faces);
+        const bool outward = std::ranges::any_of(own, [&](EdgeId edge) { return of_outside.contains(edge); });
+        if (hollow.mouths > 1 && !outward &&
+            std::ranges::find_first_of(hollow.faces, cavity) == hollow.faces.end())
+            parts.push_back(hollow.faces);
+    }
     for (const Rim& rim : mouths) {
         if (!of_outside.contains(rim.uses.front().edge)) continue;
         const std::vector<Vec3> mouth = loop_places(model, rim.uses);
@@ -215,7 +228,7 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
     for (std::size_t h = 0; h < found.size(); ++h)
         if (taken.contains(first[h])) std::ranges::copy(found[h].faces, std::back_inserter(cavity));
     if (cavity.empty()) return {};
-    for (const FaceId face : enclosed_by(model, cavity)) cavity.push_back(face);
+    for (const FaceId face : enclosed_by(model, cavity, found)) cavity.push_back(face);
     std::sort(cavity.begin(), cavity.end());
     return cavity;
 }
