@@ -354,6 +354,9 @@ FaceId add_partition(Model& model, const std::vector<std::vector<EdgeUse>>& loop
     Outline outline;
     for (const std::vector<EdgeUse>& loop : loops)
         outline.add_loop(flat_places(plane, loop_places(model, loop)), loop_points(model, loop));
+    if (geometry::find_crossing(outline.flat, outline.loops))
+        throw NotSweepable(Message("closure.cut_crosses", "the outline of {} would cross itself", name)
+                               .remedy("cut the volume elsewhere with cut{{ plane = … }}"));
     const geometry::Triangulation made = geometry::triangulate(outline.flat, outline.loops,
                                                                {.interior_points = false}, context);
     ModelBuilder builder(std::move(model));
