@@ -84,6 +84,10 @@ holds("a drum floats in a can", with(top, skin, bottom),
 local standing = { "skin", { 1, 0 }, { 1, 3 } }
 holds("a drum stands in a can without floor", { can[2], can[3], top, standing },
   { source = "top", target = "lid", walls = { "side", "skin" } }, 2, circle(2) * 5 - circle(1) * 3)
+holds("a drum with a chamfered base stands in a can", { { "floor", { 0.7, 0 }, { 2, 0 } }, can[2], can[3], top,
+    { "chamfer", { 0.7, 0 }, { 1, 0.3 } }, { "skin", { 1, 0.3 }, { 1, 3 } } },
+  { source = { "floor", "top" }, target = "lid", walls = { "side", "chamfer", "skin" } }, 2,
+  circle(2) * 5 - circle(1) * 2.7 - (circle(0.7) + circle(1) + circle(0.7 ^ 0.5)) * 0.1)
 holds("a drum stands in a can without lid", { { "floor", { 1, 0 }, { 2, 0 } }, can[2], top, standing },
   { source = { "top", "floor" }, walls = { "side", "skin" } }, 2, circle(2) * 5 - circle(1) * 3)
 holds("a drum floats in a can without lid", { can[1], can[2], top, skin, bottom },

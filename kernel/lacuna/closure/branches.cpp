@@ -162,11 +162,15 @@ private:
         };
         if (worth(mouth.host) < worth(mouth.branch)) std::swap(mouth.host, mouth.branch);
         if (result_.ends[mouth.host].size() < 2) return false;
-        if (!result_.ends[mouth.branch].empty()) return true;
-        // A shallow dimple counts as part of the wall.
         const std::vector<Vec3> rim = places(model_, mouth.edges);
         const Vec3 centre = geometry::mean_point(rim);
         const Vec3 normal = geometry::newell_vector(rim).normalized();
+        // What leaves along the main body is a change of its section, not a branch.
+        const std::vector<Vec3>& ends = result_.ends[mouth.host];
+        const Vec3 way = ends.back() - ends.front();
+        if (ends.size() == 2 && way.cross(normal).norm() < kAlongAxis * way.norm()) return false;
+        if (!result_.ends[mouth.branch].empty()) return true;
+        // A shallow dimple counts as part of the wall.
         double width = 0, depth = 0;
         for (const Vec3& p : rim) width = std::max(width, (p - centre).norm());
         for (const FaceId face : result_.faces[mouth.branch])
@@ -298,7 +302,6 @@ private:
         axis_ = square.norm() > 0 ? Vec3(square.normalized()) : Vec3(outward.unitOrthogonal());
         if (ends.size() != 2)
             refuse(mouth, formatted("the main body has {} ends, so its direction is ambiguous", ends.size()));
-        if (square.norm() < kAlongAxis * way.norm()) refuse(mouth, "it leaves the main body along its axis");
     }
 
     /// Planes along the main body through the centre of each mouth and of each line across its ends, if these

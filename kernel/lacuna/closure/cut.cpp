@@ -268,14 +268,7 @@ private:
                 rings.push_back(loops[l]);
                 partition.behind.insert(partition.behind.end(), skin[l].begin(), skin[l].end());
             }
-            try {
-                partition.face = add_partition(model_, rings, plane_, partition_name(model_), context_);
-            } catch (const InvalidInput& error) {
-                throw NotSweepable(
-                    Message("closure.cut_touches", "the plane runs along faces that are nearly in it")
-                        .remedy("move or tilt it a little")
-                        .attempt(error.message()));
-            }
+            partition.face = add_partition(model_, rings, plane_, partition_name(model_), context_);
             parted_.partitions.push_back(std::move(partition));
             parted_.volume.role.push_back(Role::wall);
         }

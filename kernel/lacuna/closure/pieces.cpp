@@ -355,8 +355,9 @@ FaceId add_partition(Model& model, const std::vector<std::vector<EdgeUse>>& loop
     for (const std::vector<EdgeUse>& loop : loops)
         outline.add_loop(flat_places(plane, loop_places(model, loop)), loop_points(model, loop));
     if (geometry::find_crossing(outline.flat, outline.loops))
-        throw NotSweepable(Message("closure.cut_crosses", "the outline of {} would cross itself", name)
-                               .remedy("cut the volume elsewhere with cut{{ plane = … }}"));
+        throw NotSweepable(
+            Message("closure.cut_touches", "{} would run along faces that are nearly in its plane", name)
+                .remedy("cut by a plane that is moved or tilted a little"));
     const geometry::Triangulation made = geometry::triangulate(outline.flat, outline.loops,
                                                                {.interior_points = false}, context);
     ModelBuilder builder(std::move(model));
