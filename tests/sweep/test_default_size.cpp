@@ -323,18 +323,19 @@ TEST_CASE("default numbers follow faces that bend between nodes, where coarse nu
     CHECK(refused > (test::whole_families() ? 1 : 0));
 }
 
-TEST_CASE("poor cells are told where nobody asked for a size, and only there")
+TEST_CASE("poor cells are told, whether a size was asked for or not")
 {
     for (const double tip : {0.1, 0.2, 3.0}) {
         const auto volume = test::sealed({.outline = {{0, 0}, {4, 0}, {4, tip}}, .cuts = 4});
         const Swept swept = swept_by_default(volume);
         CAPTURE(tip);
         CHECK((swept.min_scaled_jacobian < 0.1) == (tip < 1));
-        CHECK(says(swept, "quality: ", "with the size by default") == (tip < 1));
-        CHECK(swept.defaults.size() == (tip < 1 ? 3 : 2));
+        CHECK(says(swept, "note: ", "the least scaled Jacobian is") == (tip < 1));
+        CHECK(swept.notes.size() == (tip < 1 ? 1 : 0));
         SweepOptions asked;
         asked.size = [](const Vec3&) { return 0.5; };
-        CHECK(!says(sweep::sweep(volume, asked), "quality: ", ""));
+        const Swept sized = sweep::sweep(volume, asked);
+        CHECK(says(sized, "note: ", "the least scaled Jacobian is") == (sized.min_scaled_jacobian < 0.3));
     }
 }
 

@@ -243,13 +243,12 @@ std::string volume_in_words(const Swept& swept)
         static_cast<int>(std::ceil(swept.mesh.layers / part)));
 }
 
-/// A warning about the effect of a default size.
+/// What to do about poor cells.
 std::string poor_in_words(double least)
 {
     return formatted(
-        "quality: the least scaled Jacobian is {:.2g} with the size by default; look whether the "
-        "shape has corners as sharp as that there, ask for another 'size', or have such meshes refused "
-        "by 'min_scaled_jacobian'",
+        "the least scaled Jacobian is {:.2g}; look whether the shape has corners as sharp as that "
+        "there, ask for another 'size', or have such meshes refused by 'min_scaled_jacobian'",
         least);
 }
 
@@ -260,14 +259,10 @@ Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContex
     SweepOptions options = asked;
     options.improving = with_deadline(options.improving);
     Swept swept = search(volume, options, context);
-    if (!asked.size && swept.min_scaled_jacobian < kPoorCell) {
-        swept.defaults.push_back(poor_in_words(swept.min_scaled_jacobian));
-        swept.report.push_back(swept.defaults.back());
-    }
-    if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted) {
-        swept.notes.push_back(volume_in_words(swept));
-        swept.report.push_back("note: " + swept.notes.back());
-    }
+    if (swept.min_scaled_jacobian < kPoorCell)
+        swept.notes.push_back(poor_in_words(swept.min_scaled_jacobian));
+    if (std::abs(volume_lost(swept.fidelity)) > kVolumeNoted) swept.notes.push_back(volume_in_words(swept));
+    for (const std::string& note : swept.notes) swept.report.push_back("note: " + note);
     if (asked.beside.settle) return swept;
     for (const std::string& line : swept.defaults) log_line(context, line);
     for (const std::string& note : swept.notes) log_line(context, "note: " + note);
