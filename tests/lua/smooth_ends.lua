@@ -83,14 +83,28 @@ print(members .. " cups")
 local has_cad, version = pcall(function() return lacuna.gmsh_version end)
 if has_cad and version then
   local path = os.tmpname()
-  local file = assert(io.open(path .. ".geo", "w"))
-  file:write('SetFactory("OpenCASCADE"); Sphere(1) = { 0, 0, 0, 1, 0, Pi/2 };',
-    "Delete { Volume{1}; } Delete { Surface{2}; }")
-  file:close()
-  local dome = lacuna.load(path .. ".geo"):open_volume()
+  local function made(script)
+    local file <close> = assert(io.open(path .. ".geo", "w"))
+    file:write('SetFactory("OpenCASCADE"); ', script)
+    file:close()
+    return lacuna.load(path .. ".geo")
+  end
+  local dome = made("Sphere(1) = { 0, 0, 0, 1, 0, Pi/2 }; Delete { Volume{1}; } Delete { Surface{2}; }")
+    :open_volume()
   dome:close {}
   local written = dome:write_cad(path .. ".step")
-  for _, ending in ipairs { "", ".geo", ".step" } do os.remove(path .. ending) end
   check.equal(written.faces, 2)
   check.near(written.volume, 2 / 3 * math.pi, 1e-6)
+
+  -- A tube with a branch has no bottom that blends into its walls: an end there has a rim.
+  local tee = made("Cylinder(1) = { -8, 0, 0, 16, 0, 0, 3 }; Cylinder(2) = { 0, 0, 0, 0, 0, 8, 2 };"
+    .. "BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };")
+  local round = {}
+  for _, face in ipairs(tee:faces()) do
+    if face.kind ~= "plane" then round[#round + 1] = face end
+  end
+  local volume = tee:open_volume { faces = round }
+  check.equal(volume.class, "V")
+  check.that(volume:sweep { size = 1 }:quality().min_scaled_jacobian > 0.3)
+  for _, ending in ipairs { "", ".geo", ".step" } do os.remove(path .. ending) end
 end

@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/section.h>
 
 #include <algorithm>
@@ -139,6 +140,14 @@ std::optional<Bowl> part_at(const OpenVolume& sealed, const Mouth& mouth, const 
     }
     const std::vector<FaceId> bottom = bowl.volume.faces(Role::source);
     if (bottom.empty() || connected_parts(model, bottom).size() != 1) return std::nullopt;
+    // A bottom with creases, such as the rim of another mouth, does not blend into the walls.
+    const std::vector<double> angles = angles_across(model, context);
+    const auto in_bottom = [&](const FaceUse& use) {
+        return bowl.volume.role[use.face.index()] == Role::source;
+    };
+    for (std::size_t e = 0; e < model.edges.size(); ++e)
+        if (angles[e] > kCreaseAngle && std::ranges::all_of(model.uses_of_edge(EdgeId(e)), in_bottom))
+            return std::nullopt;
     const std::size_t loops = rims(model, bowl.volume.faces(Role::target)).size();
     const auto rings = connected_parts(model, bowl.volume.faces(Role::wall));
     if (rims(model, bottom).size() != loops || rings.size() != loops) return std::nullopt;
