@@ -440,9 +440,10 @@ int describe_volume(lua_State* L)
 int volume_to_string(lua_State* L)
 {
     const auto& state = hold<VolumeState>(L, 1);
+    const bool sealed = state.closure || topology::free_edges(state.volume).empty();
     volume_class(L);
     lua_pushfstring(L, "Volume of class %s, %d faces, %s", lua_tostring(L, -1),
-                    static_cast<int>(state.volume.model.faces.size()), state.closure ? "sealed" : "open");
+                    static_cast<int>(state.volume.model.faces.size()), sealed ? "sealed" : "open");
     return 1;
 }
 
