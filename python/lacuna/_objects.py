@@ -128,7 +128,12 @@ def call(*values, at_once=False):
 def loaded(path, options):
     """lacuna.load: meshes of meshio and PyVista go through a file, those of meshio with their sets of cells."""
     if hasattr(path, "cast_to_unstructured_grid"):
-        ending, write = ".vtu", path.cast_to_unstructured_grid().save
+        grid = path.cast_to_unstructured_grid()
+        for name in ("gmsh:physical", "entity"):  # of files that were read by PyVista
+            if name in grid.cell_data:
+                _note(f"note: load: the groups in {name!r} of a grid of PyVista are left out; lacuna.load of an .msh "
+                      "file reads them")
+        ending, write = ".vtu", grid.save
     elif hasattr(path, "cell_sets"):
         if path.point_sets:
             _note("note: load: the point sets of a meshio.Mesh are left out; sets of cells are read, and "

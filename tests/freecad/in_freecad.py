@@ -177,9 +177,14 @@ class Test(unittest.TestCase):
         self.assertAlmostEqual(void.Volume, 30 * 20 * 15, 3)
         self.assertEqual(len(void.Proxy._taken), 3)
         void.Layers = 3
+        started = filled_void.start(void)
+        started.wait()
+        void.Proxy.deliver(started)
+        void.Layers = 4  # so that the job is of another void, and goes
         with unittest.mock.patch.object(filled_void, "kTaken", 2):
             self.document.recompute()
-        self.assertEqual(len(void.Proxy._taken), 2)
+        self.assertEqual((len(void.Proxy._taken), void.FemMesh.HexaCount), (2, 4 * cells))
+        self.assertFalse(os.path.exists(started.folder))
 
     def test_named_roles_and_a_bore(self):
         part = self.document.addObject("Part::Feature", "Plate")

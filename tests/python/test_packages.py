@@ -185,6 +185,11 @@ class PyVista(unittest.TestCase):
             part = lacuna.load(mesh.to_pyvista())
             self.assertTrue(all(face.has_mesh for face in part.faces()))
             self.assertEqual(len(part.faces()), 6 if mesh.wedges else 8)
+        grid = mesh.to_pyvista()
+        grid.cell_data["gmsh:physical"] = numpy.ones(mesh.hexes)
+        with self.assertLogs("lacuna", "WARNING") as caught:
+            lacuna.load(grid)
+        self.assertIn("'gmsh:physical'", caught.output[0])
 
     @unittest.skipUnless(has("pyvista"), "PyVista is not installed")
     def test_surfaces_of_pyvista(self):

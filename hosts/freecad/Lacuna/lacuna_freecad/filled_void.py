@@ -127,10 +127,12 @@ class FilledVoid:
             raise ValueError("The filled void has no part: set its property Part.")
         key = convert.fingerprint(obj.Part.Shape, request_of(obj))
         try:
-            if finished is not None and finished.key == key:
-                self._taken[key] = read(finished)
-            elif key not in self._taken:
+            if finished is not None and finished.key != key:  # the void has changed meanwhile
+                finished.stop()
+                finished = None
+            if finished is None and key not in self._taken:
                 finished = run(obj)
+            if finished is not None:
                 self._taken[key] = read(finished)
             self._taken[key] = self._taken.pop(key)  # it is the last
             while len(self._taken) > kTaken:
