@@ -298,6 +298,7 @@
 ---@field tolerance number [model length]
 ---@field diagonal number [model length]
 local Model = {}
+--- The faces that fit all that is named; without a selector all of them.
 ---@param selector? lacuna.Selector
 ---@return lacuna.Face[]
 function Model:faces(selector) end
@@ -309,9 +310,12 @@ function Model:face(which) end
 ---@param options lacuna.FaceFromOptions
 ---@return lacuna.Face
 function Model:face_from(options) end
+--- Add a face of triangles and quads to the model. Points count from 1.
 ---@param face lacuna.NewFace
 ---@return lacuna.Face
 function Model:add_face(face) end
+--- The volume that faces bound, with the roles that are named. Without roles they are found, for `faces`
+--- or all faces.
 ---@param roles? lacuna.Roles
 ---@return lacuna.Volume
 function Model:open_volume(roles) end
@@ -328,6 +332,7 @@ function Model:cavities() end
 ---@param path string .html
 ---@param options? lacuna.PageOptions
 function Model:view(path, options) end
+--- Drawn without a display: the faces, and their free edges.
 ---@param path string .png
 ---@param options? lacuna.FacePictureOptions
 function Model:picture(path, options) end
@@ -340,29 +345,39 @@ function Model:picture(path, options) end
 ---@class lacuna.Volume
 ---@field class lacuna.Class as the volume was given
 local Volume = {}
+--- Which faces are missing, and why the volume is of its class.
 ---@return lacuna.Classification
 function Volume:classify() end
+--- Take the volume as one of another class; what contradicts it is an error.
 ---@param class lacuna.Class
 ---@return lacuna.Volume self
 function Volume:override_class(class) end
+--- Pair the loops and vertices of source and target; `close` does it where this was not called.
 ---@param options? lacuna.MatchOptions
 ---@return lacuna.Match
 function Volume:match(options) end
+--- Make the edges and faces that are missing. The volume is sealed afterwards; `sweep` does it where this
+--- was not called.
 ---@param options? lacuna.CloseOptions
 ---@return lacuna.Closure
 function Volume:close(options) end
+--- Whether nothing is missing.
 ---@return boolean
 function Volume:is_watertight() end
+--- Edges that have a missing face beside them.
 ---@return lacuna.FreeEdge[]
 function Volume:free_edges() end
+--- Volume, faces, edges and vertices as text, with the geometry of each; void ones are marked.
 ---@return string
 function Volume:tree() end
+--- Roles, class, what is missing and what was paired, as text.
 ---@return string
 function Volume:describe() end
 --- A page for a browser: roles, void faces, free edges and vertices on no wall.
 ---@param path string .html
 ---@param options? lacuna.PageOptions
 function Volume:view(path, options) end
+--- Drawn without a display: given faces, and those that were made.
 ---@param path string .png
 ---@param options? lacuna.FacePictureOptions
 function Volume:picture(path, options) end
@@ -460,15 +475,19 @@ function Buffer:bytes() end
 ---@field regions string[] the one volume's name
 ---@field report lacuna.Report
 local Mesh = {}
+--- Scaled Jacobian, certificate, volume and other metrics of the cells.
 ---@return lacuna.Quality
 function Mesh:quality() end
+--- Groups of quads and cells, as files have them.
 ---@return { name: string, dim: integer, cells: integer }[]
 function Mesh:groups() end
+--- Coordinates of a node.
 ---@param i integer
 ---@return number x
 ---@return number y
 ---@return number z
 function Mesh:node(i) end
+--- Six node numbers, Gmsh order.
 ---@param i integer
 ---@return integer ... six numbers of nodes
 function Mesh:wedge(i) end
@@ -483,6 +502,12 @@ function Mesh:coordinates() end
 ---@param kind? "hex"|"wedge"|"pyramid"|"tet" default "hex"
 ---@return lacuna.Buffer
 function Mesh:cells(kind) end
+--- A metric of every cell of a kind, in the order of `cells(kind)`.
+---@param metric? lacuna.MetricName default "scaled_jacobian"; of cells that are no hexahedra also "jacobian" and "volume"
+---@param kind? "hex"|"wedge"|"pyramid"|"tet" default "hex"
+---@return lacuna.Buffer
+function Mesh:field(metric, kind) end
+--- A file in the format of its ending.
 ---@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, or a folder called polyMesh
 ---@param options? lacuna.WriteOptions
 function Mesh:write(path, options) end
@@ -549,34 +574,47 @@ function Assembly:sweep_to(path, options) end
 ---@field regions string[]
 ---@field report lacuna.AssemblyReport
 local AssemblyMesh = {}
+--- Scaled Jacobian, certificate, volume and other metrics of all cells.
 ---@return lacuna.Quality
 function AssemblyMesh:quality() end
+--- Groups of quads and cells, as files have them; each volume's cells are one.
 ---@return { name: string, dim: integer, cells: integer }[]
 function AssemblyMesh:groups() end
+--- Coordinates of a node.
 ---@param i integer
 ---@return number x
 ---@return number y
 ---@return number z
 function AssemblyMesh:node(i) end
+--- Eight node numbers, Gmsh order.
 ---@param i integer
 ---@return integer ...
 function AssemblyMesh:hex(i) end
 --- Of every node x, y, z.
 ---@return lacuna.Buffer
 function AssemblyMesh:coordinates() end
---- Of every cell of a kind the numbers of its corners, from 1.
+--- Of every cell of a kind the numbers of its nodes, from 1; of order 2 the middle nodes too, in VTK's order.
 ---@param kind? "hex"|"wedge"|"pyramid"|"tet" default "hex"
 ---@return lacuna.Buffer
 function AssemblyMesh:cells(kind) end
+--- A metric of every cell of a kind, in the order of `cells(kind)`. Of order 2 by the corners.
+---@param metric? lacuna.MetricName default "scaled_jacobian"; of cells that are no hexahedra also "jacobian" and "volume"
+---@param kind? "hex"|"wedge"|"pyramid"|"tet" default "hex"
+---@return lacuna.Buffer
+function AssemblyMesh:field(metric, kind) end
+--- Six node numbers, Gmsh order.
 ---@param i integer
 ---@return integer ... six numbers of nodes
 function AssemblyMesh:wedge(i) end
+--- Four node numbers of the base, and the apex.
 ---@param i integer
 ---@return integer n1, integer n2, integer n3, integer n4, integer apex
 function AssemblyMesh:pyramid(i) end
+--- Four node numbers, Gmsh order.
 ---@param i integer
 ---@return integer n1, integer n2, integer n3, integer n4
 function AssemblyMesh:tet(i) end
+--- A file in the format of its ending.
 ---@param path string
 ---@param options? lacuna.WriteOptions
 function AssemblyMesh:write(path, options) end
@@ -584,6 +622,7 @@ function AssemblyMesh:write(path, options) end
 ---@param path string .html
 ---@param options? lacuna.PageOptions
 function AssemblyMesh:view(path, options) end
+--- Drawn without a display.
 ---@param path string .png
 ---@param options? lacuna.PictureOptions
 function AssemblyMesh:picture(path, options) end
@@ -620,10 +659,13 @@ function synthetic.plate(options) end
 ---@field gmsh_version string
 ---@field synthetic lacuna.Synthetic
 local lacuna = {}
+--- The faces of a file, or of several as one model: CAD (.step .stp .iges .igs .brep .geo), facets (.stl
+--- .obj), meshes and decks (.msh .inp .bdf .nas .dat .unv .vtk .vtu .exo .e .mesh).
 ---@param path string|string[]
 ---@param options? lacuna.LoadOptions
 ---@return lacuna.Model
 function lacuna.load(path, options) end
+--- An empty model, to add faces to.
 ---@param options? lacuna.ModelOptions
 ---@return lacuna.Model
 function lacuna.model(options) end

@@ -167,6 +167,7 @@ def in_python(text):
     text = re.sub(r"\b(mesh|model|volume|assembly|Mesh|Model|Volume|Assembly):(\w+)", r"\1.\2", text)
     text = re.sub(r"open_volume\s*\{ (\w+) = (\S+) \}", r"open_volume(\1=\2)", text)
     text = re.sub(r"sweep\(options\)\.?:?write\(path\)", "sweep(...).write(path)", text)
+    text = re.sub(r"\{ (\w+(?:, \w+)*) \}", r"[\1]", text)
     for lua, python in ("true", "True"), ("false", "False"), ("nil", "None"):
         text = re.sub(rf"\b{lua}\b", python, text)
     return text.replace("`[volume] = options` lays", "a dict `{volume: options}` before them lays")
@@ -423,6 +424,8 @@ class Writer:
         if function.returns and function.returns[0][1] and function.returns[0][1] not in ("self", "report") \
                 and not re.match(r"^[\w.]+(,|$)", function.returns[0][1]) and not doc:
             doc = "Returns " + function.returns[0][1]
+        if function.name == "load" and not owner:
+            doc += " In the place of a path: a mesh of meshio or PyVista."
         lines = [fold(f"def {function.name}", code, ":", indent)]
         text = docstring(doc, listed, indent + "    ")
         if text:

@@ -2,6 +2,7 @@
 // Buffer: many numbers at once, for hosts and for recipes that walk over a whole mesh.
 #include "bindings/bind_buffer.h"
 
+#include "bindings/bind_quality.h"
 #include "bindings/classes.h"
 #include "bindings/options.h"
 
@@ -22,6 +23,12 @@ BufferState of_wholes(std::vector<Index> numbers, std::size_t columns)
     return {kept, nullptr, kept->empty() ? &kNone : kept->data(), kept->size(), columns};
 }
 
+BufferState of_reals(std::vector<double> numbers)
+{
+    const auto kept = std::make_shared<const std::vector<double>>(std::move(numbers));
+    return {kept, kept->empty() ? nullptr : kept->data(), nullptr, kept->size(), 1};
+}
+
 BufferState of_points(std::vector<Vec3> points)
 {
     const auto kept = std::make_shared<const std::vector<Vec3>>(std::move(points));
@@ -30,6 +37,11 @@ BufferState of_points(std::vector<Vec3> points)
 
 /// Corners of each kind of cell.
 const Word<std::size_t> kKindsOfCells[] = {{"hex", 8}, {"wedge", 6}, {"pyramid", 5}, {"tet", 4}};
+
+std::size_t read_kind(lua_State* L, int index, const char* call)
+{
+    return lua_isnoneornil(L, index) ? 8 : read_word(L, index, {call, nullptr}, kKindsOfCells);
+}
 
 /// Nodes of all cells of a kind, from 1, in the order of mesh:hex(i) and mesh:wedge(i).
 BufferState cells_of(const mesh::HexMesh& mesh, std::size_t corners)
@@ -75,7 +87,7 @@ int cells(lua_State* L)
 {
     lua_settop(L, 2);
     const auto& mesh = hold<MeshState>(L, 1);
-    const std::size_t corners = lua_isnil(L, 2) ? 8 : read_word(L, 2, {"cells", nullptr}, kKindsOfCells);
+    const std::size_t corners = read_kind(L, 2, "cells");
     auto& box = new_box<BufferState>(L);
     guard(L, [&] { box = std::make_shared<BufferState>(cells_of(mesh.swept.mesh, corners)); });
     return 1;
@@ -90,22 +102,99 @@ int assembly_coordinates(lua_State* L)
     return 1;
 }
 
-/// buffer = mesh:cells(["hex" | "wedge" | "pyramid" | "tet"]): corners from 1
+/// As `cells_of()` above.
+BufferState cells_of(const AssemblyMeshState& mesh, std::size_t corners)
+{
+    const WholeCells whole = whole_cells(mesh);
+    std::vector<Index> nodes;
+    std::size_t columns = corners;
+    for (std::size_t c = 0; c < whole.hexes.size(); ++c) {
+        const mesh::CellNodes cell = mesh::distinct_corners(whole.hexes[c]);
+        if (cell.count != corners) continue;
+        const mesh::CellNodes& all = whole.curved.empty() ? cell : whole.curved[c];
+        columns = all.count;
+        for (const Index node : all) nodes.push_back(node + 1);
+    }
+    return of_wholes(std::move(nodes), columns);
+}
+
+/// buffer = mesh:cells(["hex" | "wedge" | "pyramid" | "tet"]), of an assembly
 int assembly_cells(lua_State* L)
 {
     lua_settop(L, 2);
     const auto& mesh = hold<AssemblyMeshState>(L, 1);
-    const std::size_t columns = lua_isnil(L, 2) ? 8 : read_word(L, 2, {"cells", nullptr}, kKindsOfCells);
+    const std::size_t corners = read_kind(L, 2, "cells");
     auto& box = new_box<BufferState>(L);
+    guard(L, [&] { box = std::make_shared<BufferState>(cells_of(mesh, corners)); });
+    return 1;
+}
+
+struct FieldArguments {
+    quality::Metric metric = quality::Metric::scaled_jacobian;
+    std::size_t corners = 8; ///< of the kind of cells
+};
+
+/// [metric [, kind]], at 2 and 3
+FieldArguments read_field(lua_State* L)
+{
+    FieldArguments read;
+    if (!lua_isnil(L, 2)) read.metric = read_metric(L, 2, {"field", nullptr});
+    read.corners = read_kind(L, 3, "field");
+    return read;
+}
+
+/// Refuse metrics that `measure_metrics()` has of hexahedra alone: their values would be 0.
+void require_defined(const FieldArguments& of)
+{
+    using enum quality::Metric;
+    if (of.corners == 8 || of.metric == scaled_jacobian || of.metric == jacobian || of.metric == volume)
+        return;
+    throw InvalidInput(Message("lua.bad_value", "field: '{}' is defined for hexahedra alone",
+                               quality::metric_name(of.metric))
+                           .remedy("take \"scaled_jacobian\", \"jacobian\" or \"volume\""));
+}
+
+/// buffer = mesh:field([metric [, kind]]): its value for every row of mesh:cells(kind)
+int field(lua_State* L)
+{
+    lua_settop(L, 3);
+    const auto& state = hold<MeshState>(L, 1);
+    const FieldArguments of = read_field(L);
+    auto& box = new_box<BufferState>(L);
+    RunContext& context = push_context(L);
     guard(L, [&] {
-        std::vector<Index> nodes;
-        for (const Hex& hex : whole_cells(mesh).hexes) {
-            const mesh::CellNodes corners = mesh::distinct_corners(hex);
-            if (corners.count != columns) continue;
-            for (const Index node : corners) nodes.push_back(node + 1);
-        }
-        box = std::make_shared<BufferState>(of_wholes(std::move(nodes), columns));
+        require_defined(of);
+        const mesh::HexMesh& mesh = state.swept.mesh;
+        std::vector<double> values, all;
+        if (of.corners >= 6) all = quality::metric_values(mesh, of.metric, context);
+        const mesh::CellKinds kinds(mesh);
+        const std::size_t first = of.corners == 8 ? 0 : mesh.hex_count();
+        const std::size_t last = of.corners == 8 ? mesh.hex_count() : all.size();
+        for (std::size_t c = first; c < last; ++c) values.push_back(all[kinds.cell(c)]);
+        box = std::make_shared<BufferState>(of_reals(std::move(values)));
     });
+    lua_pop(L, 1);
+    return 1;
+}
+
+/// As `field()`, by the corners of the cells.
+int assembly_field(lua_State* L)
+{
+    lua_settop(L, 3);
+    const auto& mesh = hold<AssemblyMeshState>(L, 1);
+    const FieldArguments of = read_field(L);
+    auto& box = new_box<BufferState>(L);
+    RunContext& context = push_context(L);
+    guard(L, [&] {
+        require_defined(of);
+        const WholeCells whole = whole_cells(mesh);
+        const std::vector<double> all = quality::metric_values(whole.nodes, whole.hexes, of.metric, context);
+        std::vector<double> values;
+        for (std::size_t c = 0; c < all.size(); ++c)
+            if (mesh::distinct_corners(whole.hexes[c]).count == of.corners) values.push_back(all[c]);
+        box = std::make_shared<BufferState>(of_reals(std::move(values)));
+    });
+    lua_pop(L, 1);
     return 1;
 }
 
@@ -183,9 +272,12 @@ int to_string(lua_State* L)
 const luaL_Reg kBufferMethods[] = {{"row", row}, {"each", each}, {"bytes", bytes}, {nullptr, nullptr}};
 const luaL_Reg kBufferMeta[] = {{"__len", length}, {"__tostring", to_string}, {nullptr, nullptr}};
 const Field kBufferFields[] = {{"rows", length}, {"columns", columns}, {"type", type}, {nullptr, nullptr}};
-const luaL_Reg kBufferMeshMethods[] = {{"coordinates", coordinates}, {"cells", cells}, {nullptr, nullptr}};
-const luaL_Reg kBufferAssemblyMethods[] = {
-    {"coordinates", assembly_coordinates}, {"cells", assembly_cells}, {nullptr, nullptr}};
+const luaL_Reg kBufferMeshMethods[] = {
+    {"coordinates", coordinates}, {"cells", cells}, {"field", field}, {nullptr, nullptr}};
+const luaL_Reg kBufferAssemblyMethods[] = {{"coordinates", assembly_coordinates},
+                                           {"cells", assembly_cells},
+                                           {"field", assembly_field},
+                                           {nullptr, nullptr}};
 
 } // namespace
 

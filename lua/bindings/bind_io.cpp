@@ -63,13 +63,6 @@ void read_binary(lua_State* L, int index, const Where& where, WriteArguments& ar
     arguments.binary_given = true;
 }
 
-quality::Metric read_metric(lua_State* L, int index, const Where& where)
-{
-    const char* names[quality::kMetricCount];
-    for (std::size_t i = 0; i < quality::kMetricCount; ++i) names[i] = quality::metric_infos()[i].name;
-    return static_cast<quality::Metric>(read_word(L, index, where, names, quality::kMetricCount));
-}
-
 /// false, true (the scaled Jacobian), the name of a metric or several
 void read_quality(lua_State* L, int index, const Where& where, WriteArguments& arguments)
 {

@@ -167,6 +167,13 @@ const luaL_Reg kQualityAssemblyMethods[] = {{"quality", assembly_quality}, {null
 
 } // namespace
 
+quality::Metric read_metric(lua_State* L, int index, const Where& where)
+{
+    const char* names[quality::kMetricCount];
+    for (std::size_t i = 0; i < quality::kMetricCount; ++i) names[i] = quality::metric_infos()[i].name;
+    return static_cast<quality::Metric>(read_word(L, index, where, names, quality::kMetricCount));
+}
+
 void push_quality(lua_State* L, int source)
 {
     const quality::Quality& q = temporary_at<QualitySource>(L, source).quality;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bindings/classes.h"
+#include "bindings/options.h"
 
 #include <lacuna/quality/shared/metrics.h>
 
@@ -23,5 +24,8 @@ struct QualitySource {
 /// Push a Quality: a table of what was measured that prints as a table.
 /// @param source  index of a `temporary<QualitySource>`
 void push_quality(lua_State* L, int source);
+
+/// The metric that is named at `index`.
+quality::Metric read_metric(lua_State* L, int index, const Where& where);
 
 } // namespace lacuna::lua

@@ -223,7 +223,9 @@ class Model(Shown):
         return self._field("diagonal")
 
     def faces(self, selector=None, /, **keywords):
-        """tags: int | list[int]
+        """The faces that fit all that is named; without a selector all of them.
+
+        tags: int | list[int]
         name: str; a physical group, a part (`pid:7`), an element set
         kind: "plane" | "cylinder" | "cone" | "sphere" | "torus" | "bspline" | "surface" | "discrete"
         facing: (x, y, z); the mean normal within 30 degrees of it
@@ -269,7 +271,9 @@ class Model(Shown):
         return self._method("face_from", options_of(None, keywords, near=near))
 
     def add_face(self, points, cells, **keywords):
-        """name: str
+        """Add a face of triangles and quads to the model. Points count from 1.
+
+        name: str
         points: list[(x, y, z)] | numpy.ndarray
         cells: list[list[int]] | numpy.ndarray; triangles and quads: numbers of points from 1
         keep_mesh: bool; quads are a mesh to be kept, not mere facets; default False
@@ -277,7 +281,10 @@ class Model(Shown):
         return self._method("add_face", options_of(None, keywords, points=points, cells=cells))
 
     def open_volume(self, roles=None, /, **keywords):
-        """source: Face | int | str | dict | list[Face | int | str | dict]
+        """The volume that faces bound, with the roles that are named. Without roles they are found, for
+        `faces` or all faces.
+
+        source: Face | int | str | dict | list[Face | int | str | dict]
         target: Face | int | str | dict | list[Face | int | str | dict]
         walls: Face | int | str | dict | list[Face | int | str | dict] | "auto"; "auto": the source's cavity
             in a solid, else all that hangs on its rim
@@ -299,7 +306,7 @@ class Model(Shown):
         frame: "minimal" | "fixed"; with `path`: whether the source turns with it; default "minimal"
         helix: list[(x, y, z) | float]; point, direction, pitch and turns; negative turns: left-handed
         normals: float | Callable[[float, float, float], float] | list[float | Callable[[float, float, float],
-            float]]; thickness along the source's normals, or { inside, outside }
+            float]]; thickness along the source's normals, or [inside, outside]
         to: Face | int | str | dict; along the source's mean normal onto this face
         twist: float | Callable[[float], float]; of the target, or at heights from 0 to 1 [degrees]
         scale: float | Callable[[float], float]; of the target, or at heights from 0 to 1
@@ -327,7 +334,9 @@ class Model(Shown):
         self._method("view", path, options_of(options, keywords))
 
     def picture(self, path, options=None, /, **keywords):
-        """path: .png
+        """Drawn without a display: the faces, and their free edges.
+
+        path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
         facets: bool; sides of the facets are drawn; default False
@@ -411,13 +420,17 @@ class Volume(Shown):
         return self._field("class")
 
     def classify(self):
+        """Which faces are missing, and why the volume is of its class."""
         return shaped(self._method("classify"), ('of', 'Classification'))
 
     def override_class(self, class_):
+        """Take the volume as one of another class; what contradicts it is an error."""
         return self._method("override_class", class_)
 
     def match(self, options=None, /, **keywords):
-        """vertices: list[list[int]] | numpy.ndarray; tags: source, target
+        """Pair the loops and vertices of source and target; `close` does it where this was not called.
+
+        vertices: list[list[int]] | numpy.ndarray; tags: source, target
         loops: list[list[int]] | numpy.ndarray; numbers: source, target
         flip: list[int]; source loops whose direction on the target is turned round
         method: "aligned" | "nearest"; default "aligned"
@@ -425,7 +438,10 @@ class Volume(Shown):
         return shaped(self._method("match", options_of(options, keywords)), ('of', 'Match'))
 
     def close(self, options=None, /, **keywords):
-        """edge_shape: "auto" | "straight" | "follow" | "smooth"; how a void edge runs; default "auto"
+        """Make the edges and faces that are missing. The volume is sealed afterwards; `sweep` does it where
+        this was not called.
+
+        edge_shape: "auto" | "straight" | "follow" | "smooth"; how a void edge runs; default "auto"
         void_edges: list[list[int | list[(x, y, z)] | numpy.ndarray]]; given by hand: vertex tags from and to,
             points between
         cap: "auto" | "flat" | "parallel"; shape of a missing end; default "auto"
@@ -435,15 +451,19 @@ class Volume(Shown):
         return shaped(self._method("close", options_of(options, keywords)), ('of', 'Closure'))
 
     def is_watertight(self):
+        """Whether nothing is missing."""
         return self._method("is_watertight")
 
     def free_edges(self):
+        """Edges that have a missing face beside them."""
         return shaped(self._method("free_edges"), ('list', ('of', 'FreeEdge')))
 
     def tree(self):
+        """Volume, faces, edges and vertices as text, with the geometry of each; void ones are marked."""
         return self._method("tree")
 
     def describe(self):
+        """Roles, class, what is missing and what was paired, as text."""
         return self._method("describe")
 
     def view(self, path, options=None, /, **keywords):
@@ -455,7 +475,9 @@ class Volume(Shown):
         self._method("view", path, options_of(options, keywords))
 
     def picture(self, path, options=None, /, **keywords):
-        """path: .png
+        """Drawn without a display: given faces, and those that were made.
+
+        path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
         facets: bool; sides of the facets are drawn; default False
@@ -655,16 +677,19 @@ class Mesh(AnyMesh):
         return self._field("report")
 
     def quality(self):
+        """Scaled Jacobian, certificate, volume and other metrics of the cells."""
         return self._method("quality")
 
     def groups(self):
+        """Groups of quads and cells, as files have them."""
         return self._method("groups")
 
     def node(self, i):
+        """Coordinates of a node."""
         return self._method("node", i)
 
     def wedge(self, i):
-        """Returns ... six numbers of nodes"""
+        """Six node numbers, Gmsh order."""
         return self._method("wedge", i)
 
     def hex(self, i):
@@ -682,8 +707,18 @@ class Mesh(AnyMesh):
         """
         return self._array("cells", kind)
 
+    def field(self, metric=None, kind=None):
+        """A metric of every cell of a kind, in the order of `cells(kind)`.
+
+        metric: default "scaled_jacobian"; of cells that are no hexahedra also "jacobian" and "volume"
+        kind: default "hex"
+        """
+        return self._array("field", metric, kind)
+
     def write(self, path, options=None, /, **keywords):
-        """path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, or a folder called polyMesh
+        """A file in the format of its ending.
+
+        path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, or a folder called polyMesh
         version: float
         binary: bool
         quality: bool | str | list[str]; metrics that go along for every cell, as $ElementData or cell arrays;
@@ -889,15 +924,19 @@ class AssemblyMesh(AnyMesh):
         return self._field("report")
 
     def quality(self):
+        """Scaled Jacobian, certificate, volume and other metrics of all cells."""
         return self._method("quality")
 
     def groups(self):
+        """Groups of quads and cells, as files have them; each volume's cells are one."""
         return self._method("groups")
 
     def node(self, i):
+        """Coordinates of a node."""
         return self._method("node", i)
 
     def hex(self, i):
+        """Eight node numbers, Gmsh order."""
         return self._method("hex", i)
 
     def coordinates(self):
@@ -905,24 +944,37 @@ class AssemblyMesh(AnyMesh):
         return self._array("coordinates")
 
     def cells(self, kind=None):
-        """Of every cell of a kind the numbers of its corners, from 1.
+        """Of every cell of a kind the numbers of its nodes, from 1; of order 2 the middle nodes too, in VTK's
+        order.
 
         kind: default "hex"
         """
         return self._array("cells", kind)
 
+    def field(self, metric=None, kind=None):
+        """A metric of every cell of a kind, in the order of `cells(kind)`. Of order 2 by the corners.
+
+        metric: default "scaled_jacobian"; of cells that are no hexahedra also "jacobian" and "volume"
+        kind: default "hex"
+        """
+        return self._array("field", metric, kind)
+
     def wedge(self, i):
-        """Returns ... six numbers of nodes"""
+        """Six node numbers, Gmsh order."""
         return self._method("wedge", i)
 
     def pyramid(self, i):
+        """Four node numbers of the base, and the apex."""
         return self._method("pyramid", i)
 
     def tet(self, i):
+        """Four node numbers, Gmsh order."""
         return self._method("tet", i)
 
     def write(self, path, options=None, /, **keywords):
-        """version: float
+        """A file in the format of its ending.
+
+        version: float
         binary: bool
         with_: Model | list[Model]; loaded from finite element meshes, that the mesh is joined to; the
             volume's first
@@ -951,7 +1003,9 @@ class AssemblyMesh(AnyMesh):
         self._method("view", path, options_of(options, keywords))
 
     def picture(self, path, options=None, /, **keywords):
-        """path: .png
+        """Drawn without a display.
+
+        path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
         view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
@@ -1038,7 +1092,11 @@ class Quality(Object):
 
 
 def load(path, options=None, /, **keywords):
-    """tolerance: float; gaps below it are sewn [model length]; default 1e-6 × the diagonal
+    """The faces of a file, or of several as one model: CAD (.step .stp .iges .igs .brep .geo), facets (.stl
+    .obj), meshes and decks (.msh .inp .bdf .nas .dat .unv .vtk .vtu .exo .e .mesh). In the place of a path: a
+    mesh of meshio or PyVista.
+
+    tolerance: float; gaps below it are sewn [model length]; default 1e-6 × the diagonal
     feature_angle: float; where facets are cut into faces [degrees]; default 40
     keep_mesh: bool; given quads and nodes stay as they are; default True
     keep_noise: bool; points of noisy facets, as of a scan, stay where they are; default False: they are
@@ -1052,7 +1110,9 @@ def load(path, options=None, /, **keywords):
 
 
 def model(options=None, /, **keywords):
-    """tolerance: float; points closer than this are one [model length]; default 1e-6 × the diagonal
+    """An empty model, to add faces to.
+
+    tolerance: float; points closer than this are one [model length]; default 1e-6 × the diagonal
     """
     return call("module", "model", options_of(options, keywords))
 

@@ -9,6 +9,7 @@ from ._library import Error, _note, own_interpreter
 from ._wire import Answer, Report, Request, Table
 
 classes = {}  # by the name that they have in Lua
+_VTK_WEDGE = [0, 2, 1, 3, 5, 4]  # VTK has the triangles of a wedge the other way round
 _VTK_TYPES = {("hex", 8): 12, ("hex", 20): 25, ("hex", 27): 29, ("wedge", 6): 13, ("pyramid", 5): 14,
               ("tet", 4): 10}
 
@@ -81,8 +82,9 @@ class _Memory:
     def __init__(self, buffer):
         found = buffer._interpreter.buffer(buffer._number)
         self._buffer = buffer
+        shape = (found.rows,) if found.columns == 1 else (found.rows, found.columns)
         self.__array_interface__ = {
-            "version": 3, "data": (found.data or 0, True), "shape": (found.rows, found.columns),
+            "version": 3, "data": (found.data or 0, True), "shape": shape,
             "typestr": "<f8" if found.type == 0 else "<i4"}
 
 
@@ -124,17 +126,23 @@ def call(*values, at_once=False):
 
 
 def loaded(path, options):
-    """lacuna.load: meshes of meshio and PyVista go through a file, with groups where meshio has Gmsh's."""
-    if hasattr(path, "cells_dict"):
-        if path.cell_sets and "gmsh:physical" not in path.cell_data:
-            _note("note: load: sets of cells are not read from a meshio.Mesh; of groups it takes those in "
-                  "cell_data['gmsh:physical']")
-        ending = ".msh" if "gmsh:physical" in path.cell_data else ".vtu"
+    """lacuna.load: meshes of meshio and PyVista go through a file, those of meshio with their sets of cells."""
+    if hasattr(path, "cast_to_unstructured_grid"):
+        grid = path.cast_to_unstructured_grid()
+        for name in ("gmsh:physical", "entity"):  # of files that were read by PyVista
+            if name in grid.cell_data:
+                _note(f"note: load: the groups in {name!r} of a grid of PyVista are left out; lacuna.load of an .msh "
+                      "file reads them")
+        ending, write = ".vtu", grid.save
+    elif hasattr(path, "cell_sets"):
+        if path.point_sets:
+            _note("note: load: the point sets of a meshio.Mesh are left out; sets of cells are read, and "
+                  "lacuna.load of its file reads all")
+        grouped = _with_groups(path)
+        ending = ".vtu" if grouped is path else ".msh"
 
         def write(file):
-            path.write(file, file_format="gmsh22" if ending == ".msh" else None)
-    elif hasattr(path, "cast_to_unstructured_grid"):
-        ending, write = ".vtu", path.cast_to_unstructured_grid().save
+            grouped.write(file, file_format=None if grouped is path else "gmsh22")
     else:
         return call("module", "load", path, options)
     import tempfile
@@ -142,6 +150,42 @@ def loaded(path, options):
         file = os.path.join(folder, "mesh" + ending)
         write(file)
         return call("module", "load", file, options)
+
+
+def _with_groups(mesh):
+    """A meshio.Mesh for .msh of version 2.2, where a cell stands once for each group that it is in: those of
+    `cell_sets`, and of `cell_data["gmsh:physical"]` where no set has their name. The mesh itself if it has
+    neither."""
+    numpy = _module("numpy", "python3-numpy")
+    named = {(int(tag), int(dim)): name for name, (tag, dim) in mesh.field_data.items()}
+    sets = {name: blocks for name, blocks in mesh.cell_sets.items() if not name.startswith("gmsh:")}
+    physical = mesh.cell_data.get("gmsh:physical")
+    if not sets and physical is None:
+        return mesh
+    cells, groups, entities, tags = [], [], [], {}
+    for number, block in enumerate(mesh.cells):
+        entity = mesh.cell_data.get("gmsh:geometrical", [numpy.ones(len(each), int) for each in mesh.cells])[number]
+        members = {name: blocks[number] for name, blocks in sets.items()}
+        for tag in numpy.unique(physical[number]) if physical is not None else ():
+            members.setdefault(named.get((int(tag), block.dim), f"physical_{tag}"),
+                               numpy.flatnonzero(physical[number] == tag) if tag else None)
+        alone = numpy.ones(len(block), bool)
+        for name, chosen in members.items():
+            if chosen is not None and len(chosen):
+                tag = tags.setdefault((name, block.dim), len(tags) + 1)
+                cells.append((block.type, block.data[chosen]))
+                groups.append(numpy.full(len(chosen), tag))
+                entities.append(entity[chosen])
+                alone[chosen] = False
+        if alone.any():
+            cells.append((block.type, block.data[alone]))
+            groups.append(numpy.zeros(alone.sum(), int))
+            entities.append(entity[alone])
+    solid = {name for name, dim in tags if dim == 3}
+    names = {name if dim == 3 or name not in solid else name + ":faces": numpy.array([tag, dim])
+             for (name, dim), tag in tags.items()}  # meshio has one name for one dimension
+    return type(mesh)(mesh.points, cells, field_data=names,
+                      cell_data={"gmsh:physical": groups, "gmsh:geometrical": entities})
 
 
 def options_of(options, keywords, **given):
@@ -209,12 +253,14 @@ class AnyMesh(Shown):
     __slots__ = ()
 
     def _blocks(self):
-        """VTK's type, and the nodes of all cells from 0, of every kind of cell that occurs."""
+        """Of every kind of cell that occurs: its word, VTK's type, and the nodes of all cells from 0, as VTK
+        has them."""
         counts = {"hex": self.hexes, "wedge": self.wedges, "pyramid": self.pyramids, "tet": self.tets}
         for kind in counts:
             if counts[kind]:
                 cells = self._array("cells", kind)
-                yield _VTK_TYPES[kind, cells.shape[1]], cells - 1
+                yield kind, _VTK_TYPES[kind, cells.shape[1]], \
+                    (cells[:, _VTK_WEDGE] if kind == "wedge" else cells) - 1
 
     def _write_bare(self, path):
         """Nodes, cells and groups alone: an assembly's mesh has no option for quality."""
@@ -228,16 +274,34 @@ class AnyMesh(Shown):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "mesh.msh")
             self._write_bare(path)
-            return meshio.read(path)
+            made = meshio.read(path)
+            made.cell_sets.pop("gmsh:bounding_entities", None)  # which surfaces bound a volume: no set of cells
+            return made
 
     def to_pyvista(self):
-        """A pyvista.UnstructuredGrid of the nodes and cells; node 1 of Lacuna is point 0."""
+        """A pyvista.UnstructuredGrid of the nodes and cells, with `cell_data["scaled_jacobian"]`; node 1 of
+        Lacuna is point 0."""
         pyvista = _module("pyvista", "python3-pyvista")
         numpy = _module("numpy", "python3-numpy")
-        cells, types = [], []
-        for vtk_type, block in self._blocks():
+        cells, types, values = [], [], []
+        for kind, vtk_type, block in self._blocks():
             counts = numpy.full((len(block), 1), block.shape[1])
             cells.append(numpy.hstack([counts, block]).ravel())
             types.append(numpy.full(len(block), vtk_type, dtype=numpy.uint8))
-        return pyvista.UnstructuredGrid(numpy.concatenate(cells), numpy.concatenate(types),
+            values.append(self._array("field", "scaled_jacobian", kind))
+        grid = pyvista.UnstructuredGrid(numpy.concatenate(cells), numpy.concatenate(types),
                                         numpy.array(self._array("coordinates")))
+        grid.cell_data["scaled_jacobian"] = numpy.concatenate(values)
+        return grid
+
+    def to_dolfinx(self, comm=None):
+        """A DolfinxMesh: `mesh, cell_tags, facet_tags, physical_groups`, as dolfinx reads them of an .msh file.
+
+        comm: an MPI communicator; default MPI.COMM_WORLD. Each of its processes has to make the mesh and this
+            call; the cells are divided among them.
+
+        dolfinx has one kind of cell in a mesh: hexahedra of 8 or 27 nodes, or tetrahedra. Others are an error.
+        """
+        _module("dolfinx", "python3-dolfinx")
+        from . import _dolfinx
+        return _dolfinx.mesh_of(self, comm)

@@ -8,6 +8,7 @@ import unittest
 import unittest.mock
 
 import FreeCAD
+import ObjectsFem
 import Part
 from FreeCAD import Vector
 
@@ -152,17 +153,38 @@ class Test(unittest.TestCase):
         part = housing(self.document)
         self.document.UndoMode = 1
         self.document.openTransaction("fill")
-        void = self.filled(part, pocket_faces(part), Size=10, Layers=1, Solid=False)
+        void = self.filled(part, pocket_faces(part), Size=10, Layers=1)
         self.document.commitTransaction()
+        cells = void.FemMesh.HexaCount
         self.document.openTransaction("change")
         void.Layers = 2
         self.document.recompute()
         self.document.commitTransaction()
-        cells = void.FemMesh.HexaCount
+        report, solid = void.Report, filled_void.solid_of(void)
+        with unittest.mock.patch.object(job, "Job", side_effect=AssertionError("a job was started")):
+            for layers, step in (1, self.document.undo), (2, self.document.redo), (1, self.document.undo):
+                step()
+                self.assertEqual((void.Layers, void.FemMesh.HexaCount), (layers, layers * cells))
+                self.assertTrue(void.isValid())
+                self.assertAlmostEqual(solid.Shape.Volume, 30 * 20 * 15, 3)
+            self.document.redo()
+        self.assertEqual(void.Report, report)
+        self.document.openTransaction("deepen")
+        set_depth(self.document, 10)
+        self.document.commitTransaction()
+        self.assertAlmostEqual(void.Volume, 30 * 20 * 10, 3)
         self.document.undo()
-        self.assertEqual((void.Layers, void.FemMesh.HexaCount), (1, cells // 2))
-        self.document.redo()
-        self.assertEqual((void.Layers, void.FemMesh.HexaCount), (2, cells))
+        self.assertAlmostEqual(void.Volume, 30 * 20 * 15, 3)
+        self.assertEqual(len(void.Proxy._taken), 3)
+        void.Layers = 3
+        started = filled_void.start(void)
+        started.wait()
+        void.Proxy.deliver(started)
+        void.Layers = 4  # so that the job is of another void, and goes
+        with unittest.mock.patch.object(filled_void, "kTaken", 2):
+            self.document.recompute()
+        self.assertEqual((len(void.Proxy._taken), void.FemMesh.HexaCount), (2, 4 * cells))
+        self.assertFalse(os.path.exists(started.folder))
 
     def test_named_roles_and_a_bore(self):
         part = self.document.addObject("Part::Feature", "Plate")
@@ -200,6 +222,25 @@ class Test(unittest.TestCase):
         kinds = [line.split("TYPE=")[1].split(",")[0] for line in text.splitlines() if line.startswith("*Element")]
         self.assertEqual(sorted(kinds), ["C3D4", "C3D6", "C3D8"])
         self.assertIn("9, 9, 9, 9", text)
+
+        # As pyramids they are for other solvers: FreeCAD leaves them out of that input.
+        mesh.addGroupElements(mesh.addGroup("all", "Volume"), list(mesh.Volumes))
+        void = filled_void.make(housing(self.document))
+        result = {"hexes": 1, "wedges": 1, "pyramids": 1, "tets": 1, "volume": 2.0, "sealed_volume": 2.0, "class": "V",
+                  "min_scaled_jacobian": 0.1, "notes": [], "report": ["done"]}
+        for choice, counts in ("as bricks", (2, 0)), ("as pyramids", (1, 1)):
+            void.Pyramids = choice
+            filled_void.take(void, result, mesh, Part.Shape())
+            self.assertEqual((void.FemMesh.HexaCount, void.FemMesh.PyramidCount), counts)
+            self.assertEqual((void.FemMesh.PrismCount, void.FemMesh.TetraCount), (1, 1))
+            self.assertEqual(void.Cells, "1 hexahedra, 1 wedges, 1 pyramids, 1 tetrahedra")
+            self.assertEqual(groups(void.FemMesh, "Volume"), {"all": 4})
+            self.assertEqual(void.Report, ["done"])
+        with self.assertRaisesRegex(analysis.HasPyramids, "set its property Pyramids"):
+            analysis.make(void, ["source"], ["target"], 1.0, 2800.0, 0.38)
+        ObjectsFem.makeAnalysis(self.document, "Analysis").Group = [void]
+        filled_void.take(void, result, mesh, Part.Shape())
+        self.assertIn("leaves pyramids out", void.Report[0])
 
     def test_a_job_leaves_nothing_behind(self):
         part = housing(self.document)

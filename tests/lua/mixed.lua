@@ -233,8 +233,14 @@ do
   check.equal(mesh.pyramids, 16)
   check.equal(#{ mesh:pyramid(1) }, 5)
   for kind, cells in pairs { hex = 64, wedge = 0, pyramid = 16, tet = mesh.tets } do
-    local buffer = mesh:cells(kind)
+    local buffer, values, low = mesh:cells(kind), mesh:field(nil, kind), math.huge
     check.equal(buffer.rows, cells)
+    check.equal(values.rows, cells)
+    for _, value in values:each() do low = math.min(low, value) end
+    if cells > 0 then
+      local names = { hex = "hexes", pyramid = "pyramids", tet = "tets" }
+      check.near(low, mesh:quality().least[names[kind]], 1e-6)
+    end
     for i, first, second, third, fourth in buffer:each() do
       local own = { mesh[kind](mesh, i) }
       check.equal(buffer.columns, #own)

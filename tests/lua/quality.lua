@@ -37,6 +37,20 @@ for i, name in ipairs(names) do
   end
 end
 
+-- A buffer of a metric: a row for each of mesh:cells(kind).
+for _, name in ipairs(names) do
+  local values, low, sum = mesh:field(name), math.huge, 0
+  for _, value in values:each() do low, sum = math.min(low, value), sum + value end
+  local row = quality.metrics[name]
+  check.equal(values.rows, mesh.hexes)
+  check.near(low, row.min, 1e-6 * math.max(1, math.abs(row.min)))
+  check.near(sum / values.rows, row.mean, 1e-6 * math.max(1, math.abs(row.mean)))
+end
+check.equal(mesh:field("volume", "wedge").rows, 0)
+check.fails(function() mesh:field "skevv" end, "lua.bad_value", 'did you mean "skew"')
+check.fails(function() mesh:field("skew", "wedge") end, "lua.bad_value", "hexahedra alone", '"volume"')
+check.fails(function() mesh:field("skew", "prism") end, "lua.bad_value")
+
 -- The fields are the same measure as the row.
 check.equal(quality.metrics.scaled_jacobian.min, quality.min_scaled_jacobian)
 check.near(quality.metrics.scaled_jacobian.mean, quality.mean_scaled_jacobian, 1e-12)

@@ -14,7 +14,6 @@ import sys
 import tempfile
 import threading
 import time
-import types
 import unittest
 import unittest.mock
 import weakref
@@ -122,6 +121,30 @@ class Values(unittest.TestCase):
             mesh._write_bare(os.path.join(folder, "a.msh"))
             self.assertEqual(lacuna.check(os.path.join(folder, "a.msh")).hexes, mesh.hexes)
 
+    def test_fields_are_views_in_the_order_of_the_cells(self):
+        mesh = prism(sides=6, twist=40).sweep(layers=4, size=0.3)
+        values = mesh.field()
+        self.assertEqual((values.shape, values.dtype), ((mesh.hexes,), numpy.float64))
+        self.assertFalse(values.flags.writeable)
+        quality = mesh.quality()
+        self.assertAlmostEqual(values.min(), quality.min_scaled_jacobian, 6)  # of single precision
+        for name, summary in quality.metrics.items():
+            self.assertAlmostEqual(mesh.field(name).max() / summary.max, 1, 6, name)
+        pieces = lacuna.synthetic.prism(sides=4).open_volume(source=1, target=2, walls="auto").cut(
+            plane=[(0, 0, 1), (0.1, 0, 1)])
+        for each in mesh, lacuna.assembly(pieces).sweep(layers=2, size=0.5):
+            corners = each.coordinates()[each.cells() - 1]
+            axes = [corners[:, ahead].sum(axis=1) - corners[:, behind].sum(axis=1) for ahead, behind in (
+                ([1, 2, 5, 6], [0, 3, 4, 7]), ([2, 3, 6, 7], [0, 1, 4, 5]), ([4, 5, 6, 7], [0, 1, 2, 3]))]
+            at_centre = numpy.linalg.det(numpy.stack(axes, axis=1)) / 64
+            self.assertGreater(at_centre.max() / at_centre.min(), 1.1)
+            self.assertLess(abs(each.field("volume") / at_centre - 1).max(), 1e-9)
+        with self.assertRaisesRegex(lacuna.Error, 'did you mean "skew"'):
+            mesh.field("skevv")
+        with self.assertRaisesRegex(lacuna.Error, "defined for hexahedra alone"):
+            mesh.field("skew", "wedge")
+        self.assertEqual(mesh.field("volume", "tet").shape, (0,))
+
     def test_arrays_are_views_that_outlive_the_mesh(self):
         mesh = prism().sweep(layers=4, size=0.3)
         nodes, again, cells = mesh.coordinates(), mesh.coordinates(), mesh.cells("hex")
@@ -162,53 +185,12 @@ class Values(unittest.TestCase):
             mesh.write(str(path.with_suffix(".vtu")), with_=part)
             self.assertTrue(path.with_suffix(".vtu").exists())
 
-    def test_meshio(self):
-        try:
-            import meshio
-        except ImportError:
-            self.skipTest("meshio is not installed")
-        mesh = prism().sweep(layers=2, size=0.5)
-        out = mesh.to_meshio()
-        self.assertIsInstance(out, meshio.Mesh)
-        self.assertTrue((out.points == mesh.coordinates()).all())
-        self.assertTrue((out.cells_dict["hexahedron"] == mesh.cells() - 1).all())
-        self.assertLess({"source", "target", "void:1"}, set(out.cell_sets))
-        part = lacuna.load(out)
-        again = part.open_volume(source=dict(facing=(0, 0, -1)), target=dict(facing=(0, 0, 1)), walls="auto")
-        self.assertTrue(part.faces()[0].has_mesh)
-        self.assertEqual(again.sweep().hexes, mesh.hexes)
-        self.assertIn("target", part.face(facing=(0, 0, 1)).name)
-        bare = lacuna.load(meshio.Mesh(out.points, [("hexahedron", mesh.cells() - 1)]), keep_mesh=False)
-        self.assertEqual(len(bare.faces()), 6)
-
     def test_what_is_not_installed_says_what_to_install(self):
         mesh = prism().sweep(layers=1, size=1)
-        with unittest.mock.patch.dict(sys.modules, pyvista=None):
-            with self.assertRaisesRegex(ImportError, "pip install pyvista"):
-                mesh.to_pyvista()
-
-    def test_pyvista_gets_cells_as_vtk_has_them(self):
-        model = lacuna.model()
-        model.add_face([(0, 0, 0), (2, 0, 0), (4, 0, 0), (4, 2, 0), (2, 2, 0), (0, 2, 0)],
-                       [(1, 6, 5, 2), (2, 5, 3), (3, 5, 4)], keep_mesh=True)
-        model.add_face([(0, 0, 3), (4, 0, 3), (4, 2, 3), (0, 2, 3)], [(1, 2, 3, 4)])
-        mesh = model.open_volume(source=1, target=2).sweep(layers=3, wedges=True)
-        pyvista = types.SimpleNamespace(UnstructuredGrid=lambda *arrays: arrays)
-        with unittest.mock.patch.dict(sys.modules, pyvista=pyvista):
-            cells, kinds, points = mesh.to_pyvista()
-        self.assertEqual(list(kinds), [12] * 3 + [13] * 6)
-        self.assertEqual(len(cells), 3 * 9 + 6 * 7)
-        self.assertEqual(list(cells[:9]), [8, *(node - 1 for node in mesh.hex(1))])
-        self.assertEqual(list(cells[-7:]), [6, *(node - 1 for node in mesh.wedge(6))])
-        self.assertTrue((points == mesh.coordinates()).all())
-
-        def save(path):
-            self.assertTrue(path.endswith(".vtu"))
-            mesh.write(path)
-
-        grid = types.SimpleNamespace(save=save)
-        part = lacuna.load(types.SimpleNamespace(cast_to_unstructured_grid=lambda: grid))
-        self.assertEqual(len(part.faces()), 6)
+        for package, call in ("pyvista", mesh.to_pyvista), ("meshio", mesh.to_meshio), ("dolfinx", mesh.to_dolfinx):
+            with unittest.mock.patch.dict(sys.modules, {package: None}):
+                with self.assertRaisesRegex(ImportError, f"{package} is not installed: .*python3-{package}"):
+                    call()
 
     def test_notebooks_show_a_page_and_a_picture(self):
         void = prism()

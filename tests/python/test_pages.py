@@ -2,7 +2,8 @@
 """test_pages.py PROJECT FOLDER PROGRAM: every block marked `python` of the manual runs as it stands.
 
 A recipe of the cookbook writes the same files as that in Lua before it, byte for byte.
-The cells of the notebook run one after the other, and what ends a cell is shown as a page and a picture.
+The cells of the notebook run one after the other, and what ends a cell is shown as a page and a picture. With
+LACUNA_WHOLE_FAMILIES=1 Jupyter runs the notebook too, where it is installed.
 """
 import ast
 import contextlib
@@ -60,6 +61,8 @@ def main():
     assert beside >= 10
     if has("numpy"):
         assert run_notebook(project / "docs" / "first_void.ipynb") == 3
+        if os.environ.get("LACUNA_WHOLE_FAMILIES") and has("nbconvert") and has("ipykernel"):
+            run_in_jupyter(project / "docs" / "first_void.ipynb", folder / "run.ipynb")
     print(count, "blocks run,", beside, "of them as those in Lua do")
     return 0
 
@@ -79,6 +82,15 @@ def run_notebook(path):
             assert "<iframe" in shown._repr_html_() and shown._repr_png_().startswith(b"\x89PNG")
             pages += 1
     return pages
+
+
+def run_in_jupyter(path, made):
+    path = shutil.copy(path, made.parent)  # what it writes comes beside it
+    subprocess.run([sys.executable, "-m", "nbconvert", "--log-level", "WARN", "--to", "notebook", "--execute",
+                    "--output", made, path], check=True)
+    outputs = [output for cell in json.loads(made.read_text())["cells"] for output in cell.get("outputs", ())]
+    shown = [output for output in outputs if {"text/html", "image/png"} <= output.get("data", {}).keys()]
+    assert len(shown) == 3, outputs
 
 
 def has(module):

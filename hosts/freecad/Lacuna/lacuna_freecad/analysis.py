@@ -14,6 +14,10 @@ class NoFaces(Exception):
     """FreeCAD does not find the nodes of a group by faces of the sealed solid."""
 
 
+class HasPyramids(Exception):
+    """FreeCAD leaves pyramids out of CalculiX's input."""
+
+
 class InUse(Exception):
     """A mesh can be in one analysis only."""
 
@@ -40,6 +44,9 @@ def make(void, held, pressed, pressure, youngs_modulus, poissons_ratio):
         if user.isDerivedFrom("Fem::FemAnalysis"):
             raise InUse(f"{void.Label} is in {user.Label} already: change that one in the FEM workbench, or "
                         "delete it.")
+    if void.FemMesh.PyramidCount:
+        raise HasPyramids(f"{void.Label} has {void.FemMesh.PyramidCount} pyramids, which FreeCAD leaves out of "
+                          "CalculiX's input: set its property Pyramids to \"as bricks\".")
     if void.SealedShape.isNull():
         raise NoFaces(f"{void.Label} has no sealed solid, whose faces constraints refer to; its Report says why.")
     document = void.Document

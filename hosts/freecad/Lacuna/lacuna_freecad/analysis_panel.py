@@ -80,7 +80,7 @@ class AnalysisPanel:
         try:
             Gui.doCommand(f"made = analysis.make(void, {held!r}, {pressed!r}, {self.pressure.value()!r}, "
                           f"{self.youngs_modulus.value()!r}, {self.poissons_ratio.value()!r})")
-        except (analysis.NoFaces, analysis.InUse) as error:
+        except (analysis.NoFaces, analysis.HasPyramids, analysis.InUse) as error:
             document.abortTransaction()
             self.message.setText(str(error))
             return False

@@ -36,7 +36,7 @@ def fingerprint(shape, request):
 def read_mesh(path, names=None):
     """A FEM mesh of a UNV file; `names` are names of its groups and what they are to be called.
 
-    UNV has no pyramids: they are bricks whose upper nodes are one, which CalculiX solves, while FreeCAD leaves its own pyramids out of CalculiX's input.
+    UNV has no pyramids: they are bricks whose upper nodes are one, which CalculiX solves.
     """
     mesh = Fem.read(path)
     for group in mesh.Groups:
@@ -47,6 +47,23 @@ def read_mesh(path, names=None):
             mesh.removeGroup(group)
             mesh.addGroupElements(mesh.addGroup(new_name, kind), list(elements))
     return mesh
+
+
+def with_pyramids(mesh):
+    """A copy in which bricks whose upper nodes are one are pyramids. FreeCAD leaves these out of CalculiX's input."""
+    made = Fem.FemMesh()
+    for number, point in mesh.Nodes.items():
+        made.addNode(*point, number)
+    for number in mesh.Faces:
+        made.addFace(list(mesh.getElementNodes(number)), number)
+    for number in mesh.Volumes:
+        nodes = list(mesh.getElementNodes(number))
+        is_pyramid = len(nodes) == 8 and len(set(nodes[4:])) == 1
+        made.addVolume(nodes[:5] if is_pyramid else nodes, number)
+    for group in mesh.Groups:
+        made.addGroupElements(made.addGroup(mesh.getGroupName(group), mesh.getGroupElementType(group)),
+                              list(mesh.getGroupElements(group)))
+    return made
 
 
 def read_shape(path):

@@ -12,6 +12,8 @@ import Part
 
 from . import convert, job
 
+kTaken = 4  # results that a filled void keeps for undo and redo: a choice, as meshes are large
+
 # Name, type, group, value, meaning. The value is FreeCAD's word for "as Lacuna does by default".
 OPTIONS = [
     ("Part", "App::PropertyLink", "Void", None, "The part that bounds the void"),
@@ -34,12 +36,16 @@ OPTIONS = [
     ("Quads", "App::PropertyEnumeration", "Mesh", ["auto", "paved", "mapped"], "How the source is meshed"),
     ("Fallback", "App::PropertyEnumeration", "Mesh", ["none", "wedges", "leave_out", "mixed"],
      "What becomes of a void that hexahedra alone do not fill; mixed: tetrahedra and pyramids too"),
+    ("Pyramids", "App::PropertyEnumeration", "Mesh", ["as bricks", "as pyramids"],
+     "Bricks whose upper four nodes are one, which CalculiX solves; or pyramids, for other solvers: FreeCAD leaves "
+     "them out of CalculiX's input"),
     ("MinScaledJacobian", "App::PropertyFloat", "Mesh", 0.0, "A mesh with a worse cell is refused, 0 to 1"),
     ("Solid", "App::PropertyBool", "Mesh", True, "Make the sealed solid too"),
 ]
 RESULTS = [
     ("Class", "App::PropertyString", "The class of the void: which of its faces are missing"),
     ("Report", "App::PropertyStringList", "What was done, or why nothing was"),
+    ("Cells", "App::PropertyString", "How many of each kind"),
     ("Volume", "App::PropertyFloat", "Of the mesh"),
     ("SealedVolume", "App::PropertyFloat", "Of the void with its missing faces"),
     ("WorstCell", "App::PropertyFloat", "Least scaled Jacobian of the cells; 1 is a cube"),
@@ -99,7 +105,7 @@ def request_of(void):
 
 
 class FilledVoid:
-    _delivered = None  # a finished job; not saved
+    _delivered = None  # a finished job; not saved, as are the results that were taken last
 
     def __init__(self, obj):
         for name, kind, group, value, meaning in OPTIONS:
@@ -109,6 +115,7 @@ class FilledVoid:
         for name, kind, meaning in RESULTS:
             obj.addProperty(kind, name, "Result", meaning, 1 | 4)  # read only, and without effect on touched
         obj.Proxy = self
+        self._taken = {}
 
     def deliver(self, finished):
         """A job that was run for this object as it is now: the next recompute takes its result."""
@@ -118,11 +125,19 @@ class FilledVoid:
         finished, self._delivered = self._delivered, None
         if not obj.Part:
             raise ValueError("The filled void has no part: set its property Part.")
+        key = convert.fingerprint(obj.Part.Shape, request_of(obj))
         try:
-            if finished is None or finished.key != convert.fingerprint(obj.Part.Shape, request_of(obj)):
+            if finished is not None and finished.key != key:  # the void has changed meanwhile
+                finished.stop()
+                finished = None
+            if finished is None and key not in self._taken:
                 finished = run(obj)
-            result = finished.result()
-            take(obj, finished, result)
+            if finished is not None:
+                self._taken[key] = read(finished)
+            self._taken[key] = self._taken.pop(key)  # it is the last
+            while len(self._taken) > kTaken:
+                del self._taken[next(iter(self._taken))]
+            take(obj, *self._taken[key])
         except job.Failed as error:
             clear(obj, error)
             raise ValueError(str(error)) from None
@@ -134,7 +149,7 @@ class FilledVoid:
         return None
 
     def loads(self, _):
-        pass
+        self._taken = {}
 
     __getstate__, __setstate__ = dumps, loads
 
@@ -178,7 +193,8 @@ def run(void):
 
 
 def refresh(document):
-    """Fill voids anew that undo has changed: FreeCAD gives back their properties, but not their meshes."""
+    """Recompute voids that undo has changed: FreeCAD gives back their properties, but not their meshes. Those that
+    were taken last are there still."""
     if any(is_filled_void(obj) and "Touched" in obj.State for obj in document.Objects):
         document.recompute()
 
@@ -191,15 +207,29 @@ class RefreshAfterUndo:
         refresh(document)
 
 
-def take(void, finished, result):
-    void.FemMesh = convert.read_mesh(finished.path("mesh.unv"), result["groups"])
-    void.SealedShape = Part.Shape()
+def read(finished):
+    """The result of a finished job, its mesh and its solid, which may be none."""
+    result = finished.result()
+    mesh = convert.read_mesh(finished.path("mesh.unv"), result["groups"])
+    solid = Part.Shape()
     if os.path.exists(finished.path("sealed.brep")):
         solid = convert.read_shape(finished.path("sealed.brep"))
-        convert.widen_fitted_faces(solid, void.FemMesh)
-        void.SealedShape = solid
+        convert.widen_fitted_faces(solid, mesh)
+    return result, mesh, solid
+
+
+def take(void, result, mesh, solid):
+    notes = list(result["notes"])
+    if result["pyramids"] and void.Pyramids == "as pyramids":
+        mesh = convert.with_pyramids(mesh)
+        notes += [f"note: FreeCAD leaves pyramids out of CalculiX's input, and {user.Label} has this mesh"
+                  for user in void.InList if user.isDerivedFrom("Fem::FemAnalysis")]
+    void.FemMesh = mesh
+    void.SealedShape = solid
+    kinds = ("hexes", "hexahedra"), ("wedges", "wedges"), ("pyramids", "pyramids"), ("tets", "tetrahedra")
+    void.Cells = ", ".join(f"{result[kind]} {words}" for kind, words in kinds if result[kind])
     void.Class = result["class"]
-    void.Report = result["notes"] + result["report"]
+    void.Report = notes + result["report"]
     void.Volume, void.SealedVolume = result["volume"], result["sealed_volume"]
     void.WorstCell = result["min_scaled_jacobian"]
 
@@ -208,7 +238,7 @@ def clear(void, error):
     """A mesh of another part or other options would be taken for that of this one."""
     void.FemMesh = Fem.FemMesh()
     void.SealedShape = Part.Shape()
-    void.Class = ""
+    void.Class = void.Cells = ""
     void.Report = [f"error: {error} [{error.code}]"] + error.attempts
     void.Volume = void.SealedVolume = void.WorstCell = 0.0
 
