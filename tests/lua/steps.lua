@@ -84,7 +84,8 @@ holds("a drum floats in a can", with(top, skin, bottom),
 local standing = { "skin", { 1, 0 }, { 1, 3 } }
 holds("a drum stands in a can without floor", { can[2], can[3], top, standing },
   { source = "top", target = "lid", walls = { "side", "skin" } }, 2, circle(2) * 5 - circle(1) * 3)
-holds("a drum with a chamfered base stands in a can", { { "floor", { 0.7, 0 }, { 2, 0 } }, can[2], can[3], top,
+holds("a drum with a chamfered base stands in a can",
+  { { "floor", { 0.7, 0 }, { 2, 0 } }, can[2], can[3], top,
     { "chamfer", { 0.7, 0 }, { 1, 0.3 } }, { "skin", { 1, 0.3 }, { 1, 3 } } },
   { source = { "floor", "top" }, target = "lid", walls = { "side", "chamfer", "skin" } }, 2,
   circle(2) * 5 - circle(1) * 2.7 - (circle(0.7) + circle(1) + circle(0.7 ^ 0.5)) * 0.1)
@@ -359,8 +360,8 @@ for _, taken in ipairs { { ["121"] = true }, { ["111"] = true }, { ["111"] = tru
   end
 end
 
--- A boss in a pocket of a solid, with a bore through both: the boss's top is a part of the floor, with the bore
--- covered, and the pocket's lid is flat.
+-- A boss in a pocket of a solid, with a bore through both: the boss's top is a part of the floor, with the
+-- bore covered, and the pocket's lid is flat.
 do
   local model = lacuna.model()
   local function corners(x, y, X, Y, z) return { { x, y, z }, { X, y, z }, { X, Y, z }, { x, Y, z } } end

@@ -119,7 +119,7 @@ LoadFile::Format format_of(const std::string& path, const std::string& head)
     const auto checked = [&](bool valid, const char* kind, LoadFile::Format format) {
         if (valid) return format;
         throw InvalidInput(Message("cad.unreadable", "{} is not a valid {} file", path, kind)
-                               .remedy("check the file, or use the ending of its format"));
+                               .remedy("check the file, or give it the file extension of its format"));
     };
     if (ending == ".step" || ending == ".stp") return checked(is_step(head), "STEP", LoadFile::step);
     if (ending == ".iges" || ending == ".igs") return checked(is_iges(head), "IGES", LoadFile::iges);
@@ -172,7 +172,10 @@ void add_merged(CadFiles& files, std::size_t first, const std::string& folder, c
         skip_commands(files, files.descriptors[first + i], own, std::move(text), found.skipped);
         for (const ScriptFile& wanted : found.files) {
             if (std::ranges::find(contents, wanted.name, &SentFile::name) != contents.end()) continue;
-            if (::access((folder + wanted.name).c_str(), F_OK) != 0 || contents.size() == kMostContents) {
+            if (contents.size() == kMostContents)
+                throw InvalidInput("cad.script", "{}, line {}: the script includes more than {} files", own,
+                                   wanted.line, needed(kMostContents - 1));
+            if (::access((folder + wanted.name).c_str(), F_OK) != 0) {
                 throw InvalidInput(Message("cad.script",
                                            "{}, line {}: the script includes {}, which is not in its folder",
                                            own, wanted.line, wanted.name)

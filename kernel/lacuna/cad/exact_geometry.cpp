@@ -38,7 +38,7 @@ void ask_points(const CadEntity& entity, const char* kind, const char* doing, Op
         const Reply reply = entity.source->ask<Reply>(opcode, request, task);
         if (reply.points.size() != count)
             throw BackendError(Message("cad.protocol",
-                                       "{}: the CAD process returned another number of points than requested",
+                                       "{}: the CAD process did not return as many points as requested",
                                        entity.source->path())
                                    .remedy("load the file again"));
         std::ranges::copy(reply.points, points.subspan(from).begin());
@@ -67,10 +67,9 @@ std::uint64_t CadSource::handle_in(const std::shared_ptr<Worker>& worker, const 
     const std::lock_guard lock(mutex_);
     if (held_.worker == worker) return held_.handle;
     const Held before = held_;
-    held_ = load_again(
-        worker,
-        Message("cad.file_changed", "the exact geometry of {} is needed in another CAD process", path_),
-        context);
+    held_ = load_again(worker,
+                       Message("cad.file_changed", "{} had to be loaded again for its exact geometry", path_),
+                       context);
     before.worker->release(before.handle);
     return held_.handle;
 }
@@ -87,7 +86,7 @@ CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Mess
 {
     RunContext quiet = context; // the progress shown is that of the current stage, not of reloading
     quiet.progress = {};
-    Message trouble("cad.file_changed", "{} has changed", path_);
+    Message trouble("cad.file_changed", "{} has changed since it was loaded", path_);
     try {
         const CadFiles files = open_cad_files(order_, quiet);
         if (files.digest == digest_) {
@@ -103,7 +102,7 @@ CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Mess
     }
     throw BackendError(Message("cad.file_changed", "{}, and the file could not be read again: {}",
                                why.parts(), trouble.parts())
-                           .remedy("load the file again for its exact geometry"));
+                           .remedy("restore the file, or load the model from it again"));
 }
 
 // --- points ---------------------------------------------------------------------------------------------

@@ -65,7 +65,8 @@ void check_numbers(const ClosedSkin& skin)
     const auto all = [&](const auto& face) { return std::ranges::all_of(face, in_range); };
     if (!std::ranges::all_of(skin.triangles, all) || !std::ranges::all_of(skin.quads, all) ||
         !std::ranges::all_of(skin.points, [](const Vec3& p) { return p.allFinite(); }))
-        throw InvalidInput("cad.skin_open", "{} has faces without points or points that are not finite",
+        throw InvalidInput("cad.skin_open",
+                           "{} has faces with invalid point numbers, or points that are not finite",
                            words_for(skin));
 }
 
@@ -103,9 +104,10 @@ std::vector<std::vector<Triangle>> split_into_shells(const ClosedSkin& skin, con
     }
     if (outer != 1)
         throw InvalidInput(Message("cad.skin_open",
-                                   "{} has {} outer parts, but {} is needed, oriented outward",
+                                   "{} has {} outer parts (shells oriented outward), but {} is needed",
                                    words_for(skin), found(outer), needed(1))
-                               .remedy("open each part by itself, with open_volume{{ faces = … }}"));
+                               .remedy("orient the skin outward, and open separate parts one by one, with "
+                                       "open_volume{{ faces = … }}"));
     return shells;
 }
 
@@ -136,7 +138,7 @@ double expected_tets(const std::vector<Vec3>& points, const std::vector<std::vec
 
 [[noreturn]] void refuse_mesh(const char* why)
 {
-    throw NotSweepable(Message("cad.fill_skin", "Gmsh did not fill the volume with tetrahedra: {}", why)
+    throw NotSweepable(Message("cad.fill_skin", "Gmsh's tetrahedra do not fill the volume: {}", why)
                            .remedy("use another 'size'"));
 }
 
@@ -169,9 +171,9 @@ void check_filled(const std::vector<std::vector<Triangle>>& shells, const FillSk
         }
     }
     for (const auto& [face, count] : uses)
-        if (count != 1) refuse_mesh("a face of the skin is not on exactly one cell");
+        if (count != 1) refuse_mesh("a face of the skin belongs to no tetrahedron, or to several");
     if (!(std::abs(volume - wanted) <= kSamePlace * wanted))
-        refuse_mesh("the volume is not that of the skin");
+        refuse_mesh("their volume differs from that of the skin");
 }
 
 FillSkinReply ask_worker(const FillSkinRequest& request, double tets, const std::string& subject,

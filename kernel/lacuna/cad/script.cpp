@@ -58,7 +58,7 @@ private:
     {
         throw InvalidInput(
             Message("cad.script", "{}, line {}: {}", path_, line_, what)
-                .remedy("a script may make geometry, and include or merge files of its own folder"));
+                .remedy("a script may only make geometry, and include or merge files from its own folder"));
     }
     void step()
     {

@@ -65,7 +65,8 @@ std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::sp
     return kMostSides;
 }
 
-/// An axis whose first and last poles are the ends.
+/// A clamped axis: its end knots have multiplicity degree + 1, so that the spline starts at its first pole
+/// and ends at its last.
 SplineAxisData clamped_axis(int degree, std::vector<double> knots)
 {
     std::vector<int> multiplicities(knots.size(), 1);

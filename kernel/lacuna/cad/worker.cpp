@@ -282,7 +282,7 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
                 .remedy("check the installation of lacuna-cad"));
     } catch (const ChannelClosed&) {
         end();
-        throw BackendError("cad.no_worker", "{} ended while it was started ({}{})", program, how_it_ended(),
+        throw BackendError("cad.no_worker", "{} ended during start-up ({}{})", program, how_it_ended(),
                            last_words());
     } catch (const ProtocolError& error) {
         end();

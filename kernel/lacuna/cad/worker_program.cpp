@@ -54,10 +54,10 @@ std::string find_worker_program()
     for (const fs::path& place : places)
         if (::access(place.c_str(), X_OK) == 0) return place.string();
     throw BackendError(Message("cad.no_worker",
-                               "CAD files are read by the program lacuna-cad, which is not next to this "
-                               "program ({}) nor in its libexec/lacuna",
+                               "the program lacuna-cad, which reads CAD files, was found neither next to "
+                               "this program ({}) nor in its libexec/lacuna",
                                places.front().string())
-                           .remedy("install it, or name it in LACUNA_CAD"));
+                           .remedy("install it, or set the environment variable LACUNA_CAD to its path"));
 }
 
 } // namespace lacuna::cad

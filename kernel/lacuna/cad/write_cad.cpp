@@ -68,10 +68,11 @@ std::string bytes_of(const Descriptor& file, bool step)
 void check_options(const WriteCadOptions& options)
 {
     if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
-        throw InvalidInput("cad.tolerance", "the tolerance must be a length of 0 or more, not {}",
+        throw InvalidInput("cad.tolerance",
+                           "write_cad: option 'tolerance' must be a length of 0 or more, not {}",
                            found(options.tolerance));
     if (!(options.deviation > 0))
-        throw InvalidInput("cad.deviation", "the deviation must be a number above 0, not {}",
+        throw InvalidInput("cad.deviation", "write_cad: option 'deviation' must be a number above 0, not {}",
                            found(options.deviation));
 }
 
@@ -92,7 +93,7 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     const std::string ending = io::ending_of(path.text());
     if (ending != ".step" && ending != ".stp" && ending != ".brep") {
         throw InvalidInput(Message("cad.unknown_ending",
-                                   "cannot write a solid to '{}': the ending \"{}\" is not a CAD format",
+                                   "cannot write a solid to '{}': the file extension \"{}\" is not supported",
                                    path.text(), ending)
                                .remedy("use .step, .stp or .brep"));
     }
@@ -118,7 +119,7 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
         {source.get(), all.get(), result.get()});
     const BegunSolid begun{*worker, found.solid};
     if (found.sources.size() != sources.order.size())
-        throw BackendError("cad.protocol", "{}: the CAD process returned other files than requested",
+        throw BackendError("cad.protocol", "{}: the CAD process did not return the files that were requested",
                            path.text());
     SolidPlan plan = plan_solid(volume, sources, found, context);
 

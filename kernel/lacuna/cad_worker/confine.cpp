@@ -292,7 +292,8 @@ std::string confine()
     const bool landlock = restrict_files();
     if (!make_filter().install())
         throw BackendError("cad.no_wall",
-                           "the CAD process cannot be confined: the kernel has no seccomp filters");
+                           "the CAD process cannot be confined: the Linux kernel of this system has no "
+                           "seccomp filters");
     return landlock ? "" : "Landlock, which keeps the CAD process from reading other files";
 }
 

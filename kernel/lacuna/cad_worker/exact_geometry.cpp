@@ -16,8 +16,9 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Steps with first derivatives before second derivatives are used too. Near the surface, each such step
-/// gains a digit or more; points as far away as the radius of curvature need second derivatives.
+/// Number of steps with first derivatives only; later steps use second derivatives too. Near the surface, a
+/// step with first derivatives gains a digit or more; points as far away as the radius of curvature need
+/// second derivatives.
 constexpr int kCheapSteps = 8;
 constexpr int kMaxSteps = 60;
 /// Convergence tolerance, relative to the diagonal of the model.

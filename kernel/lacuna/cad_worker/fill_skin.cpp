@@ -75,7 +75,8 @@ FillSkinReply read_tets(const FillSkinRequest& skin, const UnitFrame& frame, int
         const Vec3 p = frame.inside(skin.points[i]);
         if (given.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(i)).second) continue;
         throw NotSweepable(Message("cad.skin_crosses",
-                                   "two nodes of the skin are at {}, so it cannot be filled with tetrahedra",
+                                   "two nodes of the skin coincide at {}, so it cannot be filled with "
+                                   "tetrahedra",
                                    place_with_digits(skin.points[i], 6))
                                .remedy("use a smaller 'size'"));
     }

@@ -283,7 +283,7 @@ private:
 
     // --- faces ---------------------------------------------------------------------------------------------
 
-    /// Add the walls of an edge of the rim, from level to level.
+    /// Add the walls that an edge of the rim sweeps: one between each level and the next.
     void add_walls(EdgeId edge)
     {
         const FaceUse use = given_.uses_of_edge(edge).front();

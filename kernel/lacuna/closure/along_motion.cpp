@@ -397,7 +397,7 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
     return motion;
 }
 
-/// Makes the motion of one kind of path.
+/// Visitor of `Along::course`: makes the motion for each of its alternatives.
 struct MotionMaker {
     const Model& model; ///< of the edges of a path
     SweptSource& swept;

@@ -86,7 +86,8 @@ struct Along {
         const topology::Model* model = nullptr; ///< that the face belongs to
         FaceId face;
     };
-    /// A value over the height in [0, 1]: linear to a last value, or a function.
+    /// A value that changes along the sweep: linear from its value at the source to `last` at the other end,
+    /// or a function of the relative height in [0, 1].
     struct Profile {
         double last = 0;
         std::function<double(double height)> at{}; ///< null: linear

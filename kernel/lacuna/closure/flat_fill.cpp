@@ -128,7 +128,8 @@ void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunCo
     }
 }
 
-/// Fill the free loops of some faces, without the final check.
+/// Fill the free loops of some faces. The result may be open or cross itself; the caller checks it by
+/// `prove()`.
 std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<FaceId>& faces, Missing missing,
                                       const RunContext& context)
 {
@@ -184,7 +185,8 @@ void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source
         if (facing(face) >= enough) filling.volume.role[face.index()] = Role::target;
 }
 
-/// Whether the target suits the source: it has as many loops, or is at several heights.
+/// Whether the source can be swept to the target: the target has as many loops as the source, or consists of
+/// several connected parts, as a stepped end does.
 bool can_be_swept_to(const OpenVolume& volume, const std::vector<FaceId>& source)
 {
     const std::vector<FaceId> target = volume.faces(Role::target);

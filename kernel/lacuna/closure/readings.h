@@ -66,8 +66,8 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// floor and the bore's mouth as source.
 ///
 /// If flat faces close the free loops, but not with one face for each loop (a face has a hole, or a loop lies
-/// in two planes), that closing is a further void. A channel that lacks its ends and one wall is a void only
-/// if there is no other: the planar parts of its free loop are the ends if they are congruent.
+/// in two planes), that closing is a further void. A channel that lacks its ends and one wall is closed only
+/// if no unambiguous void was found: its ends are the planar parts of its free loop, which must be congruent.
 ///
 /// A void with an ambiguous bent face is dropped if there is one with flat faces; if it is the only void, it
 /// is kept, and `Reading::guess` describes the ambiguity.

@@ -36,9 +36,10 @@ constexpr Eigen::Index kSpare = 4;
 /// ball, a round cone, a cylinder or a pair of planes. It may be large, because the quadric passes through
 /// the rim anyway.
 constexpr double kSpecial = 0.01;
-/// A quadric is steep where the cosine between its gradient and the plane's normal is below the first value,
-/// as on the walls that end at the rim. It may be steep along the second share of the rim, because a shaft as
-/// wide as the tube that ends on it is steep at two places; a higher share accepts sheets along the walls.
+/// A quadric is steep at a point of the rim if the cosine between its gradient and the normal of the rim's
+/// plane is below `kStandsUp`, as on the walls that end at the rim. It may be steep along a share `kStanding`
+/// of the rim: where a tube ends on a shaft of the same diameter, the shaft is steep at two points of the
+/// rim. A higher share would accept quadrics that continue the walls.
 constexpr double kStandsUp = 0.05, kStanding = 0.1;
 
 Powers powers_at(const Vec3& p)

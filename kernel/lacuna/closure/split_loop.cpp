@@ -22,8 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// Ends are congruent if one, moved onto the other, misses it by less than this share of its length: more
-/// than the sag of round sides, less than the taper of a channel.
+/// Two ends are congruent if, after a rigid fit, they are less than this share of their length apart. The
+/// value is above the sag of round sides and below the taper of a channel.
 constexpr double kAlike = 0.005;
 
 /// The number of consecutive uses of a loop from `start` that lie in one plane.
@@ -155,8 +155,8 @@ bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
     return false;
 }
 
-/// The ends of a groove: runs of a loop in planes without a given face. Excluded are mere corners, which are
-/// two straight edges, and sides of a ring.
+/// The ends of a groove: planar runs of a loop with no given face in their plane. Two straight edges are not
+/// an end, as they are always coplanar, and neither is the side of a ring sector (see `is_of_ring()`).
 std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vector<std::size_t>& run)
 {
     const std::size_t uses = rim.uses.size();
@@ -193,8 +193,8 @@ std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector
     return way;
 }
 
-/// Whether all non-flat faces run along `way`. Those of a bent groove do not: the rim's long sides are then
-/// planar, and the straight edges are at the ends.
+/// Whether all curved faces are parallel to `way`. In a bent groove they are not: its long edges are planar
+/// and were taken for ends, and the straight edges that gave `way` lie at its true ends.
 bool all_go_along(const Model& model, const Vec3& way)
 {
     return std::ranges::all_of(all_faces(model), [&](FaceId face) {
@@ -210,7 +210,7 @@ bool all_go_along(const Model& model, const Vec3& way)
     });
 }
 
-/// Whether one run of a loop, reversed, is another one rotated and shifted.
+/// Whether two runs of a loop, one of them traversed backwards, are congruent within `kAlike`.
 bool are_alike(const Model& model, const Rim& rim, const Run& a, const Run& b)
 {
     constexpr std::size_t kPieces = 32;

@@ -219,7 +219,7 @@ std::optional<Reading> read(const Model& model, const std::vector<Void>& likelie
     if (!reading.guess) note_hole(model, found.through, names, found.sealed, reading);
     reading.ways = std::max<std::size_t>(1, found.ways.size());
     std::vector<RoleCandidate> sweeps;
-    // If only two ends are given, they are the ends.
+    // Class I: both ends and no walls are given, so no other sweep direction is tried.
     if (first.value != VolumeClass::I) sweeps = best_sweeps(found.sealed.volume.model, context);
     if (sweeps.empty() && !found.filled.empty()) sweeps.push_back(way_of(found.sealed.volume));
     if (sweeps.empty()) {

@@ -218,9 +218,9 @@ void align(Positions& positions, const Positions& model)
     for (Vec2& p : positions) p = model_mean + turn * (p - mean);
 }
 
-/// Whether facets form a tube, closed between two loops: the turning of the outer loop, measured within the
-/// facets, is less than half of that of a flat ring. It is zero for a cylinder, and half for a cone with a
-/// slope of 60°. A rolled-up sheet with a hole is not a tube.
+/// Whether facets form a tube between two loops: the total geodesic curvature of the outer loop is less than
+/// half of that of a flat ring. It is zero for a cylinder, and half for a cone whose wall is inclined by 60°
+/// to its base. A rolled-up sheet with a hole is not a tube.
 bool is_tube(const Facets& facets)
 {
     if (facets.loops.size() != 2) return false;
@@ -289,7 +289,7 @@ Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triang
     return flat;
 }
 
-// --- back again -----------------------------------------------------------------------------------
+// --- from the plane back to the surface -----------------------------------------------------------
 
 PlanarLocator::PlanarLocator(std::span<const Vec2> points, std::span<const Triangle> triangles)
 {

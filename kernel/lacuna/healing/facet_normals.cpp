@@ -14,8 +14,8 @@ namespace lacuna::healing {
 namespace {
 
 /// A point is rough if sides below the feature angle turn both ways there by more than this share of it. On
-/// tessellated CAD no point on a crease is rough, but up to 13 % where branches of coarse facets meet at about
-/// the feature angle; with noise of 5 to 40 % of the facets' sides 41 to 85 % are.
+/// tessellated CAD no point on a crease is rough, but up to 13 % where branches of coarse facets meet at
+/// about the feature angle; with noise of 5 to 40 % of the facets' sides 41 to 85 % are.
 constexpr double kRough = 0.125, kNoisy = 0.25;
 
 /// Do two facets, or the quads they belong to, have the same corners?

@@ -201,9 +201,10 @@ private:
         if (patch.face == 0) return nullptr;
         const auto found = std::ranges::find(model_.faces, patch.face, &topology::Face::tag);
         if (found == model_.faces.end())
-            throw InvalidInput(Message("io.other_model", "with: the mesh has {}, but the model does not",
+            throw InvalidInput(Message("io.other_model",
+                                       "option 'with': the mesh has {}, but the first model does not",
                                        numbered("face", patch.face))
-                                   .remedy("give the model from which the volume was made"));
+                                   .remedy("put the model from which the volume was made first"));
         return &*found;
     }
 

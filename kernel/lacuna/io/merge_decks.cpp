@@ -83,8 +83,9 @@ private:
 
     [[noreturn]] void refuse(const Argument& first, std::size_t count) const
     {
-        throw InvalidInput(Message("io.numbers_clash", "with: {} is in {} and in {}{}", first, all_.path,
-                                   more_.path, count > 1 ? formatted(", and so are {} more", count - 1) : "")
+        throw InvalidInput(Message("io.numbers_clash", "option 'with': {} is in {} and in {}{}", first,
+                                   all_.path, more_.path,
+                                   count > 1 ? formatted(", and so are {} more", count - 1) : "")
                                .remedy("renumber = true gives the entities of the later deck new numbers and "
                                        "names, and omits its cards, which use the old ones"));
     }
@@ -125,8 +126,8 @@ private:
         if (in_both(taken, own).empty()) return 0;
         const DeckTag highest = *std::ranges::max_element(taken), last = *std::ranges::max_element(own);
         if (highest + last > std::numeric_limits<Index>::max())
-            throw InvalidInput("io.number_taken", "with: the highest {} would get the number {}", what,
-                               highest + last);
+            throw InvalidInput("io.number_taken", "option 'with': the highest {} would get the number {}",
+                               what, highest + last);
         return highest;
     }
 

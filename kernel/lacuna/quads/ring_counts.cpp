@@ -106,7 +106,7 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
     return best;
 }
 
-/// The loops of a region with headings around a hole.
+/// The loops of a region whose headings are measured around one of its holes (`LoopFrame::polar`).
 struct RingLoops {
     std::array<CountedLoop, 2> ends; ///< the outer loop and the hole
     std::array<int, 2> along{};      ///< their numbers of sides along the ring, rounded

@@ -34,10 +34,10 @@ double wedge_scaled_jacobian(std::span<const Vec3, 6> corners);
 /// height, with nine Bernstein coefficients.
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 6);
 
-/// The scaled Jacobian of a pyramid with the base 0-1-2-3 and the apex 4: the smallest at the corners of the
-/// base of the determinant of the three edges, divided by their lengths, times √2; at most 1. It is 1 for a
-/// pyramid of equal sides. Verdict takes the tetrahedra at these corners instead, with all their edges, and 0
-/// for a folded one.
+/// The scaled Jacobian of a pyramid with the base 0-1-2-3 and the apex 4. At each corner of the base, the
+/// determinant of the three edges is divided by the product of their lengths and multiplied by √2; the result
+/// is the smallest of the four values, at most 1. It is 1 for a pyramid whose edges are equally long. Verdict
+/// instead takes the scaled Jacobian of the tetrahedra at these corners, and 0 for a folded pyramid.
 double pyramid_scaled_jacobian(std::span<const Vec3, 5> corners);
 
 /// The scaled Jacobian of a tetrahedron, Verdict's: √2 times the determinant of three edges at a corner,
@@ -78,8 +78,9 @@ enum class Keep {
     of_cells ///< also the scaled Jacobian of each cell of a mesh of order 1, for writing: 4 bytes a cell
 };
 
-/// Measure every cell; curved cells of order 2 with `judge()` (`quality/second_order.h`). Parallel;
-/// independent of the number of threads. O(cells).
+/// Measure every cell of a mesh. Curved cells of order 2 are measured by `judge()`
+/// (`quality/second_order.h`), all others by their corners. Parallel; independent of the number of threads.
+/// O(cells).
 /// @pre  every corner is a valid node number (`prove()` checks it).
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {}, Keep keep = Keep::sums);
 
@@ -123,7 +124,7 @@ struct Finding {
     Fault fault;
     Message message; ///< its nodes or cells, with layer and position; of the fault's code
 
-    /// @param text  as of `Message`
+    /// @param text  format string, as for `Message`
     template <class... Arguments>
     Finding(Fault of, Format<sizeof...(Arguments)> text, const Arguments&... arguments)
         : fault(of), message(fault_code(of), text, arguments...)

@@ -30,8 +30,8 @@ namespace {
 
 /// Maximum sag of a side over the local width of the face: two opposite sides then leave half the width [-].
 constexpr double kSagOfWidth = 0.25;
-/// Rim points per side of the requested size. More points find changes of the size that are shorter than a
-/// side, at a cost in time. Not measured.
+/// Rim points per mesh side of the requested size. More points would resolve changes of the size within a
+/// side, but take more time. Heuristic.
 constexpr double kPointsPerSide = 4;
 /// Maximum distance of neighbouring rim points [multiples of the size there]. Halfway between two points the
 /// size is then at most a third too large. Heuristic.

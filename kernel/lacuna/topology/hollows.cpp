@@ -79,8 +79,8 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
 }
 
 /// Faces that stand in a cavity: parts of the skin bounded by the cavity's rims, without the largest part,
-/// which is the outside, and without parts that reach a mouth, a rim of the outside. A bore joins no parts: it
-/// stands in the cavity if none of its rims is on the outside.
+/// which is the outside, and without parts that reach a mouth, a rim of the outside. A bore joins no parts:
+/// it stands in the cavity if none of its rims is on the outside.
 /// @pre oriented
 std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity,
                                 const std::vector<Hollow>& hollows)

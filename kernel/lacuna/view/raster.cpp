@@ -270,11 +270,11 @@ void check(const PictureOptions& options)
                                "picture: option '{}' must be 16 to 16384 pixels, found {}", name,
                                found(length));
     if (!(options.direction.norm() > 0) || !options.direction.allFinite())
-        throw InvalidInput(Message("view.direction", "picture: option 'direction' has zero length")
-                               .remedy("give a vector that is not zero"));
+        throw InvalidInput("view.direction",
+                           "picture: option 'direction' must be a finite vector other than zero");
     if (options.cut && (!(options.cut->normal.norm() > 0) || !options.cut->normal.allFinite()))
-        throw InvalidInput(Message("view.direction", "picture: the normal of option 'cut' has zero length")
-                               .remedy("give a vector that is not zero"));
+        throw InvalidInput("view.direction",
+                           "picture: the normal of option 'cut' must be a finite vector other than zero");
 }
 
 } // namespace

@@ -42,7 +42,8 @@ std::string text_of(const cad_protocol::Descriptor& file, std::size_t most);
 /// the copy; any other command outside Gmsh's geometry is an error.
 /// @throw InvalidInput  not a regular file, not of the format, or a script with a forbidden command; names
 ///                      file and line.
-/// @throw BackendError  it cannot be read. Cancelled.
+/// @throw BackendError  a file cannot be read.
+/// @throw Cancelled
 CadFiles open_cad_files(const CadOrder& order, const RunContext& context);
 
 /// Let a CAD process read the files.

@@ -16,8 +16,8 @@ namespace lacuna::cad {
 
 /// A model held by the CAD process, for the lifetime of this object; shared by its exact curves and surfaces.
 ///
-/// If the process has ended, the next request lets the current process read the files again. Their contents
-/// must not have changed; the facets of the model stay as they are. Thread-safe.
+/// If that process has ended, the next request loads the files again, into the process that replaced it. The
+/// files must not have changed; the facets of the model stay as they are. Thread-safe.
 class CadSource {
 public:
     CadSource(std::shared_ptr<Worker> worker, std::uint64_t handle, CadOrder order, std::uint64_t digest)
@@ -33,8 +33,9 @@ public:
 
     /// Send a request to the process that holds the model.
     /// @param make  makes the request from the handle of the model.
-    /// @throw BackendError  the process ended during this request; "cad.file_changed": it had ended earlier,
-    ///     and the files have changed since. Cancelled.
+    /// @throw BackendError  the process ended during this request. "cad.file_changed": it had ended before,
+    ///     and the files have changed since.
+    /// @throw Cancelled
     template <class Reply, class Make>
     Reply ask(cad_protocol::Opcode opcode, const Make& make, const Task& task) const
     {

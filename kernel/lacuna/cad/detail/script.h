@@ -20,7 +20,7 @@ struct SkippedCommand {
     std::size_t begin = 0, end = 0;
 };
 
-/// The commands of a Gmsh script that do more than make geometry.
+/// Result of `look_through_script()`: the files that a script reads, and the commands to remove from it.
 struct ScriptContent {
     std::vector<ScriptFile> files;
     /// Commands that write files, run plugins or mesh, and all from `Exit` on; in order.

@@ -15,8 +15,8 @@ using cad_protocol::SplineAxisData;
 using cad_protocol::SplineCurveData;
 using cad_protocol::SplineSurfaceData;
 
-/// Axis for `count` values at equidistant parameters in [0, 1]: cubic, with not-a-knot ends; of lower degree
-/// if there are fewer than four values.
+/// Degree and knots of a spline in one direction that interpolates `count` values at equidistant parameters
+/// in [0, 1]: cubic with not-a-knot ends, or of lower degree if there are fewer than four values.
 SplineAxisData even_axis(std::size_t count);
 /// Axis with `spans` knot spans of equal length in [0, 1]; it has spans + degree poles.
 SplineAxisData axis_of_spans(std::size_t spans, int degree);

@@ -30,7 +30,8 @@ struct FacetOptions {
 /// of the boundary points and of inner grid points, whose spacing follows the turn of the normal.
 ///
 /// @param first_added  number of the first point that is added.
-/// @return nothing if the boundary, as finely as it is divided, intersects itself: divide it more finely.
+/// @return empty if the polygon of the boundary points intersects itself; the caller then divides the
+///         boundary more finely and tries again.
 /// @throw  BackendError  the face has no boundary.
 std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo& face,
                                          const FacetOptions& options, Index first_added);

@@ -25,10 +25,11 @@ struct StepPiece {
 /// Where the walls at a rim of an end lead away from the opposite end, void faces are extruded from the rim
 /// along the sweep to that end, whose faces are split there; first from the source, then from the target.
 /// Rims that end at other walls are cut by the planes of their flat walls; pieces shorter than others have
-/// higher levels. If no face can be extruded, as from rims above each other, the planes of all flat steps cut
-/// the volume into layers. A missing opposite end is made from the only open loop. The pieces keep the given
-/// faces with their tags and share the void faces between them, so that `sweep::sweep_assembly()` makes one
-/// mesh. They are open volumes, to be classified, closed and swept by themselves.
+/// higher levels. If no face can be extruded, as where one rim lies above another, the planes of all flat
+/// steps cut the volume into layers. If the opposite end is missing, the only open loop is filled to make it.
+/// The pieces keep the given faces with their tags and share the void faces between them, so that
+/// `sweep::sweep_assembly()` makes one mesh. They are open volumes; the caller classifies, closes and sweeps
+/// each of them.
 /// @return  pieces of level 0 first; the volume itself if its ends have no steps.
 /// @throw NotSweepable "closure.steps"  a step whose rim does not lie below one face of the opposite end, or
 ///         that ends at other walls and is not flat; an end in several parts that no walls join; names the

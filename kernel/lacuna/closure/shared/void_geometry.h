@@ -34,13 +34,16 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 
 /// Triangulate one void face from its loops (the outer loop and islands).
 ///
-/// A flat face, and a bent one whose outline does not cross itself in its Newell plane: Algorithm 4,
-/// constrained Delaunay in that plane, with inner heights from the harmonic interpolation of the rim's
-/// heights. Departures: if the rim lies on one quadric, or on a sphere, a circular cylinder, a cone or two
-/// planes among many, so does the interior.
-/// A bent face with four logical sides: Algorithm 6 (Algorithm 5 if two of them are closed edges), a bilinear
-/// Coons patch over arc length. Departure: a bent four-sided face is transfinite at once, so that its facets
-/// and its mesh are the same surface. A bent face of other sides that folds in its Newell plane is an error.
+/// The method depends on the face; algorithms are numbered as in the paper (`docs/bibliography.md`).
+/// - A bent face with four logical sides: Algorithm 6 (Algorithm 5 if two of them are closed edges), a
+///   bilinear Coons patch over arc length. Departure: its facets are made by transfinite interpolation, as
+///   its mesh is, so that both are the same surface.
+/// - Any other face whose outline does not cross itself in its Newell plane: Algorithm 4, constrained
+///   Delaunay in that plane, with inner heights from the harmonic interpolation of the rim's heights.
+///   Departure: if the rim determines a quadric, the interior lies on it too. If the rim lies on many
+///   quadrics, the interior lies on the one that is a sphere, a circular cylinder, a cone or a pair of
+///   planes.
+/// - Any other face is an error.
 /// @param follower  null, or the motion that a bent four-sided face follows: the source side moved up along
 ///                  the given walls and the target side moved down, blended, and shifted to meet the sides.
 /// @throw NotClosed  names the face and the edges that cross.

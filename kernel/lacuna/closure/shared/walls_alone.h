@@ -9,11 +9,12 @@
 
 namespace lacuna::closure {
 
-/// The only void enclosed by walls given without ends, if they are open and a connected part is no tube with
-/// a free loop on either side, such as walls with a bottom or with three mouths. A note reports the roles.
-/// @param take_guess  also if the shape is ambiguous
+/// The void that walls enclose if the user gave no ends. The walls must be open, and at least one connected
+/// part must be something other than a tube with a free loop at either end: walls with a bottom, or with
+/// three mouths. A note reports the roles.
+/// @param take_guess  whether to accept an ambiguous shape
 /// @return  empty if all parts are tubes, if they have branches (which are cut instead), or if
-///          find_readings() finds none or several.
+///          find_readings() finds no void or several.
 /// @throw InvalidInput  as open_volume(). Cancelled.
 std::optional<Reading> read_walls_alone(const topology::Model& model, const std::vector<FaceId>& walls,
                                         bool take_guess, const RunContext& context = {});

@@ -97,8 +97,9 @@ private:
 FacetTree::Hit closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corners);
 
 /// Whether two triangles intersect: each extends more than `tolerance` to both sides of the other's plane,
-/// and they share more than `tolerance` of a line. Coplanar triangles intersect if they overlap by more than
-/// `tolerance`. Mere contact (a shared point or edge, a point on the other triangle) does not count.
+/// and they overlap by more than `tolerance` along the line in which the two planes meet. Coplanar triangles
+/// intersect if they overlap by more than `tolerance`. Mere contact (a shared point or edge, a point on the
+/// other triangle) does not count.
 /// @param tolerance  [model length], >= 0.
 bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, double tolerance);
 

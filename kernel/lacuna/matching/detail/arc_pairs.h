@@ -16,7 +16,7 @@ struct ArcLoop {
     std::vector<bool> open;   ///< false for a vertex on a wall: it needs no split and, if smooth, no partner
 };
 
-/// Vertex pairs, and places where an edge must be split to get a partner.
+/// Vertex pairs, and the places where an edge must be split to give a vertex of the other loop a partner.
 struct ArcPairs {
     std::vector<std::pair<VertexId, VertexId>> vertices;   ///< (source, target), in order along the source
     std::vector<std::pair<VertexId, double>> split_target; ///< source vertex, share of the target's length
@@ -26,14 +26,15 @@ struct ArcPairs {
 /// Pair the vertices of two loops by arc length.
 ///
 /// Hard pairs are kept, and arc length between them is scaled to match. Then, in this order:
-/// - Corners are paired with corners: all of the loop with fewer corners, in order, with the least sum of
-///   squared distances. A pair is rejected if it is more than half a side apart and another corner is closer.
-///   Arc length is scaled to match these pairs too. Corners on walls take part, as a wall may end before the
-///   other end.
+/// - All corners of the loop with fewer corners are paired with corners of the other loop, in order and with
+///   the least sum of squared distances. A pair is rejected if its corners are more than half a side apart
+///   and another corner is closer. Arc length is scaled to match these pairs too. Corners on walls take part,
+///   as a wall may end before the other end.
 /// - Remaining vertices of any kind are paired if their distance is less than `most_twist` and a quarter of
 ///   the shortest side next to them; splitting there would leave a short edge.
-/// - A corner still unpaired gets a split at its share of the other loop. Smooth vertices stay unpaired.
-/// - A loop without any pair gets one: a split for the source vertex furthest from the target's vertices.
+/// - For each corner that is still unpaired, the other loop is split at the same share of its length. Smooth
+///   vertices stay unpaired.
+/// - If there is no pair at all, the target is split for the source vertex furthest from its vertices.
 /// @param offset      share of the target's length where the source's start lies.
 /// @param backward    the target is traversed against the source.
 /// @param most_twist  largest distance of paired smooth vertices, as a share of the loop.

@@ -7,10 +7,10 @@
 
 namespace lacuna::quads::paving {
 
-/// Join all loops into one by straight lines between nodes that are walked there and back, the cheapest first
-/// (Kruskal's spanning tree). A line is short, divides the angles at its ends into multiples of a right angle
-/// and crosses neither loops nor other lines; where every line crosses something, the shortest is taken, and
-/// folds are opened later.
+/// Join all loops into one by straight lines between nodes, the cheapest first (Kruskal's spanning tree). The
+/// joined loop runs along each line twice, once in either direction. A line is cheap if it is short and
+/// divides the angles at its ends into multiples of a right angle; it must cross neither loops nor other
+/// lines. If every line crosses something, the shortest is taken, and the resulting folds are removed later.
 /// @note  Each loop is tried with the loops nearest to it. Time grows with the number of nodes, and with the
 ///        square of the number of loops only in finding the nearest.
 Cycle join_loops(PartialMesh& partial, const std::vector<Cycle>& loops);

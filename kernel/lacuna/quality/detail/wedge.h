@@ -18,9 +18,9 @@ namespace lacuna::quality {
 using WedgeCorners = std::array<Vec3, 6>;
 
 struct WedgeValues {
-    /// As in Verdict: the smallest value at the six corners of the Jacobian divided by the lengths of the
-    /// three edges, times 2/√3. It is 1 for a right prism on an equilateral
-    /// triangle, 0 if an edge has zero length.
+    /// The smallest scaled Jacobian of the six corners, as in Verdict: the determinant of the three edges at
+    /// a corner, divided by the product of their lengths, times 2/√3. It is 1 for a right prism on an
+    /// equilateral triangle, and 0 if an edge has zero length.
     double scaled = 0;
     double smallest = 0; ///< smallest coefficient: a lower bound of J
     double volume = 0;

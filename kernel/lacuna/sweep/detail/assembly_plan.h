@@ -26,7 +26,8 @@ struct AssemblyPlan {
 /// those of side lines follow the layers, and where rows of boundary layers end on an edge, nodes lie at the
 /// rows' heights. Edges of faces that a member shares with one that is not swept get their nodes as shared
 /// edges do, and side lines on such faces have a node at each of their vertices.
-/// @param beside  these faces: index of the member, and its face.
+/// @param beside  the faces that a member shares with a volume that is not swept: index of the member, and
+///        the face in it.
 /// @throw NotSweepable "assembly.layers"  different numbers of layers requested in members whose side lines
 ///        are in one class; "assembly.layers_differ"  different rows of two members that end on one edge;
 ///        "assembly.layers_rows"  more rows on an edge than it has sides. Names them.

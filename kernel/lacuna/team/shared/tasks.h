@@ -42,8 +42,8 @@ void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& pla
 void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& path, const LayeredFile& file,
                  const Crew* crew, const RunContext& context);
 
-/// Work on the share of this process in a task that rank 0 started.
-/// @throw  what went wrong; all processes of the team are told.
+/// Do this process's share of a task that rank 0 started.
+/// @throw  the error that stopped the task; all processes of the team are told.
 void help(std::string_view task, const std::string& bytes, const Team& team, const RunContext& context);
 
 } // namespace lacuna::team
