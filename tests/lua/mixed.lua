@@ -337,8 +337,8 @@ do
   check.that(counts[2] < 2 * counts[1], counts[1] .. " hexahedra, and " .. counts[2])
 end
 
--- Pieces that are cut across a curved rim on one side of a face alone: where they join the other side, the rim
--- gets a vertex on its curve, not on its chords.
+-- Pieces that are cut across a curved rim on one side of a face alone: where they join the other side, the
+-- rim gets a vertex on its curve, not on its chords.
 do
   local name = path "round.geo"
   local file <close> = assert(io.open(name, "w"))

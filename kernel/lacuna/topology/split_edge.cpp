@@ -18,8 +18,8 @@ namespace lacuna::topology {
 namespace {
 
 /// A place on a curve is beside that of its chord within this share of the tolerance. Each step divides the
-/// error by the square of the number of chords of a turn, or so: three do, a bound of eight ends the search on
-/// curves with uneven parameters.
+/// error by about the square of the number of chords of a turn: three do, and a bound of eight ends the
+/// search on curves with uneven parameters.
 constexpr double kShareOfTolerance = 1e-3;
 constexpr int kSteps = 8;
 
