@@ -343,6 +343,25 @@ do
   check.that(counts[2] < 2 * counts[1], counts[1] .. " hexahedra, and " .. counts[2])
 end
 
+-- Pieces that are cut across a curved rim on one side of a face alone: where they join the other side, the
+-- rim gets a vertex on its curve, not on its chords.
+do
+  local name = path "round.geo"
+  local file <close> = assert(io.open(name, "w"))
+  file:write 'SetFactory("OpenCASCADE");\nCylinder(1) = {0, 0, 0, 0, 0, 2, 1, 2*Pi};\n'
+  file:close()
+  local halves = lacuna.load(name):open_volume {}:cut { plane = { { 0, 0, 1 }, { 0, 0, 1 } } }
+  for at = -0.85, 0.9, 0.43 do
+    local pieces = { halves[1] }
+    for _, piece in ipairs(halves[2]:cut { plane = { { at, 0, 0 }, { 1, 0.1, 0 } } }) do
+      pieces[#pieces + 1] = piece
+    end
+    local mesh = lacuna.assembly(pieces):sweep { size = 0.3 }
+    check.equal(mesh:quality().certified, true)
+    check.that(mesh:quality().min_scaled_jacobian > 0.05, ("cut at %g"):format(at))
+  end
+end
+
 -- An arc that touches the rim of an end leaves a cusp there, whose cells are not flat.
 for _, size in ipairs { 0.1, 0.2 } do
   local block = prism({ { -2, -1 }, { 2, -1 }, { 2, 1 }, { -2, 1 } }, 1, 0, 0.5)

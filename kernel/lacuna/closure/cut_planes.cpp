@@ -90,10 +90,9 @@ public:
     {
     }
 
-    std::vector<CutPlane> run(Planes planes)
+    std::vector<CutPlane> run()
     {
         add_face_planes();
-        if (planes == Planes::of_faces) return std::move(planes_);
         find_features();
         for (const Vec3& normal : normals()) add_between(normal);
         std::ranges::stable_sort(between_, {}, &std::pair<double, geometry::Plane>::first);
@@ -228,14 +227,6 @@ private:
 
 } // namespace
 
-double concave_length(const std::vector<Bend>& bends)
-{
-    double length = 0;
-    for (const Bend& bend : bends)
-        if (bend.edge.valid()) length += bend.length;
-    return length;
-}
-
 std::vector<Bend> bends_of(const OpenVolume& volume, const RunContext& context)
 {
     std::vector<Bend> bends;
@@ -257,10 +248,9 @@ double length_to_cut(const std::vector<Bend>& bends)
     return length_to_cut(shares);
 }
 
-std::vector<CutPlane> cut_planes(const OpenVolume& volume, const std::vector<Bend>& bends, Planes planes,
-                                 std::size_t most)
+std::vector<CutPlane> cut_planes(const OpenVolume& volume, const std::vector<Bend>& bends, std::size_t most)
 {
-    return Planner(volume, bends, most).run(planes);
+    return Planner(volume, bends, most).run();
 }
 
 } // namespace lacuna::closure

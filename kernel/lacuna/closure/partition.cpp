@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/cut_planes.h>
 #include <lacuna/closure/detail/midpoint.h>
+#include <lacuna/closure/detail/round_rims.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -39,13 +41,12 @@ struct CutPart {
     std::vector<Bend> bends;
     double left = 0; ///< [model length]
     bool has_ends = false;
-    bool is_done = false; ///< it has ends, or no cut helps
 };
 
-CutPart part_of(StepPiece piece, Planes planes, const RunContext& context)
+CutPart part_of(StepPiece piece, const RunContext& context)
 {
     std::vector<Bend> bends = bends_of(piece.volume, context);
-    const double left = planes == Planes::of_faces ? concave_length(bends) : length_to_cut(bends);
+    const double left = length_to_cut(bends);
     return {std::move(piece), std::move(bends), left};
 }
 
@@ -78,12 +79,11 @@ struct CutTried {
 };
 
 /// Cut a piece by the planes that may help; the cuts that leave the least first.
-std::vector<CutTried> try_cuts(const CutPart& part, Planes planes, std::size_t& tried,
-                               const RunContext& context)
+std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const RunContext& context)
 {
     const OpenVolume& volume = part.piece.volume;
     std::vector<CutTried> cuts;
-    for (const auto& [plane, edges] : cut_planes(volume, part.bends, planes, kMostRead)) {
+    for (const auto& [plane, edges] : cut_planes(volume, part.bends, kMostRead)) {
         if (tried == kMostCuts) break;
         ++tried;
         // Refused: the plane crosses given quads, or leaves the volume in one piece.
@@ -91,7 +91,7 @@ std::vector<CutTried> try_cuts(const CutPart& part, Planes planes, std::size_t& 
         if (!pieces || pieces->size() < 2) continue;
         CutTried& cut = cuts.emplace_back();
         for (StepPiece& piece : *pieces) {
-            cut.parts.push_back(part_of(std::move(piece), planes, context));
+            cut.parts.push_back(part_of(std::move(piece), context));
             cut.left += cut.parts.back().left;
         }
     }
@@ -100,55 +100,66 @@ std::vector<CutTried> try_cuts(const CutPart& part, Planes planes, std::size_t& 
 }
 
 /// The best cut of a piece; empty if none reduces what is left to cut in pieces without ends.
-std::vector<CutPart> best_cut(const CutPart& part, Planes planes, std::size_t& tried,
-                              const CanSweep& can_sweep, const RunContext& context)
+std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const CanSweep& can_sweep,
+                              const RunContext& context)
 {
-    std::vector<CutTried> cuts = try_cuts(part, planes, tried, context);
+    if (!(part.left > 0)) return {};
+    std::vector<CutTried> cuts = try_cuts(part, tried, context);
     if (cuts.size() > kMostRead) cuts.resize(kMostRead);
+    const auto without_ends = [](const CutTried& cut) {
+        return std::ranges::count(cut.parts, false, &CutPart::has_ends);
+    };
     for (CutTried& cut : cuts) {
         cut.left = 0;
         for (CutPart& own : cut.parts) {
-            own.has_ends = own.is_done = find_ends(own.piece, can_sweep, context);
+            own.has_ends = find_ends(own.piece, can_sweep, context);
             if (!own.has_ends) cut.left += own.left;
         }
+        if (cut.parts.size() == 2 && without_ends(cut) == 0) return std::move(cut.parts); // none is better
     }
-    const auto better = [](const CutTried& a, const CutTried& b) {
-        const auto without = [](const CutTried& cut) {
-            return std::ranges::count(cut.parts, false, &CutPart::has_ends);
-        };
-        return std::tuple(a.left, without(a), a.parts.size()) <
-               std::tuple(b.left, without(b), b.parts.size());
+    const auto better = [&](const CutTried& a, const CutTried& b) {
+        return std::tuple(a.left, without_ends(a), a.parts.size()) <
+               std::tuple(b.left, without_ends(b), b.parts.size());
     };
     const auto best = std::ranges::min_element(cuts, better);
     if (best == cuts.end() || !(best->left < (1 - kFileAccuracy) * part.left)) return {};
     return std::move(best->parts);
 }
 
-/// Cut a volume, and its parts in turn, as long as a cut leaves less to cut in parts without ends.
-std::vector<CutPart> cut_by(Planes planes, const OpenVolume& volume, const CanSweep& can_sweep,
-                            const RunContext& context)
-{
-    std::vector<CutPart> parts;
-    parts.push_back(part_of({volume}, planes, context));
-    const auto suits = [&](const OpenVolume& piece) {
-        return (planes == Planes::of_faces || ends_suit_columns(piece)) && can_sweep(piece);
-    };
-    for (std::size_t tried = 0; tried < kMostCuts && parts.size() < kMostPieces;) {
-        check_cancelled(context);
-        const auto next = std::ranges::max_element(
-            parts, {}, [](const CutPart& part) { return part.is_done ? -1 : part.left; });
-        if (next->is_done) break;
-        std::vector<CutPart> made = best_cut(*next, planes, tried, suits, context);
-        if (made.empty()) {
-            next->is_done = true;
-            continue;
+/// Cuts a volume, and its parts in turn, as long as a cut leaves less to cut in parts without ends.
+class Cutter {
+public:
+    Cutter(const CanSweep& can_sweep, const RunContext& context) : can_sweep_(can_sweep), context_(context) {}
+
+    /// The parts of a part without ends; itself if its parts have neither ends, nor nothing left to cut.
+    std::vector<CutPart> cut(CutPart part)
+    {
+        check_cancelled(context_);
+        std::vector<CutPart> made;
+        if (tried_ < kMostCuts && pieces_ < kMostPieces) made = best_cut(part, tried_, can_sweep_, context_);
+        if (made.empty()) return {std::move(part)};
+        pieces_ += made.size() - 1;
+        std::vector<CutPart> all;
+        for (CutPart& own : made) {
+            if (own.has_ends)
+                all.push_back(std::move(own));
+            else
+                std::ranges::move(cut(std::move(own)), std::back_inserter(all));
         }
-        *next = std::move(made.back());
-        made.pop_back();
-        std::ranges::move(made, std::back_inserter(parts));
+        // What has nothing left to cut may still be divided at its middle.
+        const auto helps = [](const CutPart& own) { return own.has_ends || !(own.left > 0); };
+        if (std::ranges::none_of(all, helps)) {
+            pieces_ -= all.size() - 1;
+            return {std::move(part)};
+        }
+        return all;
     }
-    return parts;
-}
+
+private:
+    const CanSweep& can_sweep_;
+    const RunContext& context_;
+    std::size_t tried_ = 0, pieces_ = 1;
+};
 
 /// Directions in which a volume has flat faces to either side, those with the most area first.
 std::vector<Vec3> axes_of(const OpenVolume& volume)
@@ -174,6 +185,36 @@ std::vector<Vec3> axes_of(const OpenVolume& volume)
     return ways;
 }
 
+/// Make the faces of a volume that face along an axis its ends, and the others walls.
+void set_ends_along(OpenVolume& volume, const Vec3& axis)
+{
+    for (const FaceId face : all_faces(volume.model)) {
+        const double along = face_area_vector(volume.model, face).dot(axis);
+        const bool is_end = std::abs(along) >
+                            std::cos(kCreaseAngle * kDegree) * face_area(volume.model, face);
+        volume.role[face.index()] = !is_end ? Role::wall : along > 0 ? Role::target : Role::source;
+    }
+}
+
+/// The volume with ends along an axis and the rounds at their rims divided; empty if there are no rounds, or
+/// it cannot be swept so.
+std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const CanSweep& can_sweep,
+                                              const RunContext& context)
+{
+    OpenVolume away = volume;
+    face_away(away, context);
+    for (const Vec3& axis : axes_of(away)) {
+        check_cancelled(context);
+        OpenVolume divided = away;
+        set_ends_along(divided, axis);
+        split_round_rims(divided, context);
+        if (divided.model.faces.size() > away.model.faces.size() && !has_steps(divided, context) &&
+            can_sweep(divided))
+            return divided;
+    }
+    return std::nullopt;
+}
+
 /// Cut a volume at the steps between all its faces that face one way and all that face the other, as foam
 /// around a product, which may be tilted; empty if no axis gives pieces that can be swept.
 std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
@@ -185,12 +226,7 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
     if (axes.size() > kMostRead) axes.resize(kMostRead);
     for (const Vec3& axis : axes) {
         check_cancelled(context);
-        for (const FaceId face : all_faces(away.model)) {
-            const double along = face_area_vector(away.model, face).dot(axis);
-            const bool is_end = std::abs(along) >
-                                std::cos(kCreaseAngle * kDegree) * face_area(away.model, face);
-            away.role[face.index()] = !is_end ? Role::wall : along > 0 ? Role::target : Role::source;
-        }
+        set_ends_along(away, axis);
         auto pieces = unless_refused([&] { return cut_steps(away, context); });
         const auto suits = [&](const StepPiece& piece) {
             return has_ends(piece.volume) && can_sweep(piece.volume);
@@ -228,13 +264,13 @@ std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_s
     const auto are_swept = [](const std::vector<CutPart>& parts) {
         return std::ranges::all_of(parts, &CutPart::has_ends);
     };
-    std::vector<CutPart> parts = cut_by(Planes::of_faces, volume, can_sweep, context);
-    if (!are_swept(parts)) {
-        std::vector<CutPart> more = cut_by(Planes::all, volume, can_sweep, context);
-        if (are_swept(more)) parts = std::move(more);
-    }
+    const CanSweep suits = [&](const OpenVolume& piece) {
+        return ends_suit_columns(piece) && can_sweep(piece);
+    };
+    std::vector<CutPart> parts = Cutter(suits, context).cut(part_of({volume}, context));
     std::vector<StepPiece> pieces;
     if (!are_swept(parts)) {
+        if (auto divided = with_rounds_divided(volume, can_sweep, context)) return {{std::move(*divided)}};
         pieces = cut_in_steps(volume, can_sweep, context);
         if (pieces.empty()) pieces = divided_at_middle(volume, kMostPieces, can_sweep, context);
     }

@@ -28,13 +28,13 @@ constexpr double kHalfway = std::numbers::sqrt2 / 2;
 /// A facet seen along the end's outward direction.
 struct Slope {
     double cosine = 0; ///< 1 where it is parallel to the end, 0 where it is upright
-    double height = 0; ///< of its centre along the outward direction [model length]
+    double height = 0; ///< of its centre along the way from the end to the rounds [model length]
 };
 
-Slope slope_of(const Model& model, const Triangle& t, const Vec3& out)
+Slope slope_of(const Model& model, const Triangle& t, const Vec3& out, const Vec3& way)
 {
     const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
-    return {(b - a).cross(c - a).stableNormalized().dot(out), (a + b + c).dot(out) / 3};
+    return {(b - a).cross(c - a).stableNormalized().dot(out), (a + b + c).dot(way) / 3};
 }
 
 /// Finds and divides the rounds at the rim of one part of an end.
@@ -62,9 +62,12 @@ public:
 private:
     bool divide(const std::vector<FaceId>& rounds)
     {
-        const std::optional<double> height = halfway_height(rounds);
+        // Rounds of a product in a box lie beyond its top, those of a body before it.
+        const Vec3 from_end = centroid_of(volume_.model, rounds) - centroid_of(volume_.model, part_);
+        const Vec3 way = from_end.dot(out_) < -volume_.model.tolerance ? Vec3(-out_) : out_;
+        const std::optional<double> height = halfway_height(rounds, way);
         if (!height) return false;
-        const geometry::Plane plane = geometry::plane_across(*height * out_, out_);
+        const geometry::Plane plane = geometry::plane_across(*height * way, way);
         const std::vector<SectionWalk> walks = section_walks(volume_.model, rounds, plane,
                                                              volume_.model.tolerance);
         if (walks.empty() || !std::ranges::all_of(walks, &SectionWalk::closed)) return false;
@@ -72,8 +75,8 @@ private:
         const std::set<FaceId> divided(rounds.begin(), rounds.end());
         for (std::size_t f = 0; f < made.parent.size(); ++f)
             if (divided.contains(made.parent[f]))
-                volume_.role[f] = face_centroid(volume_.model, FaceId(f)).dot(out_) < *height ? end_
-                                                                                              : Role::wall;
+                volume_.role[f] = face_centroid(volume_.model, FaceId(f)).dot(way) < *height ? end_
+                                                                                             : Role::wall;
         return true;
     }
 
@@ -113,7 +116,7 @@ private:
     {
         double least = 1, most = -1;
         for (const Triangle& t : volume_.model[face].triangles) {
-            const double cosine = slope_of(volume_.model, t, out_).cosine;
+            const double cosine = slope_of(volume_.model, t, out_, out_).cosine;
             least = std::min(least, cosine);
             most = std::max(most, cosine);
         }
@@ -121,12 +124,13 @@ private:
     }
 
     /// The height that parts flat facets from steep ones, with the fewest on the wrong side.
-    [[nodiscard]] std::optional<double> halfway_height(const std::vector<FaceId>& rounds) const
+    [[nodiscard]] std::optional<double> halfway_height(const std::vector<FaceId>& rounds,
+                                                       const Vec3& way) const
     {
         std::vector<Slope> all;
         for (const FaceId face : rounds)
             for (const Triangle& t : volume_.model[face].triangles)
-                all.push_back(slope_of(volume_.model, t, out_));
+                all.push_back(slope_of(volume_.model, t, out_, way));
         std::ranges::sort(all, {}, &Slope::height);
         std::ptrdiff_t wrong = std::ranges::count_if(all, [](const Slope& s) { return s.cosine > kHalfway; });
         std::ptrdiff_t least = wrong;

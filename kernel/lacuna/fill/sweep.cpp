@@ -119,7 +119,8 @@ std::vector<closure::StepPiece> pieces_of(const topology::OpenVolume& sealed, bo
                                           const RunContext& context)
 {
     std::vector<closure::StepPiece> pieces = partition(sealed, context);
-    if (pieces.size() > 1 || !steps || !closure::has_ends(sealed) || !closure::has_pieces(sealed, context))
+    if (pieces.size() > 1 || closure::has_ends(pieces.front().volume) || !steps ||
+        !closure::has_ends(sealed) || !closure::has_pieces(sealed, context))
         return pieces;
     try {
         return closure::cut_into_pieces(sealed, context);
@@ -127,6 +128,48 @@ std::vector<closure::StepPiece> pieces_of(const topology::OpenVolume& sealed, bo
         log_line(context, error.message().text());
         return pieces;
     }
+}
+
+/// Give pieces no ends that a sweep by sizes nobody asked for does not fill with their volume.
+/// @return  their regions, in words; empty: none
+std::string drop_untrue(const FilledParts& mesh, std::vector<closure::StepPiece>& pieces)
+{
+    std::string dropped;
+    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
+        const sweep::Fidelity& shape = mesh.swept.parts[p].fidelity;
+        if (std::abs(shape.volume / shape.sealed_volume - 1) <= kVolumeNoted) continue;
+        std::ranges::fill(pieces[mesh.swept.member[p]].volume.role, topology::Role::wall);
+        dropped += (dropped.empty() ? "" : ", ") + mesh.regions[p];
+    }
+    return dropped;
+}
+
+/// Sweep pieces so that they have the volume of the whole.
+/// @param sized  whether the user asked for their sizes: then a volume that they lose is a note.
+FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPiece> pieces,
+                              const sweep::SweepOptions& options, bool sized, const RunContext& context)
+{
+    const auto off_by = [](const FilledParts& mesh) {
+        const sweep::Fidelity shape = fidelity(mesh);
+        return std::abs(shape.volume / shape.sealed_volume - 1);
+    };
+    FilledParts mesh = sweep_pieces(sealed, pieces, options, context);
+    if (sized || off_by(mesh) <= kVolumeNoted) return mesh;
+    if (options.fallback == sweep::Fallback::mixed) {
+        if (const std::string dropped = drop_untrue(mesh, pieces); !dropped.empty()) {
+            const std::string why = formatted(
+                "{}: swept by default sizes, its volume is off by more than {:.2g} %, so it is not swept",
+                dropped, 100 * kVolumeNoted);
+            log_line(context, why);
+            mesh = sweep_pieces(sealed, std::move(pieces), options, context);
+            mesh.swept.report.push_back(why);
+        }
+    }
+    if (const double off = off_by(mesh); off > kVolumeNoted)
+        throw NotSweepable("sweep.volume",
+                           "the pieces have {:.2g} % more or less volume than the sealed skin",
+                           found(100 * off));
+    return mesh;
 }
 
 /// Mesh a volume that no single sweep fills: in pieces that can be swept. With `Fallback::mixed`, pieces that
@@ -147,25 +190,25 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     }
     Volume sealed = sealed_whole(volume, context);
     std::vector<closure::StepPiece> pieces = pieces_of(sealed.volume, mixed, context);
-    const bool swept = pieces.size() > 1 &&
-                       (mixed || std::ranges::all_of(pieces, closure::has_ends, &closure::StepPiece::volume));
+    const auto is_swept = [](const closure::StepPiece& piece) { return closure::has_ends(piece.volume); };
+    const bool swept = mixed ? std::ranges::any_of(pieces, is_swept) : std::ranges::all_of(pieces, is_swept);
+    const bool is_cut = pieces.size() > 1;
     Filled filled;
     if (swept) {
-        const std::string cut = formatted("cut into {} pieces, because {}", pieces.size(), why.text());
+        const std::string cut = is_cut
+                                    ? formatted("cut into {} pieces, because {}", pieces.size(), why.text())
+                                    : formatted("swept {}, after the rounds at the rims of these ends were "
+                                                "divided, because {}",
+                                                ends_in_words(pieces.front().volume), why.text());
         try {
-            FilledParts mesh = sweep_pieces(sealed, std::move(pieces), options, context);
-            // The sizes of the pieces are no wish of the user's, so a volume that they lose is no note.
-            const sweep::Fidelity shape = fidelity(mesh);
-            if (const double off = std::abs(shape.volume / shape.sealed_volume - 1);
-                !request.options.size && off > kVolumeNoted)
-                throw NotSweepable("sweep.volume",
-                                   "the pieces have {:.2g} % more or less volume than the sealed skin",
-                                   found(100 * off));
+            FilledParts mesh = sweep_pieces_true(sealed, std::move(pieces), options,
+                                                 static_cast<bool>(request.options.size), context);
             mesh.swept.report.insert(mesh.swept.report.begin(), cut);
-            log_line(context,
-                     formatted("note: no single sweep fills the volume, so it is cut into pieces; the "
-                               "report says why [{}]",
-                               why.code()));
+            log_line(context, formatted("note: no single sweep fills the volume{}; the report says why [{}]",
+                                        is_cut ? ", so it is cut into pieces"
+                                               : " as it is, so its rounds are "
+                                                 "divided",
+                                        why.code()));
             filled.mesh = std::move(mesh);
             filled.volumes.push_back(std::move(sealed));
             return filled;

@@ -24,6 +24,8 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 namespace lacuna::sweep {
 
@@ -69,13 +71,60 @@ struct MemberFailed : NotSweepable {
     std::size_t member;
 };
 
-/// The neighbours that a part was made with, and how often each had been made.
-using Inputs = std::vector<std::pair<std::size_t, int>>;
+/// Everything that decides a part.
+struct Ingredients {
+    std::string region;
+    std::vector<Vec3> points; ///< of its volume, as those of the next two
+    std::size_t edges = 0, faces = 0;
+    std::vector<EdgeNodes> nodes; ///< as planned
+    int layers = 0;
+    bool wedges = false;
+    std::set<FaceId> between; ///< faces shared with other members
+    /// Of neighbours that were meshed before: the common face in both members, and the number of their part.
+    std::vector<std::tuple<FaceId, FaceId, std::size_t>> beside;
+
+    bool operator==(const Ingredients& other) const
+    {
+        const auto same_nodes = [](const EdgeNodes& a, const EdgeNodes& b) {
+            return a.edge == b.edge && a.nodes == b.nodes;
+        };
+        return region == other.region && edges == other.edges && faces == other.faces &&
+               layers == other.layers && wedges == other.wedges && between == other.between &&
+               beside == other.beside && points == other.points &&
+               std::ranges::equal(nodes, other.nodes, same_nodes);
+    }
+};
+
+/// A part that was made before, or why it could not be made.
+struct MadePart {
+    Ingredients of;
+    std::size_t number = 0; ///< no other part has it
+    std::optional<Swept> part;
+    std::optional<Message> why;
+};
+
+/// Parts that were made in other orders of the members, or while more of them were swept: a part is made
+/// again only of something else.
+struct PartsBefore {
+    std::vector<MadePart> parts;
+    std::size_t count = 0; ///< of all parts made
+
+    /// Take a part, or the reason for its failure, if it is there.
+    std::optional<MadePart> take(const Ingredients& of)
+    {
+        const auto found = std::ranges::find(parts, of, &MadePart::of);
+        if (found == parts.end()) return std::nullopt;
+        if (found->why) return *found;
+        MadePart taken = std::move(*found);
+        parts.erase(found);
+        return taken;
+    }
+};
 
 class Assembler {
 public:
-    Assembler(std::span<const AssemblyMember> members, const RunContext& context)
-        : members_(members.begin(), members.end()), context_(context)
+    Assembler(std::span<const AssemblyMember> members, PartsBefore& before, const RunContext& context)
+        : members_(members.begin(), members.end()), context_(context), parts_before_(before)
     {
     }
 
@@ -254,9 +303,7 @@ private:
 
     void sweep_again()
     {
-        result_.parts.clear();
         result_.report.clear();
-        made_beside_.clear();
         result_.shared = faces_in_common(members_, context_).whole;
         plan_ = plan_assembly(members_, result_.shared, beside_, context_);
         sweep_all();
@@ -282,6 +329,7 @@ private:
             log_line(context_, failed->message().text());
             first.insert(first.begin(), failed->member);
         }
+        put_all_away();
         throw MemberFailed(*reason);
     }
 
@@ -295,8 +343,7 @@ private:
     std::optional<MemberFailed> sweep_in_order()
     {
         result_.parts.resize(members_.size());
-        made_beside_.resize(members_.size());
-        times_made_.resize(members_.size());
+        made_of_.resize(members_.size());
         result_.report = notes_;
         middles_ = {};
         std::vector<char> done(members_.size(), 0);
@@ -304,23 +351,17 @@ private:
             check_cancelled(context_);
             const std::vector<Neighbour> neighbours = shared_with(m, done);
             done[m] = 1;
-            Inputs inputs;
-            for (const Neighbour& n : neighbours) inputs.emplace_back(n.other, times_made_[n.other]);
             try {
-                // At order 2 a part also depends on those that it touches along an edge.
-                if (members_[m].options.order > 1 || made_beside_[m] != inputs) {
-                    made_beside_[m].reset();
-                    ++times_made_[m];
-                    make(m, neighbours);
-                    made_beside_[m] = std::move(inputs);
-                }
+                make_or_take(m, neighbours);
                 check_kept(m, neighbours);
                 if (members_[m].options.order > 1) keep_middles(m);
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
+                if (!std::exchange(is_made_, true)) put_away(m, error.message());
                 MemberFailed failed(m, why_failed(members_[m], error));
                 if (!neighbours.empty()) return failed;
+                put_all_away();
                 throw failed;
             }
         }
@@ -342,6 +383,52 @@ private:
             if (face.b == m && done[face.a] != 0) found.push_back({face.face_b, face.a, face.face_a});
         }
         return found;
+    }
+
+    [[nodiscard]] Ingredients ingredients(std::size_t m, const std::vector<Neighbour>& neighbours) const
+    {
+        const Model& model = members_[m].volume->model;
+        Ingredients of{members_[m].region,         model.points,       model.edges.size(),
+                       model.faces.size(),         plan_.nodes[m],     plan_.layers[m],
+                       members_[m].options.wedges, shared_faces_of(m), {}};
+        for (const Neighbour& n : neighbours)
+            of.beside.emplace_back(n.own, n.there, made_of_[n.other]->second);
+        return of;
+    }
+
+    /// Make a part, or take one that was made of the same before.
+    void make_or_take(std::size_t m, const std::vector<Neighbour>& neighbours)
+    {
+        Ingredients of = ingredients(m, neighbours);
+        // At order 2 a part also depends on those that it touches along an edge.
+        const bool again = members_[m].options.order > 1;
+        if (!again && made_of_[m] && made_of_[m]->first == of) return;
+        put_away(m);
+        std::optional<MadePart> before = again ? std::nullopt : parts_before_.take(of);
+        if (before && before->why) throw NotSweepable(*before->why);
+        made_of_[m] = {std::move(of), before ? before->number : ++parts_before_.count};
+        if (before) {
+            result_.parts[m] = std::move(*before->part);
+            return;
+        }
+        is_made_ = false;
+        make(m, neighbours);
+        is_made_ = true;
+    }
+
+    /// Keep a part, or the reason for its failure, for another order of the members.
+    void put_away(std::size_t m, std::optional<Message> why = {})
+    {
+        if (!made_of_[m]) return;
+        MadePart& kept = parts_before_.parts.emplace_back();
+        std::tie(kept.of, kept.number) = std::move(*made_of_[m]);
+        kept.why = std::move(why);
+        if (!kept.why) kept.part = std::exchange(result_.parts[m], {});
+        made_of_[m].reset();
+    }
+    void put_all_away()
+    {
+        for (std::size_t m = 0; m < made_of_.size(); ++m) put_away(m);
     }
 
     [[nodiscard]] std::set<FaceId> shared_faces_of(std::size_t m) const
@@ -558,9 +645,11 @@ private:
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
-    std::vector<std::optional<Inputs>> made_beside_; ///< of each part that exists
-    std::vector<int> times_made_;                    ///< for each part, including failed attempts
-    SharedMiddles middles_;                          ///< of the parts so far, at order 2
+    PartsBefore& parts_before_;
+    bool is_made_ = true; ///< false while a part is made
+    /// For each part that exists: what it was made of, and its number.
+    std::vector<std::optional<std::pair<Ingredients, std::size_t>>> made_of_;
+    SharedMiddles middles_; ///< of the parts so far, at order 2
     SweptAssembly result_;
 };
 
@@ -580,9 +669,10 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
     std::map<std::string, MemberFailed> without_wedges; // by region
     std::map<std::size_t, Message> failures;            // of members that are then not swept, by index
     std::vector<LeftOut> left_out;
+    PartsBefore before;
     for (;;) {
         try {
-            SweptAssembly swept = Assembler(left, context).run();
+            SweptAssembly swept = Assembler(left, before, context).run();
             for (std::size_t m = 0; m < left.size(); ++m)
                 if (!left[m].unswept) swept.member.push_back(place[m]);
             for (Unswept& one : swept.unswept) {

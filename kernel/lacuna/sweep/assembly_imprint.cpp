@@ -9,6 +9,8 @@
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/sweep/detail/rim_arcs.h>
+#include <lacuna/topology/shared/curve_place.h>
+#include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/side_points.h>
@@ -57,15 +59,21 @@ std::vector<std::size_t> chords_off(const std::vector<Vec3>& line, const std::ve
 /// A face of one volume that is cut along the rim of another.
 class FaceCutter {
 public:
-    FaceCutter(ModelBuilder& model, FaceId face) : model_(model), face_(face), tolerance_(model.tolerance) {}
+    /// @param within  distance of the line's ends from vertices of the rim that are the same place.
+    FaceCutter(ModelBuilder& model, FaceId face, double within)
+        : model_(model), face_(face), tolerance_(model.tolerance), within_(within)
+    {
+    }
 
     /// Cut the facets along a chain of points near the face. @return  its points; empty: the chain leaves the
     /// face
     std::vector<Index> lay(const std::vector<Vec3>& line)
     {
         std::vector<Index> stops;
-        for (const Vec3& p : line) {
-            const Index stop = point_on_face(model_, face_, p);
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const bool is_end = i == 0 || i + 1 == line.size();
+            Index stop = is_end ? rim_vertex_at(line[i]) : -1;
+            if (stop < 0) stop = point_on_face(model_, face_, line[i]);
             if (stop < 0) return {};
             if (stops.empty() || stops.back() != stop) stops.push_back(stop);
         }
@@ -77,6 +85,22 @@ public:
 
 private:
     [[nodiscard]] Face& face() { return model_[face_]; }
+
+    /// The vertex of the rim at a place; -1: none.
+    [[nodiscard]] Index rim_vertex_at(const Vec3& place) const
+    {
+        Index nearest = -1;
+        double least = within_;
+        for (const EdgeUse& use : uses_of(model_[face_])) {
+            const Index point = model_[use_from(model_, use)].point;
+            const double off = (model_.at(point) - place).norm();
+            if (off > least) continue;
+            least = off;
+            nearest = point;
+        }
+        return nearest;
+    }
+
     /// Cut along a straight line from one point to another, along the facets.
     bool cut_between(Index from, Index to, std::vector<Index>& chain)
     {
@@ -119,7 +143,7 @@ private:
 
     ModelBuilder& model_;
     FaceId face_;
-    double tolerance_;
+    double tolerance_, within_;
 };
 
 /// A face on one side of a pair.
@@ -133,6 +157,17 @@ struct SideOfPair {
     [[nodiscard]] Model& model() const { return volume->model; }
 };
 
+/// Whether the exact curve of an edge runs through `p`, although its chords are farther from it.
+bool curve_runs_through(const Model& model, EdgeId id, const std::vector<Vec3>& line, const OnLine& place,
+                        const Vec3& p, double within)
+{
+    const Edge& edge = model[id];
+    if (!edge.curve || edge.params.empty() || line.size() != edge.points.size()) return false;
+    if (place.distance > within + geometry::sag(line)) return false;
+    const geometry::PolylinePlace on = geometry::place_at(geometry::arc_lengths(line), place.at);
+    return (curve_beside(model, edge, on.segment, on.fraction).place - p).norm() <= within;
+}
+
 /// Make the point of some edges closest to `p` a vertex, if it is within the tolerance.
 template <class Edges>
 void ensure_vertex(Model& model, const Edges& edges, const Vec3& p, double within)
@@ -141,7 +176,7 @@ void ensure_vertex(Model& model, const Edges& edges, const Vec3& p, double withi
         const std::vector<Vec3> line = surface::edge_line(model, edge);
         const OnLine place = closest_on(line, p);
         const double length = geometry::length(line);
-        if (place.distance > within) continue;
+        if (place.distance > within && !curve_runs_through(model, edge, line, place, p, within)) continue;
         const double slack = std::max(within, model.tolerance);
         if ((line.front() - p).norm() <= slack || (line.back() - p).norm() <= slack) return;
         if (place.at <= model.tolerance || length - place.at <= model.tolerance) return;
@@ -186,12 +221,12 @@ std::vector<std::vector<Vec3>> lines_across(const SideOfPair& of, const SideOfPa
 
 /// Cut a face along chains. @return  its parts, the face itself first; empty: a chain leaves the face
 std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::vector<Vec3>>& lines,
-                                const RunContext& context)
+                                double within, const RunContext& context)
 {
     if (lines.empty()) return {side.face};
     const std::optional<geometry::Plane> flat = plane_of(side.model(), side.face);
     ModelBuilder model(side.model());
-    FaceCutter cutter(model, side.face);
+    FaceCutter cutter(model, side.face, within);
     std::vector<SectionWalk> walks;
     for (const std::vector<Vec3>& line : lines) {
         const std::vector<Index> chain = cutter.lay(line);
@@ -233,9 +268,17 @@ struct Parts {
 Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const RunContext& context)
 {
     const double within = std::max({limit, a.model().tolerance, b.model().tolerance});
+    const auto ensure_vertices = [&](const std::vector<Vec3>& stops) {
+        for (const Vec3& stop : stops)
+            for (const SideOfPair* side : {&a, &b})
+                ensure_vertex(side->model(), rim_edges(side->model(), side->face), stop, within);
+    };
+    // Corners first: rims whose curves meet in one may have chords that cross beside it.
     std::vector<Vec3> stops = corners_of(a);
     const std::vector<Vec3> others = corners_of(b);
     stops.insert(stops.end(), others.begin(), others.end());
+    ensure_vertices(stops);
+    stops.clear();
     for (const EdgeId e : rim_edges(a.model(), a.face)) {
         const std::vector<Vec3> p = surface::edge_line(a.model(), e);
         for (const EdgeId f : rim_edges(b.model(), b.face)) {
@@ -248,10 +291,7 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
                         stops.push_back(*at);
         }
     }
-    for (const Vec3& stop : stops) {
-        for (const SideOfPair* side : {&a, &b})
-            ensure_vertex(side->model(), rim_edges(side->model(), side->face), stop, within);
-    }
+    ensure_vertices(stops);
     const std::vector<std::vector<Vec3>> onto_a = lines_across(b, a, within),
                                          onto_b = lines_across(a, b, within);
     for (const auto& [side, lines] : {std::pair(&a, &onto_a), std::pair(&b, &onto_b)}) {
@@ -268,7 +308,7 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
                                   : "mesh the two faces alike, or, of a mesh from a file, load it with "
                                     "keep_mesh = false"));
     }
-    Parts parts{split_along(a, onto_a, context), split_along(b, onto_b, context)};
+    Parts parts{split_along(a, onto_a, within, context), split_along(b, onto_b, within, context)};
     if (parts.a.empty() || parts.b.empty())
         throw InvalidInput(
             Message(kPartOfFace,

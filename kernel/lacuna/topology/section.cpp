@@ -495,6 +495,9 @@ private:
         const std::size_t before = model_.faces.size();
         parent = all_faces(model_);
         DirectedSides sides(model_.points.size());
+        on_walk_.assign(model_.points.size(), false);
+        for (const SectionWalk& walk : walks_)
+            for (const SectionPlace& place : walk.places) on_walk_[index(point(place))] = true;
         for (std::size_t f = 0; f < before; ++f) {
             const std::vector<std::size_t> part = parts_of(model_.faces[f], sides);
             const std::size_t count = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
@@ -526,9 +529,12 @@ private:
     /// Part number of each facet, with the walks as separators.
     [[nodiscard]] std::vector<std::size_t> parts_of(const Face& face, DirectedSides& sides) const
     {
+        // Few corners are on walks, and a look at a flag costs less than one for a side.
+        const auto is_on = [&](Index p) { return on_walk_[index(p)]; };
         const bool met = std::ranges::any_of(face.triangles, [&](const Triangle& t) {
-            return walked_.contains(edge_key(t[0], t[1])) || walked_.contains(edge_key(t[1], t[2])) ||
-                   walked_.contains(edge_key(t[2], t[0]));
+            return std::ranges::count_if(t, is_on) > 1 &&
+                   (walked_.contains(edge_key(t[0], t[1])) || walked_.contains(edge_key(t[1], t[2])) ||
+                    walked_.contains(edge_key(t[2], t[0])));
         });
         if (!met) return {};
         geometry::UnionFind sets(face.triangles.size());
@@ -553,6 +559,7 @@ private:
     std::map<SectionPlace, Index> made_; ///< points inserted on sides
     SidePoints sides_;
     std::unordered_set<std::uint64_t> walked_;     ///< sides along the walks
+    std::vector<bool> on_walk_;                    ///< by point
     std::unordered_set<std::uint64_t> edge_sides_; ///< sides on previous edges
     std::set<Index> vertex_points_;                ///< points that become vertices
     std::map<Index, VertexId> vertex_at_;

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/curve_place.h>
 #include <lacuna/topology/shared/side_points.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -15,6 +16,12 @@
 namespace lacuna::topology {
 
 namespace {
+
+/// A place on a curve is beside that of its chord within this share of the tolerance. Each step divides the
+/// error by about the square of the number of chords of a turn: three do, and a bound of eight ends the
+/// search on curves with uneven parameters.
+constexpr double kShareOfTolerance = 1e-3;
+constexpr int kSteps = 8;
 
 /// The faces whose loops use an edge.
 std::vector<FaceId> users_of(const Model& model, EdgeId edge)
@@ -109,14 +116,30 @@ SplitPlace place_of_split(const Model& model, EdgeId id, const std::vector<FaceI
     const geometry::PolylinePlace on = geometry::place_at(arc, wanted);
     const Edge& edge = model[id];
     const std::size_t i = on.segment;
-    Vec3 made = (1 - on.fraction) * model.at(edge.points[i]) + on.fraction * model.at(edge.points[i + 1]);
+    const Vec3 made = (1 - on.fraction) * model.at(edge.points[i]) +
+                      on.fraction * model.at(edge.points[i + 1]);
     if (edge.params.empty()) return {i, made};
-    const double param = (1 - on.fraction) * edge.params[i] + on.fraction * edge.params[i + 1];
-    if (edge.curve) edge.curve->evaluate({&param, 1}, {&made, 1});
-    return {i, made, param};
+    if (!edge.curve) return {i, made, (1 - on.fraction) * edge.params[i] + on.fraction * edge.params[i + 1]};
+    const CurvePlace beside = curve_beside(model, edge, i, on.fraction);
+    return {i, beside.place, beside.param};
 }
 
 } // namespace
+
+CurvePlace curve_beside(const Model& model, const Edge& edge, std::size_t segment, double fraction)
+{
+    const Vec3 &a = model.at(edge.points[segment]), &b = model.at(edge.points[segment + 1]);
+    const Vec3 chord = (1 - fraction) * a + fraction * b;
+    const double low = edge.params[segment], high = edge.params[segment + 1];
+    CurvePlace on{(1 - fraction) * low + fraction * high, chord};
+    for (int step = 0; step < kSteps; ++step) {
+        edge.curve->evaluate({&on.param, 1}, {&on.place, 1});
+        const double off = (chord - on.place).dot(b - a) / (b - a).squaredNorm();
+        if (std::abs(off) * (b - a).norm() <= kShareOfTolerance * model.tolerance) break;
+        on.param = std::clamp(on.param + off * (high - low), std::min(low, high), std::max(low, high));
+    }
+    return on;
+}
 
 std::vector<Edge> divided(Edge whole, const std::vector<std::pair<std::size_t, VertexId>>& at)
 {

@@ -24,9 +24,6 @@ struct Bend {
 /// All bends of a sealed volume. O(facets).
 std::vector<Bend> bends_of(const topology::OpenVolume& volume, const RunContext& context);
 
-/// Length of the concave edges among bends [model length].
-double concave_length(const std::vector<Bend>& bends);
-
 /// How far bends are from those of one sweep: the length of all of them, and that of those which no sweep in
 /// one direction follows, for the best direction [model length].
 double length_to_cut(const std::vector<Bend>& bends);
@@ -37,16 +34,13 @@ struct CutPlane {
     std::vector<EdgeId> edges; ///< cut only as far as the plane reaches from these; empty: cut all through
 };
 
-enum class Planes { of_faces, all };
-
 /// Planes to cut a volume by, in this order:
 /// 1. of flat faces beside concave edges, as far as they reach from these;
 /// 2. midway between features, which are connected groups of bends, across the normals of flat faces and of
 ///    pairs of axes, if the bends on either side are then closer to those of one sweep; the closest first;
 /// 3. through the axes of cylinders that cross each other: halves of bores are grooves.
-/// @param planes  the first kind alone, or all.
 /// @param most  number of planes between features.
 std::vector<CutPlane> cut_planes(const topology::OpenVolume& volume, const std::vector<Bend>& bends,
-                                 Planes planes, std::size_t most);
+                                 std::size_t most);
 
 } // namespace lacuna::closure

@@ -31,7 +31,7 @@ struct EdgeSplit {
 /// Split an edge at a fraction of its polyline's length, in the edge's direction.
 ///
 /// The edge keeps its id and tag up to the new vertex. The vertex gets a new point, on the exact curve (if
-/// any) at the interpolated parameter, and adjacent facets are split there with interpolated surface
+/// any) beside that place of its chord, and adjacent facets are split there with interpolated surface
 /// parameters. An inner point of the edge within the tolerance becomes the vertex instead. If an adjacent
 /// face has a given mesh, whose nodes are fixed, the nearest inner point becomes the vertex at any distance.
 /// The loops of all adjacent faces then use both parts, a seam's loop in both directions. A closed edge keeps
