@@ -6,10 +6,12 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/nearest_word.h>
+#include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/kept_mesh.h>
 #include <lacuna/fill/detail/tets.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/walls.h>
+#include <lacuna/sweep/shared/imprinted.h>
 #include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
@@ -226,7 +228,7 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
 struct Prepared {
     std::vector<sweep::AssemblyMember> members;
     std::vector<std::string> materials; ///< of these, as the next
-    std::vector<const Part*> parts;
+    std::vector<Part*> parts;
     std::vector<sweep::LeftOut> left_out;
 };
 
@@ -264,6 +266,42 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
         ready.parts.push_back(&part);
     }
     return ready;
+}
+
+/// Whether layers and columns can follow the edges of a volume's walls.
+bool can_sweep(const topology::OpenVolume& volume, const RunContext& context)
+{
+    try {
+        surface::check_wall_edges(volume, context);
+        return true;
+    } catch (const NotSweepable&) {
+        return false;
+    }
+}
+
+/// Sweep a volume between other ends if its neighbours divide a wall so that no sweep along it can follow the
+/// edges there, and no ends were named: a board on round standoffs is swept from the side that they stand on.
+void choose_sweeps(Prepared& ready, const RunContext& context)
+{
+    const auto may_choose = [](const Part* part) { return part->volume.others && !part->volume.no_roles; };
+    if (std::ranges::none_of(ready.parts, may_choose)) return;
+    const std::vector<topology::OpenVolume> split = sweep::imprinted(ready.members, context);
+    for (std::size_t m = 0; m < split.size(); ++m) {
+        sweep::AssemblyMember& member = ready.members[m];
+        Part& part = *ready.parts[m];
+        if (!may_choose(&part) || member.unswept || can_sweep(split[m], context)) continue;
+        for (std::size_t k = 0; k < part.volume.others->ways.size(); ++k) {
+            Volume other = with_other_sweep(part.volume, k);
+            member.volume = &other.volume;
+            const bool fits = can_sweep(sweep::imprinted(ready.members, context)[m], context);
+            member.volume = &part.volume.volume;
+            if (!fits) continue;
+            part.volume = std::move(other);
+            log_line(context, formatted("note: {} is swept {}, because its neighbours divide its walls",
+                                        member.region, ends_in_words(part.volume.volume)));
+            break;
+        }
+    }
 }
 
 /// Fill the volumes that are not swept, each beside the meshes made before.
@@ -314,6 +352,7 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
                         const RunContext& context)
 {
     Prepared ready = prepare(all, std::move(left_out), alone, context);
+    choose_sweeps(ready, context);
     check_known_faces(all);
     for (sweep::AssemblyMember& member : ready.members) keep_known_faces(member);
     if (ready.members.empty() && !ready.left_out.empty()) throw NotSweepable(ready.left_out.front().message);
@@ -349,15 +388,8 @@ void report_left_out(const Volume& volume, std::vector<std::string>& report)
 
 std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context)
 {
-    const auto can_sweep = [&](const topology::OpenVolume& piece) {
-        try {
-            surface::check_wall_edges(piece, context);
-            return true;
-        } catch (const NotSweepable&) {
-            return false;
-        }
-    };
-    return closure::partition(sealed, can_sweep, context);
+    return closure::partition(
+        sealed, [&](const topology::OpenVolume& piece) { return can_sweep(piece, context); }, context);
 }
 
 FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,

@@ -173,11 +173,16 @@ private:
         FacesInCommon found = faces_in_common(members_, context_);
         if (!found.partly.empty()) {
             copy_volumes();
-            notes_ = imprint_faces(imprinted_, members_, found.partly, context_);
-            found = faces_in_common(members_, context_);
+            FaceImprint imprint = imprint_faces(imprinted_, members_, found.partly, context_);
+            notes_ = std::move(imprint.report);
+            for (std::size_t m = 0; m < members_.size(); ++m)
+                for (const FaceId whole : imprint.parents[m])
+                    found.sag[m].push_back(found.sag[m][whole.index()]);
+            found = faces_in_common(members_, context_, std::move(found.sag));
             refuse_partly_shared(found);
         }
         result_.shared = std::move(found.whole);
+        sag_ = std::move(found.sag);
         if (std::ranges::any_of(members_, &AssemblyMember::unswept)) {
             copy_volumes();
             add_vertices_beside(imprinted_, members_, result_.shared, context_);
@@ -201,10 +206,12 @@ private:
                 continue;
             }
             place[m] = swept.size();
+            std::swap(sag_[swept.size()], sag_[m]);
             swept.push_back(members_[m]);
             if (!imprinted_.empty()) volumes.push_back(std::move(imprinted_[m]));
         }
         imprinted_ = std::move(volumes);
+        sag_.resize(swept.size());
         for (std::size_t m = 0; m < imprinted_.size(); ++m) swept[m].volume = &imprinted_[m];
         const std::size_t none = members_.size();
         members_ = std::move(swept);
@@ -257,7 +264,7 @@ private:
         result_.parts.clear();
         result_.report.clear();
         made_beside_.clear();
-        result_.shared = faces_in_common(members_, context_).whole;
+        result_.shared = faces_in_common(members_, context_, sag_).whole;
         plan_ = plan_assembly(members_, result_.shared, beside_, context_);
         sweep_all();
     }
@@ -553,7 +560,8 @@ private:
     std::vector<AssemblyMember> members_;
     std::vector<OpenVolume> imprinted_;                  ///< the members' volumes, if faces had to be split
     std::vector<std::pair<std::size_t, FaceId>> beside_; ///< faces shared with members that are not swept
-    std::vector<std::string> notes_;                     ///< lines of the report: imprints and near misses
+    std::vector<std::vector<double>> sag_; ///< for each member: of its faces before ends were split
+    std::vector<std::string> notes_;       ///< lines of the report: imprints and near misses
     const RunContext& context_;
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it

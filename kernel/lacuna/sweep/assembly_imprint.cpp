@@ -9,6 +9,7 @@
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/sweep/detail/rim_arcs.h>
+#include <lacuna/sweep/shared/imprinted.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/section.h>
 #include <lacuna/topology/shared/side_points.h>
@@ -313,14 +314,17 @@ void add_vertices_beside(std::span<OpenVolume> volumes, std::span<const Assembly
     }
 }
 
-std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<const AssemblyMember> members,
-                                       std::span<const PartlyShared> pairs, const RunContext& context)
+FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const AssemblyMember> members,
+                          std::span<const PartlyShared> pairs, const RunContext& context)
 {
     std::map<std::pair<std::size_t, FaceId>, std::vector<FaceId>> parts_of;
     const auto parts = [&](std::size_t m, FaceId face) -> std::vector<FaceId>& {
         return parts_of.try_emplace({m, face}, std::vector<FaceId>{face}).first->second;
     };
-    std::vector<std::string> report;
+    FaceImprint imprint;
+    imprint.parents.resize(volumes.size());
+    std::vector<std::size_t> before;
+    for (const OpenVolume& volume : volumes) before.push_back(volume.model.faces.size());
     for (const PartlyShared& pair : pairs) {
         check_cancelled(context);
         const SharedFace& faces = pair.faces;
@@ -343,11 +347,29 @@ std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<
             parts(faces.b, faces.face_b) = all_b;
         }
         parts(faces.a, faces.face_a) = all_a;
-        report.push_back(
+        imprint.report.push_back(
             formatted("imprinted: {} of {} and {} of {} share a part, which is a face of both now", face_a,
                       a.region, face_b, b.region));
     }
-    return report;
+    for (std::size_t m = 0; m < volumes.size(); ++m) {
+        imprint.parents[m].resize(volumes[m].model.faces.size() - before[m]);
+        for (const auto& [whole, made] : parts_of) {
+            if (whole.first != m) continue;
+            for (const FaceId part : made)
+                if (part.index() >= before[m]) imprint.parents[m][part.index() - before[m]] = whole.second;
+        }
+    }
+    return imprint;
+}
+
+std::vector<OpenVolume> imprinted(std::span<const AssemblyMember> members, const RunContext& context)
+{
+    const FacesInCommon found = faces_in_common(members, context);
+    std::vector<OpenVolume> volumes;
+    if (found.partly.empty()) return volumes;
+    for (const AssemblyMember& member : members) volumes.push_back(*member.volume);
+    imprint_faces(volumes, members, found.partly, context);
+    return volumes;
 }
 
 } // namespace lacuna::sweep

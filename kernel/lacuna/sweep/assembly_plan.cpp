@@ -93,6 +93,7 @@ public:
         join_opposite();
         for (std::size_t e = 0; e < edges_.size(); ++e)
             if (stacked_.contains(same_.find(e))) common_[e] = false;
+        find_carried();
         find_kept();
         find_rows();
         count();
@@ -165,7 +166,28 @@ private:
                 common_[order[i]] = common_[order[k]] = true;
             }
         }
+        for (const SharedFace& face : shared_) find_same_rims(face);
         for (const std::size_t e : beside_) common_[e] = true;
+    }
+    /// The closed rims of a shared face are the same edges, however coarse their chords.
+    void find_same_rims(const SharedFace& face)
+    {
+        const auto closed_rims = [&](std::size_t m, FaceId of) {
+            std::vector<std::size_t> rims;
+            for (const Loop& loop : border_loops(model(m), of))
+                if (loop.uses.size() == 1) rims.push_back(number(m, loop.uses.front().edge));
+            return rims;
+        };
+        const std::vector<std::size_t> own = closed_rims(face.a, face.face_a),
+                                       others = closed_rims(face.b, face.face_b);
+        if (own.size() != others.size()) return;
+        for (const std::size_t a : own) {
+            const std::size_t b = *std::ranges::min_element(others, {}, [&](std::size_t other) {
+                return (edges_[other].centre - edges_[a].centre).norm();
+            });
+            same_.unite(std::min(a, b), std::max(a, b));
+            common_[a] = common_[b] = true;
+        }
     }
 
     /// Find corners of ends whose two edges leave them along one tangent, such as an arc and the line that
@@ -819,6 +841,18 @@ private:
                 plan.nodes[m].push_back({line[u].edge, std::move(own)});
             }
         }
+    }
+
+    /// An edge across a member's walls that others have too, such as the rim of a band, carries its nodes to
+    /// the rims of the member's ends, which then are planned with it.
+    void find_carried()
+    {
+        const std::vector<bool> frame = find_frame();
+        std::set<std::pair<std::size_t, std::size_t>> carried; // member, class
+        for (std::size_t e = 0; e < edges_.size(); ++e)
+            if (common_[e] && !frame[e]) carried.emplace(edges_[e].member, classes_.find(e));
+        for (std::size_t e = 0; e < edges_.size(); ++e)
+            if (frame[e] && carried.contains({edges_[e].member, classes_.find(e)})) common_[e] = true;
     }
 
     /// Edges on the rims of ends, and side lines; other edges on walls follow from these.

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/sweep/assembly.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// The members' volumes with faces that are shared in part split along each other's rims, as
+/// `sweep_assembly()` meshes them; empty if no face has to be split.
+/// @throw InvalidInput  as `shared_faces()`; "assembly.part_of_face" where a face cannot be split.
+std::vector<topology::OpenVolume> imprinted(std::span<const AssemblyMember> members,
+                                            const RunContext& context = {});
+
+} // namespace lacuna::sweep
