@@ -279,28 +279,53 @@ bool can_sweep(const topology::OpenVolume& volume, const RunContext& context)
     }
 }
 
-/// Sweep a volume between other ends if its neighbours divide a wall so that no sweep along it can follow the
-/// edges there, and no ends were named: a board on round standoffs is swept from the side that they stand on.
+/// What stands against a member's sweep beside its neighbours: edges on its walls that it cannot follow; then
+/// the number of faces that are an end of one volume and a wall of the other.
+std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& split, std::size_t member,
+                                               const RunContext& context)
+{
+    const auto is_wall = [&](std::size_t m, FaceId face) {
+        return split.volumes[m].role[face.index()] == topology::Role::wall;
+    };
+    const auto unlike = std::ranges::count_if(split.shared, [&](const sweep::SharedFace& face) {
+        return (face.a == member || face.b == member) &&
+               is_wall(face.a, face.face_a) != is_wall(face.b, face.face_b);
+    });
+    return {!can_sweep(split.volumes[member], context), static_cast<std::size_t>(unlike)};
+}
+
+/// Where neighbours divide faces of each other, and no ends were named, sweep a volume as its neighbours: a
+/// board on standoffs from the side that they stand on, a square pin from plate to plate.
 void choose_sweeps(Prepared& ready, const RunContext& context)
 {
     const auto may_choose = [](const Part* part) { return part->volume.others && !part->volume.no_roles; };
     if (std::ranges::none_of(ready.parts, may_choose)) return;
-    const std::vector<topology::OpenVolume> split = sweep::imprinted(ready.members, context);
-    for (std::size_t m = 0; m < split.size(); ++m) {
+    const sweep::ImprintedVolumes first = sweep::imprinted(ready.members, context);
+    for (std::size_t m = 0; m < first.volumes.size(); ++m) {
         sweep::AssemblyMember& member = ready.members[m];
         Part& part = *ready.parts[m];
-        if (!may_choose(&part) || member.unswept || can_sweep(split[m], context)) continue;
-        for (std::size_t k = 0; k < part.volume.others->ways.size(); ++k) {
-            Volume other = with_other_sweep(part.volume, k);
-            member.volume = &other.volume;
-            const bool fits = can_sweep(sweep::imprinted(ready.members, context)[m], context);
-            member.volume = &part.volume.volume;
-            if (!fits) continue;
+        if (!may_choose(&part) || member.unswept) continue;
+        const auto against = [&](const Volume& volume) {
+            member.volume = &volume.volume;
+            return unlike_neighbours(sweep::imprinted(ready.members, context), m, context);
+        };
+        auto least = unlike_neighbours(first, m, context);
+        if (least == std::pair(false, std::size_t{0})) continue;
+        const Volume own = part.volume;
+        least = against(own); // roles of others may have changed
+        bool taken = false;
+        for (std::size_t k = 0; k < own.others->ways.size(); ++k) {
+            Volume other = with_other_sweep(own, k);
+            const auto now = against(other);
+            if (now >= least) continue;
+            least = now;
             part.volume = std::move(other);
-            log_line(context, formatted("note: {} is swept {}, because its neighbours divide its walls",
-                                        member.region, ends_in_words(part.volume.volume)));
-            break;
+            taken = true;
         }
+        member.volume = &part.volume.volume;
+        if (taken)
+            log_line(context, formatted("note: {} is swept {}, as its neighbours are", member.region,
+                                        ends_in_words(part.volume.volume)));
     }
 }
 

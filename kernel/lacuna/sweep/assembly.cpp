@@ -9,6 +9,7 @@
 #include <lacuna/sweep/detail/assembly_order.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/carry_lines.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/sweep/detail/source_quads.h>
@@ -175,10 +176,7 @@ private:
             copy_volumes();
             FaceImprint imprint = imprint_faces(imprinted_, members_, found.partly, context_);
             notes_ = std::move(imprint.report);
-            for (std::size_t m = 0; m < members_.size(); ++m)
-                for (const FaceId whole : imprint.parents[m])
-                    found.sag[m].push_back(found.sag[m][whole.index()]);
-            found = faces_in_common(members_, context_, std::move(found.sag));
+            found = faces_in_common(members_, context_, with_sag_of_parts(found.sag, imprint));
             refuse_partly_shared(found);
         }
         result_.shared = std::move(found.whole);
@@ -371,6 +369,12 @@ private:
         SweepOptions options = member.options;
         options.fallback = Fallback::none; // the whole assembly is computed again
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
+        if (!plan_.heights[m].empty()) {
+            std::vector<double> heights{0};
+            heights.insert(heights.end(), plan_.heights[m].begin(), plan_.heights[m].end());
+            if (member.volume->turned_round) reverse_heights(heights); // these run from the named source
+            options.layers.heights.assign(heights.begin() + 1, heights.end());
+        }
         std::vector<Neighbour> alike, handed;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
         if (options.order > 1) give_middles(options.second_order);

@@ -151,11 +151,23 @@ void ensure_vertex(Model& model, const Edges& edges, const Vec3& p, double withi
     }
 }
 
-/// Vertices of a face's rim.
-std::vector<Vec3> corners_of(const SideOfPair& side)
+/// Whether a closed edge runs along one of another face's rim.
+bool is_closed_on_rim(const SideOfPair& side, EdgeId edge, const SideOfPair& other, double within)
+{
+    if (side.model()[edge].from != side.model()[edge].to) return false;
+    const std::vector<Vec3> line = surface::edge_line(side.model(), edge);
+    return std::ranges::any_of(rim_edges(other.model(), other.face), [&](EdgeId there) {
+        return other.model()[there].from == other.model()[there].to &&
+               chords_off(line, surface::edge_line(other.model(), there), within).empty();
+    });
+}
+
+/// Vertices of a face's rim, but for those of closed edges that both faces have.
+std::vector<Vec3> corners_of(const SideOfPair& side, const SideOfPair& other, double within)
 {
     std::vector<Vec3> corners;
     for (const EdgeId edge : rim_edges(side.model(), side.face)) {
+        if (is_closed_on_rim(side, edge, other, within)) continue;
         for (const VertexId v : {side.model()[edge].from, side.model()[edge].to})
             corners.push_back(side.model().at(side.model()[v].point));
     }
@@ -234,8 +246,8 @@ struct Parts {
 Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const RunContext& context)
 {
     const double within = std::max({limit, a.model().tolerance, b.model().tolerance});
-    std::vector<Vec3> stops = corners_of(a);
-    const std::vector<Vec3> others = corners_of(b);
+    std::vector<Vec3> stops = corners_of(a, b, within);
+    const std::vector<Vec3> others = corners_of(b, a, within);
     stops.insert(stops.end(), others.begin(), others.end());
     for (const EdgeId e : rim_edges(a.model(), a.face)) {
         const std::vector<Vec3> p = surface::edge_line(a.model(), e);
@@ -362,14 +374,25 @@ FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const Assembl
     return imprint;
 }
 
-std::vector<OpenVolume> imprinted(std::span<const AssemblyMember> members, const RunContext& context)
+std::vector<std::vector<double>> with_sag_of_parts(std::vector<std::vector<double>> sag,
+                                                   const FaceImprint& imprint)
+{
+    for (std::size_t m = 0; m < sag.size(); ++m)
+        for (const FaceId whole : imprint.parents[m]) sag[m].push_back(sag[m][whole.index()]);
+    return sag;
+}
+
+ImprintedVolumes imprinted(std::span<const AssemblyMember> members, const RunContext& context)
 {
     const FacesInCommon found = faces_in_common(members, context);
-    std::vector<OpenVolume> volumes;
-    if (found.partly.empty()) return volumes;
-    for (const AssemblyMember& member : members) volumes.push_back(*member.volume);
-    imprint_faces(volumes, members, found.partly, context);
-    return volumes;
+    ImprintedVolumes result;
+    if (found.partly.empty()) return result;
+    std::vector<AssemblyMember> split(members.begin(), members.end());
+    for (const AssemblyMember& member : members) result.volumes.push_back(*member.volume);
+    for (std::size_t m = 0; m < split.size(); ++m) split[m].volume = &result.volumes[m];
+    const FaceImprint imprint = imprint_faces(result.volumes, members, found.partly, context);
+    result.shared = faces_in_common(split, context, with_sag_of_parts(found.sag, imprint)).whole;
+    return result;
 }
 
 } // namespace lacuna::sweep
