@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: MIT
--- Members of an assembly that share faces in part: pins in plates, bands round cylinders, boards on standoffs.
+-- Members of an assembly that share faces in part: pins in plates, bands on cylinders, boards on standoffs.
 -- Each is a solid of its own, of CAD or of facets of its own fineness; what they share becomes faces of both.
--- usage: lacuna contact.lua scratch=FOLDER [first=N] [last=N]
+-- usage: lacuna contact.lua scratch=FOLDER [first=N last=N]
 local lacuna = require "lacuna"
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local params = lacuna.params { scratch = ".", first = 0, last = -1 }
 
--- --- solids -------------------------------------------------------------------------------------------------
+-- --- solids -----------------------------------------------------------------------------------------------
 
--- A solid is a prism along z over an outline, less holes: { low, high, outline, holes = { { outline, low } } };
--- a hole without `low` goes through, with it it is open at the top alone.
+-- A solid is a prism along z over an outline, less holes:
+-- { low, high, outline, holes = { { outline, low } } }; a hole with `low` is open at the top alone.
 -- An outline is { "round", x, y, radius } or { "square", x, y, half width, half depth }.
 
 --- Area of an outline; of a circle as a polygon of `sides`.
@@ -213,7 +213,7 @@ local function stl(solid, sides, path)
   return lacuna.load(path)
 end
 
--- --- the family ---------------------------------------------------------------------------------------------
+-- --- the family -------------------------------------------------------------------------------------------
 
 --- Ends of a pin in a plate from 0 to `thick`, by kind.
 local kEnds = { "flush", "up", "down", "both", "inside", "into" }
@@ -245,12 +245,12 @@ end
 function kinds.plates(random)
   local first, second = random(4, 10), random(4, 10)
   local gap = random(0, 1) < 0.5 and 0 or random(3, 8)
-  local pin = outline(random, 0, 0, 9)
+  local pin, plate = outline(random, 0, 0, 9), { "square", 0, 0, 25, 20 }
   local low, high = random(0, 1) < 0.5 and 0 or -random(2, 6), first + gap + second
   if random(0, 1) < 0.5 then high = high + random(2, 6) end
   return {
-    { low = 0, high = first, outline = { "square", 0, 0, 25, 20 }, holes = { { pin } } },
-    { low = first + gap, high = first + gap + second, outline = { "square", 0, 0, 25, 20 }, holes = { { pin } } },
+    { low = 0, high = first, outline = plate, holes = { { pin } } },
+    { low = first + gap, high = first + gap + second, outline = plate, holes = { { pin } } },
     { low = low, high = high, outline = pin },
   }, ("%s gap %.3g"):format(pin[1], gap)
 end
@@ -338,13 +338,14 @@ local function meshes(number)
   local solids, words = kinds[kind](random)
   local form = ({ "cad", "cad", "added", "stl" })[math.ceil(random(0, 4))]
   local size = random(0, 1) < 0.7 and random(2.5, 4) or nil
-  local at = ("%d %s %s, %s, size %s"):format(number, kind, words, form, size and ("%.3g"):format(size) or "default")
+  local asked = size and ("%.3g"):format(size) or "default"
+  local at = ("%d %s %s, %s, size %s"):format(number, kind, words, form, asked)
   local volumes, whole, turn = {}, 0, random(0, 1) < 0.5 and 0 or random(0, 6)
   for n, solid in ipairs(solids) do
     local path = ("%s/%03d_%d"):format(params.scratch, number, n)
     local sides = math.floor(random(20, 40)) -- each member its own
-    local model = form == "cad" and cad(solid, n * turn, path .. ".geo") or form == "stl" and stl(solid, sides, path .. ".stl") or
-      added(solid, sides)
+    local model = form == "cad" and cad(solid, n * turn, path .. ".geo")
+      or form == "stl" and stl(solid, sides, path .. ".stl") or added(solid, sides)
     -- All faces: of facets alone, a bore is taken for the space otherwise.
     volumes[n] = model:open_volume { name = "member_" .. n, faces = model:faces() }
     whole = whole + volume(solid, form == "cad" and 1e4 or sides)
@@ -354,24 +355,24 @@ local function meshes(number)
   local quality = mesh:quality()
   check.that(quality.certified, at)
   -- Sizes that are asked for decide how well chords follow circles.
-  check.that(math.abs(quality.volume / whole - 1) < (size and 0.02 or 0.01), at .. ": volume " .. quality.volume / whole)
-  check.that(quality.min_scaled_jacobian >= 0.3, ("%s: least scaled Jacobian %.3g"):format(at, quality.min_scaled_jacobian))
+  local share, least = quality.volume / whole, quality.min_scaled_jacobian
+  check.that(math.abs(share - 1) < (size and 0.02 or 0.01), at .. ": volume " .. share)
+  check.that(least >= 0.3, ("%s: least scaled Jacobian %.3g"):format(at, least))
   return at, quality
 end
 
-if params.last >= 0 then
-  local right = 0
+if params.last >= 0 then -- some members, each in a line
   for number = params.first, params.last do
-    local start = os.clock()
     local fine, at, quality = pcall(meshes, number)
-    if fine then
-      right = right + 1
-      print(("ok   %5.1f %s: %.2f %.4f"):format(os.clock() - start, at, quality.min_scaled_jacobian, quality.volume))
-    else
-      print(("FAIL %5.1f %d %s"):format(os.clock() - start, number, tostring(at)))
-    end
+    print(fine and ("ok   %s: %.2f %.4f"):format(at, quality.min_scaled_jacobian, quality.volume)
+      or ("FAIL %d %s"):format(number, tostring(at)))
   end
-  print(right .. " of " .. params.last - params.first + 1)
   return
 end
+
+local runs = check.members_to_run(7)
+for number = 0, 99 do
+  if runs() then meshes(number) end
+end
+
 check.done()
