@@ -100,7 +100,7 @@ public:
         join_opposite();
         for (std::size_t e = 0; e < edges_.size(); ++e)
             if (stacked_.contains(same_.find(e))) common_[e] = false;
-        find_carried();
+        find_across();
         find_kept();
         find_rows();
         count();
@@ -190,7 +190,9 @@ private:
         if (own.size() != others.size()) return;
         for (const std::size_t a : own) {
             const std::size_t b = *std::ranges::min_element(others, {}, [&](std::size_t other) {
-                return (edges_[other].centre - edges_[a].centre).norm();
+                // Rims round each other have one centre.
+                return (edges_[other].centre - edges_[a].centre).norm() +
+                       std::abs(edges_[other].length - edges_[a].length);
             });
             same_.unite(std::min(a, b), std::max(a, b));
             common_[a] = common_[b] = true;
@@ -862,16 +864,16 @@ private:
         }
     }
 
-    /// An edge across a member's walls that others have too, such as the rim of a band, carries its nodes to
+    /// An edge across a member's walls that others have too, such as the rim of a band, has as many sides as
     /// the rims of the member's ends, which then are planned with it.
-    void find_carried()
+    void find_across()
     {
         const std::vector<bool> frame = find_frame();
-        std::set<std::pair<std::size_t, std::size_t>> carried; // member, class
+        std::set<std::pair<std::size_t, std::size_t>> across; // member, class
         for (std::size_t e = 0; e < edges_.size(); ++e)
-            if (common_[e] && !frame[e]) carried.emplace(edges_[e].member, classes_.find(e));
+            if (common_[e] && !frame[e]) across.emplace(edges_[e].member, classes_.find(e));
         for (std::size_t e = 0; e < edges_.size(); ++e)
-            if (frame[e] && carried.contains({edges_[e].member, classes_.find(e)})) common_[e] = true;
+            if (frame[e] && across.contains({edges_[e].member, classes_.find(e)})) common_[e] = true;
     }
 
     /// Edges on the rims of ends, and side lines; other edges on walls follow from these.

@@ -62,13 +62,14 @@ void add_to_seam(ModelBuilder& model, Index a, Index b, double fraction, Index p
         for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
             if (edge_key(edge.points[i], edge.points[i + 1]) != edge_key(a, b)) continue;
             const double f = edge.points[i] == a ? fraction : 1 - fraction;
+            const auto after = static_cast<std::ptrdiff_t>(i) + 1;
             if (!edge.params.empty()) {
                 const double param = (1 - f) * edge.params[i] + f * edge.params[i + 1];
-                if (edge.curve)
-                    edge.curve->evaluate({&param, 1}, {&model.points[static_cast<std::size_t>(point)], 1}, {});
-                edge.params.insert(edge.params.begin() + static_cast<std::ptrdiff_t>(i) + 1, param);
+                Vec3& place = model.points[static_cast<std::size_t>(point)];
+                if (edge.curve) edge.curve->evaluate({&param, 1}, {&place, 1}, {});
+                edge.params.insert(edge.params.begin() + after, param);
             }
-            edge.points.insert(edge.points.begin() + static_cast<std::ptrdiff_t>(i) + 1, point);
+            edge.points.insert(edge.points.begin() + after, point);
             return;
         }
     }

@@ -24,8 +24,8 @@ struct WallBreaks {
 WallBreaks set_wall_breaks(const topology::OpenVolume& volume, const SizeField& size,
                            std::vector<LinkingSurface> links);
 
-/// Mean height of each edge around the walls of a linking surface, between the rims: from 0 at the source to 1
-/// at the target.
+/// Mean height of each edge around the walls of a linking surface, between the rims: from 0 at the source to
+/// 1 at the target.
 /// @note  Maps the walls onto a strip only if they have more faces than side lines separate.
 std::map<EdgeId, double> heights_around(const topology::OpenVolume& volume, const LinkingSurface& link,
                                         const RunContext& context = {});
