@@ -6,10 +6,12 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/nearest_word.h>
+#include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/kept_mesh.h>
 #include <lacuna/fill/detail/tets.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/walls.h>
+#include <lacuna/sweep/shared/imprinted.h>
 #include <lacuna/topology/shared/left_out.h>
 
 #include <algorithm>
@@ -226,7 +228,7 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
 struct Prepared {
     std::vector<sweep::AssemblyMember> members;
     std::vector<std::string> materials; ///< of these, as the next
-    std::vector<const Part*> parts;
+    std::vector<Part*> parts;
     std::vector<sweep::LeftOut> left_out;
 };
 
@@ -264,6 +266,67 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
         ready.parts.push_back(&part);
     }
     return ready;
+}
+
+/// Whether layers and columns can follow the edges of a volume's walls.
+bool can_sweep(const topology::OpenVolume& volume, const RunContext& context)
+{
+    try {
+        surface::check_wall_edges(volume, context);
+        return true;
+    } catch (const NotSweepable&) {
+        return false;
+    }
+}
+
+/// What stands against a member's sweep beside its neighbours: edges on its walls that it cannot follow; then
+/// the number of faces that are an end of one volume and a wall of the other.
+std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& split, std::size_t member,
+                                               const RunContext& context)
+{
+    const auto is_wall = [&](std::size_t m, FaceId face) {
+        return split.volumes[m].role[face.index()] == topology::Role::wall;
+    };
+    const auto unlike = std::ranges::count_if(split.shared, [&](const sweep::SharedFace& face) {
+        return (face.a == member || face.b == member) &&
+               is_wall(face.a, face.face_a) != is_wall(face.b, face.face_b);
+    });
+    return {!can_sweep(split.volumes[member], context), static_cast<std::size_t>(unlike)};
+}
+
+/// Where neighbours divide faces of each other, and no ends were named, sweep a volume as its neighbours: a
+/// board on standoffs from the side that they stand on, a square pin from plate to plate.
+void choose_sweeps(Prepared& ready, const RunContext& context)
+{
+    const auto may_choose = [](const Part* part) { return part->volume.others && !part->volume.no_roles; };
+    if (std::ranges::none_of(ready.parts, may_choose)) return;
+    const sweep::ImprintedVolumes first = sweep::imprinted(ready.members, context);
+    for (std::size_t m = 0; m < first.volumes.size(); ++m) {
+        sweep::AssemblyMember& member = ready.members[m];
+        Part& part = *ready.parts[m];
+        if (!may_choose(&part) || member.unswept) continue;
+        const auto against = [&](const Volume& volume) {
+            member.volume = &volume.volume;
+            return unlike_neighbours(sweep::imprinted(ready.members, context), m, context);
+        };
+        auto least = unlike_neighbours(first, m, context);
+        if (least == std::pair(false, std::size_t{0})) continue;
+        const Volume own = part.volume;
+        least = against(own); // roles of others may have changed
+        bool taken = false;
+        for (std::size_t k = 0; k < own.others->ways.size(); ++k) {
+            Volume other = with_other_sweep(own, k);
+            const auto now = against(other);
+            if (now >= least) continue;
+            least = now;
+            part.volume = std::move(other);
+            taken = true;
+        }
+        member.volume = &part.volume.volume;
+        if (taken)
+            log_line(context, formatted("note: {} is swept {}, as its neighbours are", member.region,
+                                        ends_in_words(part.volume.volume)));
+    }
 }
 
 /// Fill the volumes that are not swept, each beside the meshes made before.
@@ -314,6 +377,7 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
                         const RunContext& context)
 {
     Prepared ready = prepare(all, std::move(left_out), alone, context);
+    choose_sweeps(ready, context);
     check_known_faces(all);
     for (sweep::AssemblyMember& member : ready.members) keep_known_faces(member);
     if (ready.members.empty() && !ready.left_out.empty()) throw NotSweepable(ready.left_out.front().message);
@@ -349,15 +413,8 @@ void report_left_out(const Volume& volume, std::vector<std::string>& report)
 
 std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context)
 {
-    const auto can_sweep = [&](const topology::OpenVolume& piece) {
-        try {
-            surface::check_wall_edges(piece, context);
-            return true;
-        } catch (const NotSweepable&) {
-            return false;
-        }
-    };
-    return closure::partition(sealed, can_sweep, context);
+    return closure::partition(
+        sealed, [&](const topology::OpenVolume& piece) { return can_sweep(piece, context); }, context);
 }
 
 FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,

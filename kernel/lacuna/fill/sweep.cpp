@@ -98,19 +98,6 @@ Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request
     return filled;
 }
 
-// --- other sweeps of the same void ------------------------------------------------------------------------
-
-/// The same volume with the roles of an alternative sweep of its void.
-Volume with_other_sweep(const Volume& volume, std::size_t number)
-{
-    Volume other = volume;
-    other.volume = closure::other_sweep(*volume.others, number);
-    other.closure = volume.others->closure;
-    other.classification = topology::classify(other.volume);
-    other.match.reset();
-    return other;
-}
-
 // --- volumes that no single sweep fills -------------------------------------------------------------------
 
 /// The pieces of a sealed volume; itself if it cannot be cut.

@@ -134,6 +134,16 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
     return volume;
 }
 
+Volume with_other_sweep(const Volume& volume, std::size_t number)
+{
+    Volume other = volume;
+    other.volume = closure::other_sweep(*volume.others, number);
+    other.closure = volume.others->closure;
+    other.classification = topology::classify(other.volume);
+    other.match.reset();
+    return other;
+}
+
 bool has_pieces(const Volume& volume, const RunContext& context)
 {
     return volume.along ? volume.along->full_turn : closure::has_pieces(volume.volume, context);

@@ -192,4 +192,15 @@ WallBreaks set_wall_breaks(const OpenVolume& volume, const SizeField& size, std:
     return {std::move(links), layers};
 }
 
+std::map<EdgeId, double> heights_around(const OpenVolume& volume, const LinkingSurface& link,
+                                        const RunContext& context)
+{
+    std::map<EdgeId, double> heights;
+    if (link.walls.size() <= std::max<std::size_t>(1, link.lines.size())) return heights;
+    const LinkingMap map(volume, link, true, context);
+    for (const LinkingMap::Ring& ring : map.rings())
+        for (const LinkingMap::Piece& piece : ring.pieces) heights.emplace(piece.edge, ring.height);
+    return heights;
+}
+
 } // namespace lacuna::surface

@@ -9,6 +9,7 @@
 #include <lacuna/sweep/detail/assembly_order.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/carry_lines.h>
+#include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/sweep/detail/source_quads.h>
@@ -222,11 +223,13 @@ private:
         FacesInCommon found = faces_in_common(members_, context_);
         if (!found.partly.empty()) {
             copy_volumes();
-            notes_ = imprint_faces(imprinted_, members_, found.partly, context_);
-            found = faces_in_common(members_, context_);
+            FaceImprint imprint = imprint_faces(imprinted_, members_, found.partly, context_);
+            notes_ = std::move(imprint.report);
+            found = faces_in_common(members_, context_, with_sag_of_parts(found.sag, imprint));
             refuse_partly_shared(found);
         }
         result_.shared = std::move(found.whole);
+        sag_ = std::move(found.sag);
         if (std::ranges::any_of(members_, &AssemblyMember::unswept)) {
             copy_volumes();
             add_vertices_beside(imprinted_, members_, result_.shared, context_);
@@ -250,10 +253,12 @@ private:
                 continue;
             }
             place[m] = swept.size();
+            std::swap(sag_[swept.size()], sag_[m]);
             swept.push_back(members_[m]);
             if (!imprinted_.empty()) volumes.push_back(std::move(imprinted_[m]));
         }
         imprinted_ = std::move(volumes);
+        sag_.resize(swept.size());
         for (std::size_t m = 0; m < imprinted_.size(); ++m) swept[m].volume = &imprinted_[m];
         const std::size_t none = members_.size();
         members_ = std::move(swept);
@@ -304,7 +309,7 @@ private:
     void sweep_again()
     {
         result_.report.clear();
-        result_.shared = faces_in_common(members_, context_).whole;
+        result_.shared = faces_in_common(members_, context_, sag_).whole;
         plan_ = plan_assembly(members_, result_.shared, beside_, context_);
         sweep_all();
     }
@@ -451,6 +456,12 @@ private:
         SweepOptions options = member.options;
         options.fallback = Fallback::none; // the whole assembly is computed again
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
+        if (!plan_.heights[m].empty()) {
+            std::vector<double> heights{0};
+            heights.insert(heights.end(), plan_.heights[m].begin(), plan_.heights[m].end());
+            if (member.volume->turned_round) reverse_heights(heights); // these run from the named source
+            options.layers.heights.assign(heights.begin() + 1, heights.end());
+        }
         std::vector<Neighbour> alike, handed;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
         if (options.order > 1) give_middles(options.second_order);
@@ -640,7 +651,8 @@ private:
     std::vector<AssemblyMember> members_;
     std::vector<OpenVolume> imprinted_;                  ///< the members' volumes, if faces had to be split
     std::vector<std::pair<std::size_t, FaceId>> beside_; ///< faces shared with members that are not swept
-    std::vector<std::string> notes_;                     ///< lines of the report: imprints and near misses
+    std::vector<std::vector<double>> sag_; ///< for each member: of its faces before ends were split
+    std::vector<std::string> notes_;       ///< lines of the report: imprints and near misses
     const RunContext& context_;
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it

@@ -9,6 +9,7 @@
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/sweep/detail/rim_arcs.h>
+#include <lacuna/sweep/shared/imprinted.h>
 #include <lacuna/topology/shared/curve_place.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -185,11 +186,23 @@ void ensure_vertex(Model& model, const Edges& edges, const Vec3& p, double withi
     }
 }
 
-/// Vertices of a face's rim.
-std::vector<Vec3> corners_of(const SideOfPair& side)
+/// Whether a closed edge runs along one of another face's rim.
+bool is_closed_on_rim(const SideOfPair& side, EdgeId edge, const SideOfPair& other, double within)
+{
+    if (side.model()[edge].from != side.model()[edge].to) return false;
+    const std::vector<Vec3> line = surface::edge_line(side.model(), edge);
+    return std::ranges::any_of(rim_edges(other.model(), other.face), [&](EdgeId there) {
+        return other.model()[there].from == other.model()[there].to &&
+               chords_off(line, surface::edge_line(other.model(), there), within).empty();
+    });
+}
+
+/// Vertices of a face's rim, but for those of closed edges that both faces have.
+std::vector<Vec3> corners_of(const SideOfPair& side, const SideOfPair& other, double within)
 {
     std::vector<Vec3> corners;
     for (const EdgeId edge : rim_edges(side.model(), side.face)) {
+        if (is_closed_on_rim(side, edge, other, within)) continue;
         for (const VertexId v : {side.model()[edge].from, side.model()[edge].to})
             corners.push_back(side.model().at(side.model()[v].point));
     }
@@ -274,8 +287,8 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
                 ensure_vertex(side->model(), rim_edges(side->model(), side->face), stop, within);
     };
     // Corners first: rims whose curves meet in one may have chords that cross beside it.
-    std::vector<Vec3> stops = corners_of(a);
-    const std::vector<Vec3> others = corners_of(b);
+    std::vector<Vec3> stops = corners_of(a, b, within);
+    const std::vector<Vec3> others = corners_of(b, a, within);
     stops.insert(stops.end(), others.begin(), others.end());
     ensure_vertices(stops);
     stops.clear();
@@ -353,14 +366,17 @@ void add_vertices_beside(std::span<OpenVolume> volumes, std::span<const Assembly
     }
 }
 
-std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<const AssemblyMember> members,
-                                       std::span<const PartlyShared> pairs, const RunContext& context)
+FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const AssemblyMember> members,
+                          std::span<const PartlyShared> pairs, const RunContext& context)
 {
     std::map<std::pair<std::size_t, FaceId>, std::vector<FaceId>> parts_of;
     const auto parts = [&](std::size_t m, FaceId face) -> std::vector<FaceId>& {
         return parts_of.try_emplace({m, face}, std::vector<FaceId>{face}).first->second;
     };
-    std::vector<std::string> report;
+    FaceImprint imprint;
+    imprint.parents.resize(volumes.size());
+    std::vector<std::size_t> before;
+    for (const OpenVolume& volume : volumes) before.push_back(volume.model.faces.size());
     for (const PartlyShared& pair : pairs) {
         check_cancelled(context);
         const SharedFace& faces = pair.faces;
@@ -383,11 +399,40 @@ std::vector<std::string> imprint_faces(std::span<OpenVolume> volumes, std::span<
             parts(faces.b, faces.face_b) = all_b;
         }
         parts(faces.a, faces.face_a) = all_a;
-        report.push_back(
+        imprint.report.push_back(
             formatted("imprinted: {} of {} and {} of {} share a part, which is a face of both now", face_a,
                       a.region, face_b, b.region));
     }
-    return report;
+    for (std::size_t m = 0; m < volumes.size(); ++m) {
+        imprint.parents[m].resize(volumes[m].model.faces.size() - before[m]);
+        for (const auto& [whole, made] : parts_of) {
+            if (whole.first != m) continue;
+            for (const FaceId part : made)
+                if (part.index() >= before[m]) imprint.parents[m][part.index() - before[m]] = whole.second;
+        }
+    }
+    return imprint;
+}
+
+std::vector<std::vector<double>> with_sag_of_parts(std::vector<std::vector<double>> sag,
+                                                   const FaceImprint& imprint)
+{
+    for (std::size_t m = 0; m < sag.size(); ++m)
+        for (const FaceId whole : imprint.parents[m]) sag[m].push_back(sag[m][whole.index()]);
+    return sag;
+}
+
+ImprintedVolumes imprinted(std::span<const AssemblyMember> members, const RunContext& context)
+{
+    const FacesInCommon found = faces_in_common(members, context);
+    ImprintedVolumes result;
+    if (found.partly.empty()) return result;
+    std::vector<AssemblyMember> split(members.begin(), members.end());
+    for (const AssemblyMember& member : members) result.volumes.push_back(*member.volume);
+    for (std::size_t m = 0; m < split.size(); ++m) split[m].volume = &result.volumes[m];
+    const FaceImprint imprint = imprint_faces(result.volumes, members, found.partly, context);
+    result.shared = faces_in_common(split, context, with_sag_of_parts(found.sag, imprint)).whole;
+    return result;
 }
 
 } // namespace lacuna::sweep

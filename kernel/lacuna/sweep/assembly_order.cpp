@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/assembly_order.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 #include <string>
@@ -39,6 +40,17 @@ std::vector<bool> split_at_both_ends(std::span<const AssemblyMember> members,
 bool is_wall(const AssemblyMember& member, FaceId face)
 {
     return member.volume->role[face.index()] == Role::wall;
+}
+
+/// Whether a face is in the middle of a member's walls, clear of both rims, such as the part of a pin in a
+/// plate: given rows of quads there would leave no column to follow.
+bool in_middle(const AssemblyMember& member, FaceId face)
+{
+    const Model& model = member.volume->model;
+    return is_wall(member, face) && std::ranges::all_of(uses_of(model[face]), [&](const EdgeUse& use) {
+               return std::ranges::all_of(model.uses_of_edge(use.edge),
+                                          [&](const FaceUse& user) { return is_wall(member, user.face); });
+           });
 }
 
 } // namespace
@@ -94,6 +106,15 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
                    is_wall(members[other], is_a ? face.face_b : face.face_a) == other_wall;
         });
     };
+    std::vector<std::set<std::size_t>> below(members.size()); // those with a shared wall in their middle
+    for (const SharedFace& face : shared) {
+        const bool a = in_middle(members[face.a], face.face_a), b = in_middle(members[face.b], face.face_b);
+        if (a && !b && is_wall(members[face.b], face.face_b)) below[face.b].insert(face.a);
+        if (b && !a && is_wall(members[face.a], face.face_a)) below[face.a].insert(face.b);
+    }
+    const auto is_below = [&](std::size_t m) {
+        return std::ranges::any_of(below[m], [&](std::size_t other) { return placed[other] == 0; });
+    };
     for (;;) {
         std::size_t next = members.size();
         const auto take = [&](std::size_t m, bool ready) {
@@ -106,10 +127,11 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
         for (std::size_t m = 0; m < members.size(); ++m) take(m, came_with_mesh(members[m]));
         for (std::size_t m = 0; m < members.size(); ++m) take(m, !members[m].options.boundary_layers.empty());
         for (std::size_t m = 0; m < members.size(); ++m)
-            take(m, early[m] && !has(m, false, false, true) && !has(m, false, true, true));
-        const auto waits = [&](std::size_t m) { return has(m, false, true, false); };
+            take(m, early[m] && !has(m, false, false, true) && !has(m, false, true, true) && !is_below(m));
+        const auto waits = [&](std::size_t m) { return has(m, false, true, false) || is_below(m); };
         for (std::size_t m = 0; m < members.size(); ++m) take(m, has(m, false, false, true) && !waits(m));
         for (std::size_t m = 0; m < members.size(); ++m) take(m, !waits(m));
+        for (std::size_t m = 0; m < members.size(); ++m) take(m, !is_below(m));
         for (std::size_t m = 0; m < members.size(); ++m) take(m, true);
         if (next == members.size()) return order;
         placed[next] = 1;

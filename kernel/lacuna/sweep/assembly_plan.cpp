@@ -9,6 +9,7 @@
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/shared/rim_breaks.h>
 #include <lacuna/surface/shared/seeds.h>
+#include <lacuna/sweep/detail/assembly_levels.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/edge_rows.h>
 #include <lacuna/sweep/detail/keep_thickness.h>
@@ -66,7 +67,7 @@ class Planner {
 public:
     Planner(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
             std::span<const std::pair<std::size_t, FaceId>> beside, const RunContext& context)
-        : members_(members), shared_(shared), context_(context)
+        : members_(members), shared_(shared), context_(context), levels_(members, shared)
     {
         for (std::size_t m = 0; m < members.size(); ++m) {
             const Model& model = members[m].volume->model;
@@ -90,9 +91,16 @@ public:
             check_cancelled(context_);
             if (members_[m].fixed == nullptr) join_by_sweep(m);
         }
+        heights_ = levels_.heights([this](std::size_t m, double height) {
+            const std::vector<Vec3>& points = model(m).points;
+            const Vec3 middle = std::accumulate(points.begin(), points.end(), Vec3(Vec3::Zero())) /
+                                static_cast<double>(points.size());
+            return std::max<double>(layers_[m], height / size(m, middle));
+        });
         join_opposite();
         for (std::size_t e = 0; e < edges_.size(); ++e)
             if (stacked_.contains(same_.find(e))) common_[e] = false;
+        find_across();
         find_kept();
         find_rows();
         count();
@@ -165,7 +173,30 @@ private:
                 common_[order[i]] = common_[order[k]] = true;
             }
         }
+        for (const SharedFace& face : shared_) find_same_rims(face);
         for (const std::size_t e : beside_) common_[e] = true;
+    }
+    /// The closed rims of a shared face are the same edges, however coarse their chords.
+    void find_same_rims(const SharedFace& face)
+    {
+        const auto closed_rims = [&](std::size_t m, FaceId of) {
+            std::vector<std::size_t> rims;
+            for (const Loop& loop : border_loops(model(m), of))
+                if (loop.uses.size() == 1) rims.push_back(number(m, loop.uses.front().edge));
+            return rims;
+        };
+        const std::vector<std::size_t> own = closed_rims(face.a, face.face_a),
+                                       others = closed_rims(face.b, face.face_b);
+        if (own.size() != others.size()) return;
+        for (const std::size_t a : own) {
+            const std::size_t b = *std::ranges::min_element(others, {}, [&](std::size_t other) {
+                // Rims round each other have one centre.
+                return (edges_[other].centre - edges_[a].centre).norm() +
+                       std::abs(edges_[other].length - edges_[a].length);
+            });
+            same_.unite(std::min(a, b), std::max(a, b));
+            common_[a] = common_[b] = true;
+        }
     }
 
     /// Find corners of ends whose two edges leave them along one tangent, such as an arc and the line that
@@ -214,6 +245,7 @@ private:
         const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(*members_[m].volume);
         find_demands(m, links);
         plan_sides(m, links);
+        levels_.read(m, links, context_);
         for (const surface::LinkingSurface& link : links) {
             for (const surface::RimSegment& segment : link.segments) {
                 const EdgeId from = link.source.uses()[segment.use].edge;
@@ -606,6 +638,12 @@ private:
             count_[of] = layers_asked(m);
             asked_.insert(of);
         }
+        for (const auto& [m, sides] : sides_) {
+            if (sides.empty() || heights_[m].empty()) continue;
+            const std::size_t of = classes_.find(number(m, sides.front().edge));
+            count_[of] = static_cast<int>(heights_[m].size());
+            asked_.insert(of);
+        }
         for (const auto& [of, sides] : intervals_) {
             if (kept_of_class_.at(of) == Kept::quads) continue; // the sweep reports the number
             count_[of] = sides.count;
@@ -680,15 +718,19 @@ private:
         for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
         // Layers are spaced as in a member whose options require it.
         for (const auto& [m, sides] : sides_) {
+            const bool by_levels = std::cmp_equal(heights_[m].size(), count);
             const LayerSpec& spec = members_[m].options.layers;
-            if (spec.heights.empty() && spec.bias == 1) continue;
+            if (spec.heights.empty() && spec.bias == 1 && !by_levels) continue;
             for (const EdgeUse& side : sides) {
                 const std::size_t own = number(m, side.edge);
                 if (same_.find(own) != same_.find(e)) continue;
                 LayerSpec whole = spec;
-                if (whole.heights.empty()) whole.count = count;
+                if (by_levels)
+                    whole.heights = heights_[m];
+                else if (whole.heights.empty())
+                    whole.count = count;
                 at = layer_heights(whole);
-                if (members_[m].volume->turned_round) reverse_heights(at);
+                if (members_[m].volume->turned_round && !by_levels) reverse_heights(at);
                 if (side.reversed == run_alike(edges_[own], edge)) reverse_heights(at);
             }
         }
@@ -769,6 +811,7 @@ private:
             if (beside) plan.layers[m] = count_.at(classes_.find(number(m, sides.front().edge)));
         }
         for (const auto& [m, lines] : stacks_) plan_stacks(m, lines, nodes, plan);
+        plan.heights = heights_;
         return plan;
     }
 
@@ -819,6 +862,18 @@ private:
                 plan.nodes[m].push_back({line[u].edge, std::move(own)});
             }
         }
+    }
+
+    /// An edge across a member's walls that others have too, such as the rim of a band, has as many sides as
+    /// the rims of the member's ends, which then are planned with it.
+    void find_across()
+    {
+        const std::vector<bool> frame = find_frame();
+        std::set<std::pair<std::size_t, std::size_t>> across; // member, class
+        for (std::size_t e = 0; e < edges_.size(); ++e)
+            if (common_[e] && !frame[e]) across.emplace(edges_[e].member, classes_.find(e));
+        for (std::size_t e = 0; e < edges_.size(); ++e)
+            if (frame[e] && across.contains({edges_[e].member, classes_.find(e)})) common_[e] = true;
     }
 
     /// Edges on the rims of ends, and side lines; other edges on walls follow from these.
@@ -900,10 +955,12 @@ private:
     std::set<std::size_t> beside_; ///< edges shared with members that are not swept
     /// For each member: side lines of several edges, some of them shared with such members.
     std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
-    std::map<std::size_t, std::vector<EdgeUse>> sides_;       ///< for each member: side lines of one edge
-    std::map<std::size_t, int> count_;                        ///< for each class
-    std::vector<int> per_turn_, layers_;                      ///< numbers required by each member's volume
-    std::map<std::size_t, Followed> followed_;                ///< for each set of same edges
+    std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
+    std::map<std::size_t, int> count_;                  ///< for each class
+    std::vector<int> per_turn_, layers_;                ///< numbers required by each member's volume
+    AssemblyLevels levels_;
+    std::vector<std::vector<double>> heights_; ///< for each member: layers between levels, from its source
+    std::map<std::size_t, Followed> followed_; ///< for each set of same edges
     std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member with intervals
     std::map<std::size_t, SidesOfClass> intervals_;           ///< for each class with an interval request
     /// For each set of same edges, the edge with a requested bias, and that bias in its direction.

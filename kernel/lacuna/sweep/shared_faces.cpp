@@ -118,7 +118,8 @@ bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& 
 {
     RimOff off = rim_off(one, other);
     const RimOff back = rim_off(other, one);
-    const double slack = tolerance + kRimSag * std::max(off.sag, back.sag);
+    // A rim that was laid onto facets is off the curve by as much as these.
+    const double slack = std::max(tolerance + kRimSag * std::max(off.sag, back.sag), common.limit);
     if (back.distance > off.distance) off = back;
     if (off.distance <= tolerance) return true;
     const double by_arcs = arcs_apart(rim_chords(one.model(), one.face),
@@ -287,20 +288,21 @@ double facet_sag(const Model& model, const Face& face)
     return sag;
 }
 
-FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context)
+FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
+                              std::vector<std::vector<double>> sag)
 {
     std::vector<std::vector<Side>> sides(members.size());
-    std::vector<std::vector<double>> sag(members.size());
+    sag.resize(members.size());
     std::vector<Eigen::AlignedBox3d> box(members.size());
     for (std::size_t m = 0; m < members.size(); ++m) {
         const OpenVolume& volume = *members[m].volume;
         for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
-            Side side{&volume, FaceId(f), {}, facet_sag(volume.model, volume.model.faces[f])};
+            if (f == sag[m].size()) sag[m].push_back(facet_sag(volume.model, volume.model.faces[f]));
+            Side side{&volume, FaceId(f), {}, sag[m][f]};
             for (const Triangle& t : volume.model.faces[f].triangles) {
                 for (const Index p : t) side.box.extend(volume.model.at(p));
             }
             box[m].extend(side.box);
-            sag[m].push_back(side.sag);
             sides[m].push_back(std::move(side));
         }
     }
@@ -347,6 +349,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
     found.near = near_misses(members, sag, pairs, found, context);
     found.near.insert(found.near.end(), hidden.begin(), hidden.end());
     if (same_side) throw InvalidInput(*same_side);
+    found.sag = std::move(sag);
     return found;
 }
 

@@ -55,6 +55,50 @@ Index add_point(ModelBuilder& model, FaceId face, Vec3 place, Vec2 uv)
     return static_cast<Index>(model.points.size()) - 1;
 }
 
+/// Insert a point into the chain of the edge that has a side, a seam, on its exact curve if there is one.
+void add_to_seam(ModelBuilder& model, Index a, Index b, double fraction, Index point)
+{
+    for (Edge& edge : model.edges) {
+        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+            if (edge_key(edge.points[i], edge.points[i + 1]) != edge_key(a, b)) continue;
+            const double f = edge.points[i] == a ? fraction : 1 - fraction;
+            const auto after = static_cast<std::ptrdiff_t>(i) + 1;
+            if (!edge.params.empty()) {
+                const double param = (1 - f) * edge.params[i] + f * edge.params[i + 1];
+                Vec3& place = model.points[static_cast<std::size_t>(point)];
+                if (edge.curve) edge.curve->evaluate({&param, 1}, {&place, 1}, {});
+                edge.params.insert(edge.params.begin() + after, param);
+            }
+            edge.points.insert(edge.points.begin() + after, point);
+            return;
+        }
+    }
+}
+
+/// Insert a point into the side of two facets, as `point_on_side()`: of an exact surface the point closest to
+/// `place`.
+Index add_on_side(ModelBuilder& model, FaceId id, Index a, Index b, double fraction, const Vec3& place)
+{
+    Face& face = model[id];
+    int beside = 0;
+    Vec2 uv = Vec2::Zero();
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (edge_key(face.triangles[t][k], face.triangles[t][(k + 1) % 3]) != edge_key(a, b)) continue;
+            ++beside;
+            const double f = face.triangles[t][k] == a ? fraction : 1 - fraction;
+            uv = (1 - f) * uv_of(face, t, k) + f * uv_of(face, t, (k + 1) % 3);
+        }
+    }
+    if (beside < 2) return -1;
+    const Index made = add_point(model, id, place, uv);
+    add_to_seam(model, a, b, fraction, made);
+    SidePoints sides;
+    sides.add(a, b, {made});
+    cut_at_sides(model.points, face, sides);
+    return made;
+}
+
 } // namespace
 
 bool erase_facets(Face& face, const std::function<bool(std::size_t facet)>& gone)
@@ -119,25 +163,9 @@ void cut_at_sides(std::span<const Vec3> points, Face& face, const SidePoints& si
     face.uv = std::move(uv);
 }
 
-Index point_on_side(ModelBuilder& model, FaceId id, Index a, Index b, double fraction)
+Index point_on_side(ModelBuilder& model, FaceId face, Index a, Index b, double fraction)
 {
-    Face& face = model[id];
-    int beside = 0;
-    Vec2 uv = Vec2::Zero();
-    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (edge_key(face.triangles[t][k], face.triangles[t][(k + 1) % 3]) != edge_key(a, b)) continue;
-            ++beside;
-            const double f = face.triangles[t][k] == a ? fraction : 1 - fraction;
-            uv = (1 - f) * uv_of(face, t, k) + f * uv_of(face, t, (k + 1) % 3);
-        }
-    }
-    if (beside < 2) return -1;
-    const Index made = add_point(model, id, (1 - fraction) * model.at(a) + fraction * model.at(b), uv);
-    SidePoints sides;
-    sides.add(a, b, {made});
-    cut_at_sides(model.points, face, sides);
-    return made;
+    return add_on_side(model, face, a, b, fraction, (1 - fraction) * model.at(a) + fraction * model.at(b));
 }
 
 Index point_on_face(ModelBuilder& model, FaceId id, const Vec3& place)
@@ -154,13 +182,15 @@ Index point_on_face(ModelBuilder& model, FaceId id, const Vec3& place)
     }
     const auto t = static_cast<std::size_t>(best.triangle);
     const Triangle corner = face.triangles[t];
+    // From facets, a surface's closest point would be beside that of the place.
+    const Vec3 wanted = face.surface ? place : best.point;
     for (const Index c : corner)
         if ((model.at(c) - best.point).norm() <= model.tolerance) return c;
     for (std::size_t k = 0; k < 3; ++k) {
         const Index a = corner[k], b = corner[(k + 1) % 3];
         const double f = fraction_along(best.point, model.at(a), model.at(b));
         if ((best.point - ((1 - f) * model.at(a) + f * model.at(b))).norm() <= model.tolerance)
-            return point_on_side(model, id, a, b, f);
+            return add_on_side(model, id, a, b, f, wanted);
     }
     std::array<Vec2, 3> uv;
     Vec2 own = Vec2::Zero();
@@ -168,7 +198,7 @@ Index point_on_face(ModelBuilder& model, FaceId id, const Vec3& place)
         uv[k] = uv_of(face, t, k);
         own += best.barycentric[static_cast<int>(k)] * uv[k];
     }
-    const Index made = add_point(model, id, best.point, own);
+    const Index made = add_point(model, id, wanted, own);
     for (std::size_t k = 1; k < 3; ++k) {
         face.triangles.push_back({corner[k], corner[(k + 1) % 3], made});
         if (!face.uv.empty() || face.surface) face.uv.push_back({uv[k], uv[(k + 1) % 3], own});

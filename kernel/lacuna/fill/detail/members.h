@@ -31,6 +31,9 @@ auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 /// @param region  name of the region, for messages.
 Volume close_to_sweep(const Volume& volume, const std::string& region, const RunContext& context);
 
+/// The same volume with the roles of an alternative sweep of its void. @pre number < others->ways.size()
+Volume with_other_sweep(const Volume& volume, std::size_t number);
+
 /// Seal a volume that is to be cut or filled: its bottom is not separated from its walls, which only a sweep
 /// needs.
 Volume sealed_whole(const Volume& volume, const RunContext& context);

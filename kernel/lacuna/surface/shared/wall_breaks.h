@@ -4,6 +4,7 @@
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/size_field.h>
 
+#include <map>
 #include <vector>
 
 namespace lacuna::surface {
@@ -22,5 +23,11 @@ struct WallBreaks {
 /// @note  Maps the walls onto a strip only if they have edges besides side lines and whole rings.
 WallBreaks set_wall_breaks(const topology::OpenVolume& volume, const SizeField& size,
                            std::vector<LinkingSurface> links);
+
+/// Mean height of each edge around the walls of a linking surface, between the rims: from 0 at the source to
+/// 1 at the target.
+/// @note  Maps the walls onto a strip only if they have more faces than side lines separate.
+std::map<EdgeId, double> heights_around(const topology::OpenVolume& volume, const LinkingSurface& link,
+                                        const RunContext& context = {});
 
 } // namespace lacuna::surface

@@ -10,6 +10,12 @@
 /// Partially shared faces of volumes. Internal to this folder.
 namespace lacuna::sweep {
 
+/// What `imprint_faces()` did.
+struct FaceImprint {
+    std::vector<std::string> report;          ///< a line for each pair
+    std::vector<std::vector<FaceId>> parents; ///< for each volume: of each new face, the face it is part of
+};
+
 /// Split both faces of each pair along the other's rim, so that the common part is one face of both.
 ///
 /// Where rims cross, or a corner of one lies on the other, both rims get a vertex. The parts of one rim that
@@ -18,13 +24,16 @@ namespace lacuna::sweep {
 /// `topology::imprint_walks()`. Parts have the tag, name and role of the whole; new edges have no exact
 /// curve, but the coincident edge of the other volume keeps its own.
 /// @param volumes  copies of the members' volumes, changed; face ids of pairs are those before the call.
-/// @return  a line for each pair, for the report.
 /// @throw InvalidInput "assembly.part_of_face"  a face that keeps its quads, or onto whose facets the rim
 ///        cannot be projected; names both.
 /// @note  O(pairs × (facets of both × points of both rims)).
-std::vector<std::string> imprint_faces(std::span<topology::OpenVolume> volumes,
-                                       std::span<const AssemblyMember> members,
-                                       std::span<const PartlyShared> pairs, const RunContext& context);
+FaceImprint imprint_faces(std::span<topology::OpenVolume> volumes, std::span<const AssemblyMember> members,
+                          std::span<const PartlyShared> pairs, const RunContext& context);
+
+/// The sag of all faces after an imprint: parts have that of the whole, which their facets no longer show.
+/// @param sag  for each member: of its faces before.
+std::vector<std::vector<double>> with_sag_of_parts(std::vector<std::vector<double>> sag,
+                                                   const FaceImprint& imprint);
 
 /// Give swept members a vertex wherever an edge of a member that is not swept ends on the rim of a face that
 /// both share: the mesh of the face then has a node there, as the skin beside it needs.

@@ -15,6 +15,8 @@ namespace lacuna::sweep {
 struct AssemblyPlan {
     std::vector<std::vector<topology::EdgeNodes>> nodes; ///< for each member's shared edges
     std::vector<int> layers; ///< for each member with others beside it; 0: not constrained
+    /// For each member, from the source on: see `AssemblyLevels::heights()`.
+    std::vector<std::vector<double>> heights;
 };
 
 /// Numbers of sides for all edges of an assembly (interval assignment), and the nodes of shared edges.

@@ -20,11 +20,15 @@ struct PartlyShared {
 struct FacesInCommon {
     std::vector<SharedFace> whole;
     std::vector<PartlyShared> partly;
-    std::vector<NearMiss> near; ///< near misses of faces that are not shared completely
+    std::vector<NearMiss> near;           ///< near misses of faces that are not shared completely
+    std::vector<std::vector<double>> sag; ///< for each member: of each face, as `facet_sag()`
 };
 
+/// @param sag  for each member: of its first faces, as `facet_sag()`, where that cannot be taken from their
+///        facets, because these were divided.
 /// @throw InvalidInput "assembly.overlap", "assembly.rims_apart", "assembly.crack"  as `shared_faces()`
-FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context);
+FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
+                              std::vector<std::vector<double>> sag = {});
 
 /// @throw InvalidInput "assembly.part_of_face"  where faces are shared in part.
 void refuse_partly_shared(const FacesInCommon& found);

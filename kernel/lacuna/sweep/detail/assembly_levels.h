@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/sweep/assembly.h>
+
+#include <functional>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+/// Heights of layers of members whose walls touch in part. Internal to this folder.
+namespace lacuna::sweep {
+
+/// Levels of an assembly: heights at which a layer must end, since an edge runs around the walls there.
+///
+/// A pin stands out of a plate, and a band covers the middle of a pin: what they share is a wall of both, in
+/// which each must have the same rows. So the levels of one member within a shared wall are levels of the
+/// other, the parts between levels are paired, and paired parts get equal numbers of layers. Members that no
+/// such edge concerns have no heights from here.
+class AssemblyLevels {
+public:
+    AssemblyLevels(std::span<const AssemblyMember> members, std::span<const SharedFace> shared);
+
+    /// Read the levels of a member.
+    void read(std::size_t member, std::span<const surface::LinkingSurface> links, const RunContext& context);
+
+    /// Layers of each member, as shares of its height, the last one 1; empty: not constrained.
+    /// @param layers  number of layers that a member of a height [model length] needs.
+    [[nodiscard]] std::vector<std::vector<double>> heights(
+        const std::function<double(std::size_t member, double height)>& layers);
+
+private:
+    /// A shared wall: the same part of the heights of two members, which may run against each other.
+    struct Contact {
+        std::size_t a = 0, b = 0;
+        double from_a = 0, to_a = 1, from_b = 0, to_b = 1;
+    };
+
+    [[nodiscard]] std::vector<Contact> contacts() const;
+    bool add_level(std::size_t member, double height);
+    void exchange(std::span<const Contact> contacts);
+
+    std::span<const AssemblyMember> members_;
+    std::span<const SharedFace> shared_;
+    std::vector<std::map<EdgeId, double>> height_; ///< for each member: of edges around its walls, in [0, 1]
+    std::vector<double> length_;                   ///< of each member's walls, up [model length]
+    std::vector<std::vector<double>> levels_;      ///< for each member, rising, from 0 to 1
+};
+
+} // namespace lacuna::sweep
