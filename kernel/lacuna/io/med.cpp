@@ -217,7 +217,7 @@ Content content_of(std::string_view bytes)
         families.assign(count, 0);
         if (count_of(entity, shape, MED_FAMILY_NUMBER) == count)
             LACUNA_MED_CALL(library, MEDmeshEntityFamilyNumberRd)
-            (file, name, step, iteration, entity, shape, families.data());
+        (file, name, step, iteration, entity, shape, families.data());
         if (count_of(entity, shape, MED_NUMBER) != count) return;
         numbers.resize(count);
         LACUNA_MED_CALL(library, MEDmeshEntityNumberRd)
