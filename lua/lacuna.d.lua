@@ -33,6 +33,7 @@
 ---@field keep_mesh? boolean given quads and nodes stay as they are; default true
 ---@field keep_noise? boolean points of noisy facets, as of a scan, stay where they are; default false: they are smoothed
 ---@field scale? number every coordinate times this; default 1
+---@field unit? "um"|"mm"|"cm"|"m"|"in"|"ft" declared unit of the model's lengths; STEP and IGES are converted to it
 ---@field cad_seconds? number processor time the CAD process may take over it; in the sandbox it only lowers
 ---@field cad_megabytes? number address space the CAD process may take; in the sandbox it only lowers
 ---@field without? string|integer|(string|integer)[] regions, properties, sets or parts of meshes that are left out
@@ -140,7 +141,7 @@
 ---@field renumber? boolean numbers and names that several decks have in common become others; default false
 ---@field first_node? integer of decks and with a model; default above all that are taken
 ---@field first_cell? integer likewise
----@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
+---@field element? string Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"; thin layers: "COH3D8", "GK3D8", "SC8R", "CSS8"
 ---@field groups? "one"|"all" of .msh: whether cells are in one physical group or in all of theirs, which overlap; default "one"
 ---@field gmsh_options? boolean of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and groups; default false
 ---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
@@ -396,7 +397,7 @@ function Volume:sweep(options) end
 --- Sweep and write a layer at a time, in memory that the number of layers hardly matters to: the bytes of
 --- sweep(options):write(path). The report has nodes, hexes, wedges, layers, min_scaled_jacobian, streamed,
 --- processes (with mpirun) and seconds by stage.
----@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo or .e
+---@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, .k or .feb
 ---@param options lacuna.SweepToOptions
 ---@return table report
 function Volume:sweep_to(path, options) end
@@ -508,7 +509,7 @@ function Mesh:cells(kind) end
 ---@return lacuna.Buffer
 function Mesh:field(metric, kind) end
 --- A file in the format of its ending.
----@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, or a folder called polyMesh
+---@param path string .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, .k, .feb, .med, or a folder called polyMesh
 ---@param options? lacuna.WriteOptions
 function Mesh:write(path, options) end
 --- A page for a browser: the mesh, to be turned, cut and coloured.
@@ -562,6 +563,7 @@ function Assembly:sweep_to(path, options) end
 
 --- The mesh of an assembly, a region each.
 ---@class lacuna.AssemblyMesh
+---@field interface_cells integer cells of no thickness, from `lacuna.split_interface`
 ---@field left_out lacuna.LeftOut[] volumes and pieces that `fallback = "leave_out"` left out
 ---@field fidelity lacuna.AssemblyFidelity
 ---@field nodes integer
@@ -678,13 +680,24 @@ function lacuna.params(defaults) end
 ---@param volumes (lacuna.Volume|lacuna.Mesh|lacuna.AssemblyMesh)[]
 ---@return lacuna.Assembly
 function lacuna.assembly(volumes) end
+
+---@class lacuna.InterfaceOptions
+---@field faces string|(string|string[])[] "all", a group, or an array of groups and of pairs of regions
+---@field element? string Abaqus's word for the cells: "COH3D8", "GK3D8" or one that begins so; default "COH3D8"
+---@field name? string region and group of the cells; default "interface"
+
+--- Double the nodes of faces between two regions, and put a cell of no thickness on each.
+---@param mesh lacuna.AssemblyMesh
+---@param options lacuna.InterfaceOptions
+---@return lacuna.AssemblyMesh
+function lacuna.split_interface(mesh, options) end
 --- Quality of the hexahedra of a mesh or deck in any format that is read.
 ---@param path string
 ---@return lacuna.Quality
 function lacuna.check(path) end
 --- A mesh or deck in any format that is read, in the format of the other's ending.
 ---@param from string
----@param to string .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e
+---@param to string .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .k .feb .med
 ---@param options? lacuna.ConvertOptions
 ---@return { nodes: integer, elements: integer }
 function lacuna.convert(from, to, options) end

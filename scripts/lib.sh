@@ -10,6 +10,7 @@ set -euo pipefail
 lacuna_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
 lacuna_preset=release
 lacuna_build=$lacuna_root/build/$lacuna_preset
+lacuna_options=()  # of CMake
 
 say() { printf '%s: %s\n' "${0##*/}" "$*" >&2; }
 die() { say "$@"; exit 1; }
@@ -71,8 +72,10 @@ need_build_packages()
         zlib1g-dev libseccomp-dev libfmt-dev)
     # A Gmsh SDK of the person's own comes before the one of the distribution.
     [[ -n ${GMSH_ROOT:-} ]] || packages+=(libgmsh-dev)
-    [[ ${1:-} != tests ]] || packages+=(python3-gmsh python3-numpy calculix-ccx)
+    [[ ${1:-} != tests ]] \
+        || packages+=(python3-gmsh python3-numpy calculix-ccx libmedc-dev libhdf5-dev libmed-tools)
     need_packages "${packages[@]}"
+    [[ ${1:-} != tests ]] || lacuna_options=(-DLACUNA_MED=ON)
 
     local version
     version=$(cmake --version | sed -n '1s/[^0-9]*//p')
@@ -93,13 +96,16 @@ configure()
 {
     local stamp=$lacuna_build/.gmsh_root wanted=${GMSH_ROOT:-}
     if [[ -f $lacuna_build/build.ninja && $lacuna_build/build.ninja -nt $lacuna_root/CMakePresets.json \
-        && -f $stamp && $(<"$stamp") == "$wanted" ]]; then
+        && -f $stamp && $(<"$stamp") == "$wanted" ]] \
+        && { ((${#lacuna_options[@]} == 0)) \
+            || grep -q '^LACUNA_MED:BOOL=ON' "$lacuna_build/CMakeCache.txt"; }; then
         return 0
     fi
     local fresh=()
     [[ ! -f $stamp || $(<"$stamp") == "$wanted" ]] || fresh=(--fresh)  # forget where the other Gmsh was
     (cd "$lacuna_root" \
-        && cmake --preset "$lacuna_preset" -G Ninja "${fresh[@]}" ${wanted:+-DGMSH_ROOT="$wanted"} >&2) \
+        && cmake --preset "$lacuna_preset" -G Ninja "${fresh[@]}" "${lacuna_options[@]}" \
+            ${wanted:+-DGMSH_ROOT="$wanted"} >&2) \
         || die "could not be configured; CMake's words are above"
     printf '%s\n' "$wanted" >"$stamp"
 }

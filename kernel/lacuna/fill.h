@@ -46,6 +46,7 @@ struct Request {
     /// the factor from their coordinates to those of the model.
     std::vector<std::shared_ptr<const io::Deck>> decks;
     double scale = 1;
+    std::string unit; ///< declared unit of the model's lengths, as `io::metres_of()`; empty: none
 };
 
 /// Mesh the void that the faces of a model bound: open(), match(), close() and sweep().

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Assembly: several volumes meshed as one, and its mesh. Sweeping and writing add their methods.
 #include "bindings/classes.h"
+#include "bindings/names.h"
 #include "bindings/options.h"
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 
 namespace lacuna::lua {
 
@@ -78,6 +81,85 @@ int assembly_to_string(lua_State* L)
     lua_pushfstring(L, meshes == 1 ? " and %I mesh" : " and %I meshes", meshes);
     lua_concat(L, 2);
     return 1;
+}
+
+// --- interfaces -----------------------------------------------------------------------------------------
+
+void read_text(lua_State* L, int index, const Where& where, std::string& text)
+{
+    const char* word = read_plain_name(L, index, where);
+    guard(L, [&] { text = word; });
+}
+
+/// "all", a group, or an array of groups and of pairs of regions
+void read_interface_faces(lua_State* L, int index, const Where& where, fill::InterfaceFaces& faces)
+{
+    const char* const expected = "\"all\", a group, or an array of groups and pairs of regions { a, b }";
+    const auto add = [&](int at, const Where& element) {
+        if (lua_type(L, at) == LUA_TSTRING) {
+            const char* name = read_string(L, at, element);
+            guard(L, [&] {
+                if (name == std::string_view("all"))
+                    faces.all = true;
+                else
+                    faces.groups.emplace_back(name);
+            });
+            return;
+        }
+        if (lua_type(L, at) != LUA_TTABLE || lua_rawlen(L, at) != 2) fail_value(L, element, expected, at);
+        lua_rawgeti(L, at, 1);
+        lua_rawgeti(L, at, 2);
+        if (lua_type(L, -1) != LUA_TSTRING || lua_type(L, -2) != LUA_TSTRING)
+            fail_value(L, element, expected, at);
+        const char *a = lua_tostring(L, -2), *b = lua_tostring(L, -1);
+        guard(L, [&] { faces.pairs.emplace_back(a, b); });
+    };
+    if (lua_type(L, index) == LUA_TSTRING) return add(index, where);
+    read_array(L, index, where, expected, add);
+}
+
+void read_layer_element(lua_State* L, int index, const Where& where, fill::InterfaceFaces& faces)
+{
+    const char* word = read_string(L, index, where);
+    guard(L, [&] {
+        faces.element = word;
+        for (char& c : faces.element) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    });
+}
+
+void read_interface_name(lua_State* L, int index, const Where& where, fill::InterfaceFaces& faces)
+{
+    read_text(L, index, where, faces.region);
+}
+
+const Option<fill::InterfaceFaces> kInterfaceOptions[] = {
+    {"faces", read_interface_faces}, {"element", read_layer_element}, {"name", read_interface_name}};
+
+/// mesh = lacuna.split_interface(mesh, { faces =, element =, name = })
+int split_interface(lua_State* L)
+{
+    lua_settop(L, 2);
+    const Box<AssemblyMeshState>* const mesh = test_box<AssemblyMeshState>(L, 1);
+    if (mesh == nullptr || !*mesh)
+        fail_value(L, {"split_interface", "mesh"}, "the mesh of an assembly or of a volume that was cut", 1);
+    auto& faces = temporary<fill::InterfaceFaces>(L);
+    read_options(L, 2, "split_interface", kInterfaceOptions, faces);
+    RunContext& context = push_context(L);
+    auto& box = new_box<AssemblyMeshState>(L);
+    guard(L, [&] {
+        auto made = std::make_shared<AssemblyMeshState>(**mesh);
+        static_cast<fill::FilledParts&>(*made) = fill::split_interface(**mesh, faces, context);
+        box = std::move(made);
+    });
+    return 1;
+}
+
+int interface_cells(lua_State* L)
+{
+    std::size_t count = 0;
+    for (const fill::SplitInterface& split : check<AssemblyMeshState>(L, 1).interfaces)
+        count += split.cells.size();
+    return give(L, count);
 }
 
 // --- its mesh -------------------------------------------------------------------------------------------
@@ -220,6 +302,7 @@ const Field kAssemblyMeshFields[] = {
     {"report", mesh_report},
     {"fidelity", mesh_fidelity},
     {"left_out", mesh_left_out},
+    {"interface_cells", interface_cells},
     {nullptr, nullptr},
 };
 
@@ -232,6 +315,8 @@ void bind_assembly(lua_State* L)
     add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMeshMethods);
     lua_pushcfunction(L, make_assembly);
     lua_setfield(L, -2, "assembly");
+    lua_pushcfunction(L, split_interface);
+    lua_setfield(L, -2, "split_interface");
 }
 
 } // namespace lacuna::lua

@@ -25,12 +25,15 @@ int write_cad(lua_State* L)
     lua_settop(L, 3);
     const auto& state = hold<VolumeState>(L, 1);
     const io::OutputPath& path = push_output_path(L, 2, "write_cad");
-    cad::WriteCadOptions options;
+    auto& options = temporary<cad::WriteCadOptions>(L);
     read_options(L, 3, "write_cad", kCadWriteOptions, options);
     options.limits.may_raise = !host(L).sandboxed;
     RunContext& context = push_context(L);
     cad::WrittenCad written;
-    guard(L, [&] { written = cad::write_cad(state.volume, path, options, context); });
+    guard(L, [&] {
+        options.unit = state.unit;
+        written = cad::write_cad(state.volume, path, options, context);
+    });
     lua_createtable(L, 0, 5);
     set_number(L, "volume", written.volume);
     set_number(L, "tolerance", written.tolerance);

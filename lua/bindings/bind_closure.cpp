@@ -157,6 +157,7 @@ Box<ModelState>& push_model(lua_State* L, const VolumeState& state)
         box->model = state.volume.model;
         box->decks = state.decks;
         box->scale = state.scale;
+        box->unit = state.unit;
     });
     return box;
 }

@@ -358,6 +358,7 @@ int write(lua_State* L)
         refuse_interfaces(arguments);
         for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
         arguments.deck.material = state.material;
+        arguments.msh.unit = state.unit;
         report_progress(context, "writing " + path.text());
         add_fields(state.swept, format, arguments, context);
         write_mesh(format, mesh, path, arguments, context);
@@ -384,9 +385,14 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
                  const RunContext& context)
 {
     const io::Format& format = io::needed_mesh_format("write", path.text());
+    if (!state.interfaces.empty() && (format.is_folder || !arguments.with.empty()))
+        throw InvalidInput(Message("lua.split_write", "write: a mesh with cells of no thickness is {}",
+                                   format.is_folder ? "no polyMesh" : "not joined to a deck")
+                               .remedy("{}", format.is_folder ? "write another format" : "leave out 'with'"));
     if (arguments.partitions_given || is_pieces(format))
         throw InvalidInput(
-            Message("lua.mixed_write", "write: a mesh with tetrahedra is written as one file")
+            Message("lua.mixed_write", "write: a mesh with tetrahedra or a split interface is written as one "
+                                       "file")
                 .remedy("{}", is_pieces(format) ? "write a .vtu file" : "leave out 'partitions'"));
     arguments.deck.format = format.deck;
     const io::Deck deck = arguments.with.empty()
@@ -399,12 +405,13 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
 void write_parts(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,
                  const Crew* crew, const RunContext& context)
 {
-    if (!state.tets.empty()) return write_mixed(state, path, arguments, context);
+    if (!state.tets.empty() || !state.interfaces.empty()) return write_mixed(state, path, arguments, context);
     if (state.swept.number.empty())
         return team::write_parts(state.swept, path,
                                  {.binary = arguments.msh.binary,
                                   .version = arguments.msh.version,
-                                  .all_groups = arguments.msh.all_groups},
+                                  .all_groups = arguments.msh.all_groups,
+                                  .unit = state.unit},
                                  crew, context);
     const io::Format& format = io::needed_mesh_format("write", path.text());
     if (!arguments.with.empty()) {
@@ -463,12 +470,19 @@ void read_feature_angle(lua_State* L, int index, const Where& where, LoadArgumen
     if (arguments.load.feature_angle > 180) fail_value(L, where, "degrees in (0, 180]", index);
 }
 
+void read_unit(lua_State* L, int index, const Where& where, LoadArguments& arguments)
+{
+    const char* unit = read_string(L, index, where);
+    guard(L, [&] { arguments.load.unit = unit; });
+}
+
 const Option<LoadArguments> kLoadOptions[] = {
     {"tolerance", positive<&LoadArguments::load, &io::LoadOptions::tolerance>},
     {"feature_angle", read_feature_angle},
     {"keep_mesh", boolean<&LoadArguments::load, &io::LoadOptions::keep_mesh>},
     {"keep_noise", boolean<&LoadArguments::load, &io::LoadOptions::keep_noise>},
     {"scale", positive<&LoadArguments::load, &io::LoadOptions::scale>},
+    {"unit", read_unit},
     {"cad_seconds", read_cad_seconds},
     {"cad_megabytes", read_cad_megabytes},
     {"without", read_without<LoadArguments>},
@@ -513,6 +527,7 @@ int load(lua_State* L)
         box->model = std::move(loaded.model);
         box->decks = std::move(loaded.decks);
         box->scale = loaded.scale;
+        box->unit = std::move(loaded.unit);
     });
     return 1;
 }
@@ -591,10 +606,12 @@ void write_options_beside(const Host& lent, const io::OutputPath& mesh, const Wr
     if (arguments.gmsh_options) io::write_msh_options(output_path(lent, mesh.text() + ".opt"));
 }
 
-void write_layered(const sweep::Swept& swept, const std::string& material, const io::OutputPath& path,
-                   WriteArguments& arguments, const Crew* crew, const RunContext& context)
+void write_layered(const fill::FilledVolume& filled, const io::OutputPath& path, WriteArguments& arguments,
+                   const Crew* crew, const RunContext& context)
 {
-    arguments.deck.material = material;
+    const sweep::Swept& swept = filled.swept;
+    arguments.deck.material = filled.material;
+    arguments.msh.unit = filled.unit;
     count_parts(arguments, path, crew);
     const mesh::HexMesh& mesh = swept.mesh;
     report_progress(context, "writing " + path.text());
@@ -604,8 +621,8 @@ void write_layered(const sweep::Swept& swept, const std::string& material, const
         return write_mesh(format, mesh, path, arguments, context);
     }
     team::write_layered({mesh, *swept.layers}, *swept.plan, path,
-                        {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), material,
-                         arguments.msh.partition, arguments.msh.all_groups},
+                        {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), filled.material,
+                         arguments.msh.partition, arguments.msh.all_groups, filled.unit},
                         crew, context);
 }
 
@@ -618,6 +635,7 @@ void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, Wr
                 .remedy("leave it out"));
     static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
     count_parts(arguments, path, crew);
+    arguments.msh.unit = state.unit;
     for (const sweep::LeftOut& out : state.left_out)
         log_line(context, formatted("note: {} has a hole: left out is {}", path.text(), out.message.text()));
     write_parts(state, path, arguments, crew, context);

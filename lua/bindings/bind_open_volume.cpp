@@ -366,6 +366,7 @@ int open_volume(lua_State* L)
         *box = fill::open(model->model, request, context);
         box->decks = model->decks;
         box->scale = model->scale;
+        box->unit = model->unit;
     });
     return 1;
 }

@@ -31,6 +31,7 @@ struct ModelState {
     bool stale = false;                                 ///< `model` lacks faces of `added`
     std::vector<std::shared_ptr<const io::Deck>> decks; ///< the meshes it was read from
     double scale = 1;                                   ///< of its coordinates to theirs
+    std::string unit;                                   ///< declared unit of its coordinates; empty: none
     /// Of each time a face was grown, where each face there was went; not valid: into the grown one.
     std::vector<std::vector<FaceId>> moves;
 };

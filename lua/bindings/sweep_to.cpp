@@ -71,7 +71,7 @@ void write_filled(const Host& lent, SweepRun& run, const SweepFile& file, const 
     if (auto* whole = std::get_if<fill::FilledVolume>(&run.filled.mesh)) {
         refuse_interfaces(*file.arguments);
         if (!whole->swept.layers) whole->swept.report.emplace_back(kHeldWhole);
-        write_layered(whole->swept, whole->material, *file.path, *file.arguments, lent.crew, context);
+        write_layered(*whole, *file.path, *file.arguments, lent.crew, context);
         run.report = whole->swept.report;
     } else {
         auto& mesh = std::get<fill::FilledParts>(run.filled.mesh);

@@ -28,9 +28,8 @@ void refuse_interfaces(const WriteArguments& arguments);
 void write_options_beside(const Host& lent, const io::OutputPath& mesh, const WriteArguments& arguments);
 
 /// Write a mesh, whose nodes may be still to be made, with the bytes of mesh:write.
-/// @param material  the volume's, which decks name.
-void write_layered(const sweep::Swept& swept, const std::string& material, const io::OutputPath& path,
-                   WriteArguments& arguments, const Crew* crew, const RunContext& context);
+void write_layered(const fill::FilledVolume& filled, const io::OutputPath& path, WriteArguments& arguments,
+                   const Crew* crew, const RunContext& context);
 
 /// Write the mesh of an assembly, whose nodes may be still to be made, as assembly_mesh:write does.
 void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,

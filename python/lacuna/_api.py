@@ -7,8 +7,8 @@ from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, lo
 __all__ = [
         "ModelInfo", "FaceInfo", "Cavity", "Classification", "Match", "Closure", "FreeEdge", "LeftOut",
         "Fidelity", "FaceFidelity", "AssemblyFidelity", "WorstCell", "MetricSummary", "Model", "Face",
-        "Volume", "Mesh", "Assembly", "AssemblyMesh", "Quality", "load", "model", "assembly", "check",
-        "convert", "view",
+        "Volume", "Mesh", "Assembly", "AssemblyMesh", "Quality", "load", "model", "assembly",
+        "split_interface", "check", "convert", "view",
 ]
 
 
@@ -558,7 +558,7 @@ class Volume(Shown):
         of sweep(...).write(path). The report has nodes, hexes, wedges, layers, min_scaled_jacobian, streamed,
         processes (with mpirun) and seconds by stage.
 
-        path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo or .e
+        path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, .k or .feb
         layers: int | list[float] | dict; a count, rising heights in (0, 1] or a spacing; default as the
             walls' own meshes have rows, else about as high as the quads are wide
         size: float | Callable[[float, float, float], float]; edge length on the source; default: the rim's
@@ -718,7 +718,8 @@ class Mesh(AnyMesh):
     def write(self, path, options=None, /, **keywords):
         """A file in the format of its ending.
 
-        path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, or a folder called polyMesh
+        path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, .k, .feb, .med, or a folder
+            called polyMesh
         version: float
         binary: bool
         quality: bool | str | list[str]; metrics that go along for every cell, as $ElementData or cell arrays;
@@ -730,7 +731,8 @@ class Mesh(AnyMesh):
         renumber: bool; numbers and names that several decks have in common become others; default False
         first_node: int; of decks and with a model; default above all that are taken
         first_cell: int; likewise
-        element: str; Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
+        element: str; Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"; thin
+            layers: "COH3D8", "GK3D8", "SC8R", "CSS8"
         groups: "one" | "all"; of .msh: whether cells are in one physical group or in all of theirs, which
             overlap; default "one"
         gmsh_options: bool; of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and
@@ -878,6 +880,11 @@ class AssemblyMesh(AnyMesh):
     __slots__ = ()
 
     @property
+    def interface_cells(self):
+        """cells of no thickness, from `lacuna.split_interface`"""
+        return self._field("interface_cells")
+
+    @property
     def left_out(self):
         """volumes and pieces that `fallback = "leave_out"` left out"""
         return shaped(self._field("left_out"), ('list', ('of', 'LeftOut')))
@@ -983,7 +990,8 @@ class AssemblyMesh(AnyMesh):
         renumber: bool; numbers and names that several decks have in common become others; default False
         first_node: int; of decks and with a model; default above all that are taken
         first_cell: int; likewise
-        element: str; Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"
+        element: str; Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"; thin
+            layers: "COH3D8", "GK3D8", "SC8R", "CSS8"
         groups: "one" | "all"; of .msh: whether cells are in one physical group or in all of theirs, which
             overlap; default "one"
         gmsh_options: bool; of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and
@@ -1102,6 +1110,8 @@ def load(path, options=None, /, **keywords):
     keep_noise: bool; points of noisy facets, as of a scan, stay where they are; default False: they are
         smoothed
     scale: float; every coordinate times this; default 1
+    unit: "um" | "mm" | "cm" | "m" | "in" | "ft"; declared unit of the model's lengths; STEP and IGES are
+        converted to it
     cad_seconds: float; processor time the CAD process may take over it; in the sandbox it only lowers
     cad_megabytes: float; address space the CAD process may take; in the sandbox it only lowers
     without: str | int | list[str | int]; regions, properties, sets or parts of meshes that are left out
@@ -1122,6 +1132,16 @@ def assembly(volumes):
     return call("module", "assembly", volumes)
 
 
+def split_interface(mesh, faces, **keywords):
+    """Double the nodes of faces between two regions, and put a cell of no thickness on each.
+
+    faces: str | list[str | list[str]]; "all", a group, or an array of groups and of pairs of regions
+    element: str; Abaqus's word for the cells: "COH3D8", "GK3D8" or one that begins so; default "COH3D8"
+    name: str; region and group of the cells; default "interface"
+    """
+    return call("module", "split_interface", mesh, options_of(None, keywords, faces=faces))
+
+
 def check(path):
     """Quality of the hexahedra of a mesh or deck in any format that is read."""
     return call("module", "check", path)
@@ -1130,7 +1150,7 @@ def check(path):
 def convert(from_, to, options=None, /, **keywords):
     """A mesh or deck in any format that is read, in the format of the other's ending.
 
-    to: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e
+    to: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .k .feb .med
     version: float; of .msh; default 4.1
     binary: bool; of .msh and .vtk; default True
     groups: "one" | "all"; of .msh; default "one"

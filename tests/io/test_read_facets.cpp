@@ -153,7 +153,7 @@ TEST_CASE("a file cut off anywhere is refused or read in part, and what is annou
         // Lines of an OBJ file and cards of a deck stand by themselves, and so do solids of an STL file.
         const std::string ending = io::ending_of(sample.name);
         const bool by_lines = ending == ".obj" || ending == ".bdf" || ending == ".nas" || ending == ".dat" ||
-                              ending == ".stl" || ending == ".unv" || ending == ".inp";
+                              ending == ".stl" || ending == ".unv" || ending == ".inp" || ending == ".k";
         for (std::size_t length = 1; length < sample.bytes.size(); length += 1 + length / 50) {
             try {
                 const auto part = io::read_facets(sample.name,

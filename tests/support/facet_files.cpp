@@ -259,6 +259,34 @@ std::string inp(const FacetBox& box, bool parts)
     return text + "*ELSET, ELSET=one\n1\n*NSET, NSET=some\n1, 2,\n3\n*SURFACE, NAME=below, TYPE=NODE\nsome\n";
 }
 
+/// @param free  fields are separated by commas, else they stand in columns.
+std::string dyna(const FacetBox& box, bool free)
+{
+    const auto row = [free](const std::vector<std::string>& words, int first, int width) {
+        std::string text;
+        for (std::size_t k = 0; k < words.size(); ++k)
+            text += free ? (k > 0 ? "," : "") + words[k] : field(words[k], k == 0 ? first : width);
+        return text + "\n";
+    };
+    std::string text = "*KEYWORD\n$ a box\n*TITLE\nbox\n";
+    for (int side = 1; side <= 6; ++side)
+        text += "*PART\n" + side_name(side) + "\n" + row({std::to_string(side), "1", "1"}, 10, 10);
+    text += "*NODE\n";
+    for (std::size_t p = 0; p < box.points.size(); ++p) {
+        std::vector<std::string> words{std::to_string(p + 1)};
+        for (const double x : box.points[p]) words.push_back(number(x));
+        text += row(words, 8, 16);
+    }
+    text += "*ELEMENT_SHELL\n";
+    for (std::size_t q = 0; q < box.quads.size(); ++q) {
+        std::vector<std::string> words{std::to_string(q + 1), std::to_string(box.side[q])};
+        for (const Index p : box.quads[q]) words.push_back(std::to_string(p + 1));
+        text += row(words, 8, 8);
+    }
+    text += "*SET_NODE_LIST_TITLE\nsome\n" + row({"1"}, 10, 10) + row({"1", "2", "3"}, 10, 10);
+    return text + "*SECTION_SHELL\n" + row({"1", "2"}, 10, 10) + "*END\n";
+}
+
 enum class Fields { free, small, large, apart };
 
 std::string bdf(const FacetBox& box, Fields kind)
@@ -476,6 +504,8 @@ std::vector<FacetSample> facet_samples()
     all.push_back({"apart.bdf", bdf(box, Fields::apart), true, true, 6, "pid:"});
     all.push_back({"open.inp", inp(box, false), true, true, 6, "side "});
     all.push_back({"parts.INP", inp(box, true), true, true, 6, "side "});
+    all.push_back({"columns.k", dyna(box, false), true, true, 6, "side "});
+    all.push_back({"commas.K", dyna(box, true), true, true, 6, "side "});
     for (const char* version : {"2.0", "5.1"})
         for (const bool binary : {false, true})
             for (const bool poly : {false, true})

@@ -5,11 +5,13 @@
 #include <lacuna/cad/detail/solid_plan.h>
 #include <lacuna/closure/close.h>
 #include <lacuna/io/load_facets.h>
+#include <lacuna/io/shared/units.h>
 #include <lacuna/io/whole_file.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <regex>
 #include <string_view>
 
@@ -65,8 +67,40 @@ std::string bytes_of(const Descriptor& file, bool step)
     return bytes;
 }
 
+/// State a unit in a STEP file, which Open CASCADE writes in millimetres; lengths stay.
+void state_unit(std::string& bytes, const std::string& unit)
+{
+    if (unit.empty() || unit == "mm") return;
+    const std::string milli = "SI_UNIT(.MILLI.,.METRE.)";
+    constexpr std::pair<std::string_view, std::string_view> kPrefixes[] = {
+        {"um", ".MICRO."}, {"cm", ".CENTI."}, {"m", "$"}};
+    const auto metric = std::ranges::find(kPrefixes, unit,
+                                          &std::pair<std::string_view, std::string_view>::first);
+    const std::size_t at = bytes.find(milli);
+    if (at == bytes.npos) throw BackendError("cad.step_unit", "the STEP file does not state its unit");
+    if (metric != std::end(kPrefixes)) {
+        bytes.replace(at, milli.size(), formatted("SI_UNIT({},.METRE.)", metric->second));
+        return;
+    }
+    long long highest = 0;
+    for (std::size_t i = bytes.find('#'); i != bytes.npos; i = bytes.find('#', i + 1))
+        highest = std::max(highest, std::atoll(bytes.c_str() + i + 1));
+    // Units outside the metric system are defined by a length, here of millimetres.
+    const std::size_t end = bytes.rfind("ENDSEC;");
+    bytes.insert(end, formatted("#{}=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE({:.17g}),#{});\n"
+                                "#{}=DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n"
+                                "#{}=(LENGTH_UNIT()NAMED_UNIT(*){});\n",
+                                highest + 1, 1000 * io::metres_of(unit), highest + 3, highest + 2,
+                                highest + 3, milli));
+    const std::size_t begin = bytes.rfind('=', at) + 1;
+    bytes.replace(begin, bytes.find(';', begin) - begin,
+                  formatted("(CONVERSION_BASED_UNIT('{}',#{})LENGTH_UNIT()NAMED_UNIT(#{}))",
+                            unit == "in" ? "INCH" : "FOOT", highest + 1, highest + 2));
+}
+
 void check_options(const WriteCadOptions& options)
 {
+    if (!options.unit.empty()) io::metres_of(options.unit);
     if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
         throw InvalidInput("cad.tolerance",
                            "write_cad: option 'tolerance' must be a length of 0 or more, not {}",
@@ -141,7 +175,9 @@ WrittenCad write_cad(const OpenVolume& volume, const io::OutputPath& path, const
     written.volume = made.volume;
     written.tolerance = made.tolerance;
     written.faces = made.faces;
-    file.append(bytes_of(result, step));
+    std::string bytes = bytes_of(result, step);
+    if (step) state_unit(bytes, options.unit);
+    file.append(bytes);
     file.commit();
     return written;
 }

@@ -17,6 +17,7 @@ struct WriteCadOptions {
     double deviation =
         0.05;        ///< allowed difference of the solid's volume from that inside the facets, relative [-]
     Limits limits{}; ///< limits of the CAD process
+    std::string unit{}; ///< unit of the model's lengths, which a STEP file states; empty: millimetres
 };
 
 /// The solid that was written, measured after reading it back.
@@ -29,8 +30,8 @@ struct WrittenCad {
     double tolerance = 0;    ///< used for sewing [model length]
 };
 
-/// Write a sealed volume as one CAD solid: `.step`, `.stp` (model lengths are written as mm) or `.brep`. The
-/// file appears only if everything succeeds.
+/// Write a sealed volume as one CAD solid: `.step`, `.stp` (which states `unit`) or `.brep`. The file appears
+/// only if everything succeeds.
 ///
 /// Given CAD faces are copied from their source file, scaled as the model was. A planar void face becomes a
 /// plane bounded by the exact given edges, lines and splines. A void face with four logical sides becomes

@@ -127,6 +127,7 @@ std::vector<Group> groups(const FilledParts& mesh)
         if (name != "volume") count(regions, name, 3, part.cells.size());
         sum += part.cells.size();
     }
+    for (const SplitInterface& split : mesh.interfaces) count(regions, split.region, 3, split.cells.size());
     std::ranges::sort(all, {}, &Group::name);
     all.insert(all.end(), regions.begin(), regions.end());
     all.push_back({"volume", 3, sum});
@@ -176,7 +177,11 @@ io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options,
         swept.push_back({mesh.swept.parts[p].mesh, nullptr, mesh.swept.numbering[p]});
     std::vector<io::NumberedTets> tets;
     for (const FilledTets& part : mesh.tets) tets.push_back({part.mesh, part.number});
-    return io::deck_of(swept, tets, mesh.swept.nodes, options, interfaces, context);
+    io::Deck deck = io::deck_of(swept, tets, mesh.swept.nodes, options, interfaces, context);
+    deck.unit = mesh.unit;
+    for (const SplitInterface& split : mesh.interfaces)
+        io::add_layer(deck, split.cells, split.region, split.element);
+    return deck;
 }
 
 quality::Quality measure(const WholeCells& cells, const RunContext& context)

@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -23,6 +24,7 @@ namespace lacuna::fill {
 struct FilledVolume {
     sweep::Swept swept;
     std::string material; ///< material of the volume
+    std::string unit{};   ///< as `Volume::unit`
 };
 
 /// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
@@ -37,6 +39,14 @@ struct FilledTets {
     std::vector<std::string> report; ///< why it was not swept, sizes, shape
 };
 
+/// Cells of no thickness between two regions of a mesh whose nodes there are doubled.
+struct SplitInterface {
+    std::string region;  ///< name of the cells
+    std::string element; ///< their Abaqus name: "COH3D8"
+    std::vector<Hex>
+        cells; ///< nodes in the whole mesh, from one side to the other; wedges: `mesh::is_wedge()`
+};
+
 /// The mesh of an assembly, or of a volume that was cut or filled with tetrahedra.
 struct FilledParts {
     sweep::SweptAssembly swept;         ///< its `nodes` count those of `tets` too
@@ -44,6 +54,8 @@ struct FilledParts {
     std::vector<std::string> materials; ///< one for each part, then for each of `tets`; empty: no material
     std::vector<sweep::LeftOut> left_out;
     std::vector<FilledTets> tets;
+    std::vector<SplitInterface> interfaces{}; ///< from `split_interface()`
+    std::string unit{};                       ///< as `Volume::unit`
 };
 
 /// A mesh, and the volumes with the roles that they were swept with.
@@ -98,6 +110,30 @@ WholeCells whole_cells(const FilledParts& mesh);
 /// @throw  as `io::write_parts()`
 io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options, bool interfaces = false,
                     const RunContext& context = {});
+
+/// Faces along which a mesh is split.
+struct InterfaceFaces {
+    std::vector<std::string> groups{}; ///< faces of these groups that two parts share
+    /// Faces between these two regions.
+    std::vector<std::pair<std::string, std::string>> pairs{};
+    bool all = false; ///< faces between any two regions
+    std::string region = "interface";
+    std::string element = "COH3D8"; ///< Abaqus name of the cells: COH3D8 or GK3D8, or a kind of these
+};
+
+/// Double the nodes of faces that two parts of a mesh share, and put a cell of no thickness on each face.
+///
+/// The parts at a node are joined where they share a face that is not split; each set of joined parts gets a
+/// node of its own, so that three regions that meet at split faces have three nodes. At the end of an
+/// interface inside the mesh the parts are joined around the end, and the node stays one. The first nodes
+/// keep their numbers; new nodes follow the others. A cell goes from the part that was meshed first to the
+/// other: its nodes 1 to 4 lie on the first, and the direction of its stack is from nodes 1-4 to nodes 5-8.
+/// @throw InvalidInput "fill.interface_none"     no face is named, or none of them is shared by two parts.
+///                     "fill.interface_element"  the element has thickness, or is no hexahedron of 8 nodes.
+///                     "fill.interface_order"    the mesh is of order 2.
+///                     "fill.interface_split"    the mesh was split before.
+/// @note  O(n log n) in the sides of the skins, O(n) in the nodes.
+FilledParts split_interface(FilledParts mesh, const InterfaceFaces& faces, const RunContext& context = {});
 
 quality::Quality measure(const WholeCells& cells, const RunContext& context = {});
 

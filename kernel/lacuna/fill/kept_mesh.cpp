@@ -44,7 +44,9 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh, const RunContext& conte
 {
     const std::vector<std::string>& groups = mesh.swept.mesh.volume_groups;
     const bool named = !groups.empty() && groups.front() != "volume";
-    return keep(mesh.swept, named ? groups.front() : "", mesh.material, context);
+    auto kept = keep(mesh.swept, named ? groups.front() : "", mesh.material, context);
+    kept->unit = mesh.unit;
+    return kept;
 }
 
 std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunContext& context)
@@ -53,11 +55,16 @@ std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunCo
         throw InvalidInput(
             Message("fill.mixed_member", "a mesh with tetrahedra cannot be a member of an assembly")
                 .remedy("give its volumes instead, with fallback = \"mixed\""));
+    if (!mesh.interfaces.empty())
+        throw InvalidInput(
+            Message("fill.split_member", "a mesh that was split cannot be a member of an assembly")
+                .remedy("join the meshes first, and split the joined one"));
     std::vector<std::unique_ptr<KeptMesh>> all;
     for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
         const std::string& group = mesh.swept.parts[p].mesh.volume_groups.front();
         KeptMesh& kept = *all.emplace_back(keep(mesh.swept.parts[p], group, mesh.materials[p], context));
         kept.region = mesh.regions[p];
+        kept.unit = mesh.unit;
         if (group != "volume") kept.whole = group;
         if (std::ranges::count(mesh.regions, mesh.regions[p]) == 1) continue;
         kept.turn_of = mesh.regions[p];

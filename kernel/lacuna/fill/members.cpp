@@ -9,6 +9,7 @@
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/kept_mesh.h>
 #include <lacuna/fill/detail/tets.h>
+#include <lacuna/io/shared/units.h>
 #include <lacuna/surface/shared/boundary_layers.h>
 #include <lacuna/surface/shared/walls.h>
 #include <lacuna/sweep/shared/imprinted.h>
@@ -382,6 +383,10 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
     for (sweep::AssemblyMember& member : ready.members) keep_known_faces(member);
     if (ready.members.empty() && !ready.left_out.empty()) throw NotSweepable(ready.left_out.front().message);
     FilledParts mesh{sweep::sweep_assembly(ready.members, context), {}, {}, std::move(ready.left_out), {}};
+    for (const Part& one : all) {
+        const std::string& unit = one.kept ? one.kept->unit : one.volume.unit;
+        mesh.unit = io::common_unit(mesh.unit, "a volume of the assembly", unit, "another");
+    }
     for (const std::size_t m : mesh.swept.member) {
         const sweep::AssemblyMember& member = ready.members[m];
         mesh.regions.push_back(member.turn_of.empty() ? member.region : member.turn_of);

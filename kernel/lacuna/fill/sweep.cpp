@@ -79,7 +79,7 @@ Filled sweep_whole(const Volume& volume, sweep::SweepOptions options, const RunC
 {
     Volume sealed = close_to_sweep(volume, volume.name.empty() ? "the volume" : volume.name, context);
     if (!sealed.decks.empty()) keep_given_middles(sealed, options.second_order);
-    FilledVolume mesh{sweep::sweep(sealed.volume, options, context), sealed.material};
+    FilledVolume mesh{sweep::sweep(sealed.volume, options, context), sealed.material, sealed.unit};
     report_closure(sealed, mesh.swept.report, context);
     if (!sealed.name.empty()) mesh.swept.mesh.volume_groups = {sealed.name};
     Filled filled{{}, std::move(mesh)};
@@ -297,6 +297,7 @@ Filled fill(const topology::Model& model, const Request& request, const RunConte
     Volume volume = open(model, roles, context);
     volume.decks = request.decks;
     volume.scale = request.scale;
+    volume.unit = request.unit;
     if (request.match) volume = match(std::move(volume), request.match, context);
     if (request.close) volume = close(std::move(volume), request.close, context);
     return sweep(volume, request.sweep, context);

@@ -173,6 +173,7 @@ Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string
     volume.take_guess = whole.take_guess;
     volume.decks = whole.decks;
     volume.scale = whole.scale;
+    volume.unit = whole.unit;
     return volume;
 }
 

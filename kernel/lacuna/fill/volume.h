@@ -45,6 +45,7 @@ struct Volume {
     std::string material;              ///< name or number of its material; empty: none
     std::vector<std::shared_ptr<const io::Deck>> decks; ///< meshes that the model was read from
     double scale = 1;                                   ///< model coordinates / coordinates of `decks`
+    std::string unit; ///< declared unit of its lengths, as `io::metres_of()`; empty: none
 };
 
 /// The faces of a model that bound the volume, and their roles. Without `roles`, the roles are found.

@@ -760,7 +760,28 @@ bool is_section(const Keyword& keyword)
     return std::ranges::find(kSections, keyword.name) != std::end(kSections);
 }
 
-bool is_abaqus_element(std::string_view type, DeckShape shape) { return shape_of(type) == shape; }
+bool is_layer(std::string_view type)
+{
+    return std::ranges::any_of(std::array{"COH3D8", "GK3D8", "SC8R", "CSS8"},
+                               [&](const char* word) { return type.starts_with(word); });
+}
+
+std::string layer_wedge(std::string_view type)
+{
+    if (!is_layer(type) || type.starts_with("CSS")) return {};
+    std::string wedge(type);
+    wedge[wedge.find('8')] = '6';
+    return wedge;
+}
+
+bool is_abaqus_element(std::string_view type, DeckShape shape)
+{
+    // Cohesive elements and gaskets are written, but not read: they may have no thickness.
+    const bool thin = type.starts_with("COH3D") || type.starts_with("GK3D");
+    if (thin && type.substr(type.find('D') + 1).starts_with('8')) return shape == DeckShape::hex8;
+    if (thin && type.substr(type.find('D') + 1).starts_with('6')) return shape == DeckShape::wedge6;
+    return shape_of(type) == shape;
+}
 
 void read_abaqus(Cursor& cursor, DeckBuilder& into) { AbaqusReader(cursor, into).read(); }
 

@@ -81,9 +81,10 @@ class AbaqusWriter {
 public:
     explicit AbaqusWriter(const View& view) : view_(view), same_(view->kept.has_value()) {}
 
-    DeckFile write()
+    DeckFile write(const std::string& unit)
     {
         Cards cards;
+        file_.add(unit_comment(*view_, "**", unit));
         if (same_) {
             file_.add(view_->kept->head);
             cards = cards_of(*view_->kept);
@@ -315,9 +316,9 @@ private:
 
 } // namespace
 
-DeckFile abaqus_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile abaqus_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
-    return AbaqusWriter(view).write();
+    return AbaqusWriter(view).write(options.unit);
 }
 
 } // namespace lacuna::io

@@ -29,7 +29,7 @@ constexpr Beginning kBeginnings[] = {{"# vtk datafile", ".vtk"},  {"<?xml", ".vt
                                      {"dbrep_drawable", ".brep"}, {"*heading", ".inp"},
                                      {"*node", ".inp"},           {"*part", ".inp"},
                                      {"cdf\x01", ".exo"},         {"cdf\x02", ".exo"},
-                                     {"cdf\x05", ".exo"}};
+                                     {"cdf\x05", ".exo"},         {"*keyword", ".k"}};
 
 /// Words of the next line that is not a comment.
 std::vector<std::string_view> words_of_line(Cursor& cursor)
@@ -107,6 +107,8 @@ void check_content(const std::string& name, const FormatRow& format, std::string
                 .remedy("export it as .vtu, .unv or .msh"));
     const std::string_view ending = ending_by_content(bytes);
     if (ending.empty() || ending == format.ending) return;
+    // A deck of LS-DYNA without its first keyword begins as one of Abaqus may.
+    if (format.deck == DeckFormat::dyna && ending == ".inp") return;
     const Format* const other = find_format("file" + std::string(ending));
     // Several endings can mean the same format.
     if (other != nullptr && row_of(*other).read == format.read) return;

@@ -19,7 +19,21 @@ namespace lacuna::io {
 /// Number of a node or an element as a file gives it, >= 0.
 using DeckTag = std::int64_t;
 
-enum class DeckFormat { nastran, abaqus, unv, msh, vtk, vtu, medit, stl, obj, exodus };
+enum class DeckFormat {
+    nastran,
+    abaqus,
+    unv,
+    msh,
+    vtk,
+    vtu,
+    medit,
+    stl,
+    obj,
+    exodus,
+    dyna,
+    febio,
+    med,
+};
 
 using DeckShape = mesh::CellShape;
 using DeckShapeInfo = mesh::CellShapeInfo;
@@ -113,6 +127,7 @@ struct Deck {
     std::string path;
     DeckFormat format = DeckFormat::nastran;
     double version = 0;              ///< version of the format, for .msh and .vtk
+    std::string unit{};              ///< declared unit of its lengths, as `metres_of()`; empty: none
     std::vector<Vec3> points;        ///< in the basic frame [the file's length], in the file's order
     std::vector<DeckTag> point_tags; ///< unique
     /// Fields of a node's card after its coordinates, as in the file, separated by commas: the displacement
@@ -151,7 +166,8 @@ struct NodesAt {
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale = 1);
 
 /// Read the mesh of a file: .bdf .nas .dat (Nastran), .inp (Abaqus, CalculiX), .unv, .msh, .vtk, .vtu, .mesh,
-/// .exo, .e, .stl, .obj. The file extension, in any case, determines the format, and the content must agree.
+/// .exo, .e, .k, .key, .dyn, .med, .stl, .obj. The file extension, in any case, determines the format, and
+/// the content must agree.
 /// @param context  its log gets the deck's warnings, each after "note: ".
 /// @throw InvalidInput  as read_facets().
 Deck read_deck(const std::string& path, const RunContext& context = {});

@@ -265,6 +265,13 @@ void add_model_cards(Deck& deck, const std::string& cards)
     deck.texts.push_back({DeckText::Place::cards, "", cards});
 }
 
+std::string unit_comment(const mesh::MeshView& view, std::string_view sign, const std::string& unit)
+{
+    const std::string line = std::string(sign) + " lengths are in " + unit + "\n";
+    const bool is_said = view.kept && (view.kept->head + "\n" + view.kept->cards).find(line) != line.npos;
+    return unit.empty() || is_said ? "" : line;
+}
+
 void check_numbers(const mesh::MeshView& view, DeckTag most, const std::string& format,
                    const std::string& remedy)
 {

@@ -4,6 +4,7 @@
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/exodus.h>
 #include <lacuna/io/detail/vtk_cells.h>
+#include <lacuna/io/shared/units.h>
 
 #include <algorithm>
 #include <cctype>
@@ -20,7 +21,7 @@ namespace {
 struct NcArray {
     std::vector<std::size_t> lengths; ///< lengths of its dimensions
     std::string element_type{};       ///< its attribute `elem_type`
-    std::string name{};               ///< its attribute of that name
+    std::string name{}, units{};      ///< its attributes of these names
     const VtkType* type = nullptr;
     std::uint64_t begin = 0;
     bool records = false; ///< one array per time step
@@ -144,6 +145,7 @@ private:
             if (array == nullptr) continue;
             if (of == "elem_type") array->element_type = text.substr(0, text.find('\0'));
             if (of == "name") array->name = text.substr(0, text.find('\0'));
+            if (of == "units") array->units = text.substr(0, text.find('\0'));
         }
     }
 
@@ -241,6 +243,7 @@ private:
         for (std::size_t axis = 0; axis < axes; ++axis) {
             const std::string name = std::string("coord") + "xyz"[axis];
             const NcArray& array = together != nullptr ? *together : needed(name);
+            if (is_unit(array.units)) into_.deck().unit = array.units;
             const std::string_view raw = together != nullptr ? all.substr(axis * count * array.type->bytes)
                                                              : head_.bytes(array, name, count);
             if (axis == 0) {

@@ -250,7 +250,7 @@ private:
 
 class ExodusWriter {
 public:
-    explicit ExodusWriter(const View& view) : view_(view) {}
+    ExodusWriter(const View& view, std::string unit) : view_(view), unit_(std::move(unit)) {}
 
     DeckFile write()
     {
@@ -382,7 +382,8 @@ private:
                         for (const Vec3& point : points) out = io::put_big(out, point[axis]);
                     });
                     return out;
-                });
+                },
+                unit_.empty() ? std::vector<Attribute>() : std::vector{text_attribute("units", unit_)});
         nc_.array("node_num_map", NcType::whole, {nodes}, 1,
                   [view = view_](std::size_t begin, std::size_t end, char* out) {
                       view->point_tags.each(begin, end,
@@ -478,6 +479,7 @@ private:
     }
 
     View view_;
+    std::string unit_;
     DeckFile file_;
     NcFile nc_;
     std::shared_ptr<std::vector<Block>> blocks_ = std::make_shared<std::vector<Block>>();
@@ -488,11 +490,11 @@ private:
 
 } // namespace
 
-DeckFile exodus_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile exodus_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
     check_numbers(*view, std::numeric_limits<std::int32_t>::max(), "an Exodus file",
                   "give first_node and first_cell");
-    return ExodusWriter(view).write();
+    return ExodusWriter(view, options.unit).write();
 }
 
 } // namespace lacuna::io

@@ -13,6 +13,10 @@ namespace lacuna::io {
 /// with mid-side nodes.
 void write_poly_mesh(const mesh::MeshView& view, const OutputPath& path, const RunContext& context);
 
+void read_dyna(Cursor& cursor, DeckBuilder& into);
+/// @throw BackendError "io.no_med"  the build has no libmedc
+void read_med(Cursor& cursor, DeckBuilder& into);
+
 namespace {
 
 constexpr std::string_view kDeckOptions = "with without renumber first_node first_cell interfaces";
@@ -89,6 +93,20 @@ std::vector<FormatRow> make_table()
         row.has_hex27 = true, row.streamed_parts = false;
         table.push_back(row);
     }
+    for (const char* ending : {".k", ".key", ".dyn"}) {
+        row = deck_format(ending, "an LS-DYNA deck", "LS-DYNA", dyna, Format::Skin::nodes_and_sides,
+                          dyna_file, read_dyna);
+        table.push_back(row);
+    }
+    row = deck_format(".feb", "a FEBio file", "FEBio", febio, Format::Skin::nodes_and_sides, febio_file,
+                      nullptr);
+    row.is_read = false, row.has_hex27 = true;
+    table.push_back(row);
+    row = view_format(".med", "a MED file", "MED", med,
+                      "with without renumber first_node first_cell interfaces", med_file);
+    row.read = read_med, row.streamed = row.streamed_parts = false;
+    row.unwritten_sets = "sets of sides are not written: MED has none";
+    table.push_back(row);
     row = mesh_format("polyMesh", "a polyMesh of OpenFOAM", "OpenFOAM", msh);
     row.is_folder = true, row.is_read = row.has_node_sets = false;
     row.options = "with without renumber interfaces", row.write_folder = write_poly_mesh;

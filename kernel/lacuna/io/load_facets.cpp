@@ -8,6 +8,7 @@
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/input_file.h>
 #include <lacuna/io/leave_out.h>
+#include <lacuna/io/shared/units.h>
 
 #include <algorithm>
 #include <cctype>
@@ -34,6 +35,22 @@ void check_options(const LoadOptions& options)
         throw InvalidInput("io.tolerance", "the tolerance must be a length of 0 or more, not {:.6g}",
                            found(options.tolerance));
     }
+    if (!options.unit.empty()) metres_of(options.unit);
+}
+
+/// The factor from the millimetres of STEP and IGES files, which state their unit, to the declared one.
+double scale_of_cad(const std::vector<std::string>& paths, const std::string& unit)
+{
+    const auto states = [](const std::string& path) {
+        return is_among(".step .stp .iges .igs", ending_of(path));
+    };
+    const auto stating = static_cast<std::size_t>(std::ranges::count_if(paths, states));
+    if (unit.empty() || stating == 0) return 1;
+    if (stating < paths.size() && unit != "mm")
+        throw InvalidInput(Message("io.unit", "{} states no unit, as the STEP or IGES files beside it do",
+                                   *std::ranges::find_if_not(paths, states))
+                               .remedy("load it by itself, or as STEP"));
+    return metres_of("mm") / metres_of(unit);
 }
 
 /// Split quads into two triangles along the shorter diagonal, for remeshing.
@@ -174,6 +191,8 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
         std::vector<std::string> parts = options.without;
         std::erase_if(parts, [&](const std::string& part) { return !has_part(*deck, part); });
         if (!parts.empty()) *deck = leave_out(*deck, parts).kept;
+        deck->unit = common_unit(options.unit, "the option `unit`", deck->unit, path);
+        loaded.unit = common_unit(loaded.unit, "a file before", deck->unit, path);
         check_cancelled(context);
         FacetFile file = facets_of(*deck, options.tolerance / options.scale);
         const bool is_mesh = format_of(deck->format).is_mesh;
@@ -257,10 +276,16 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
                            "without: {}: only finite element meshes have parts, and none of the files is one",
                            options.without.front());
     LoadedFiles loaded{.scale = options.scale};
-    if (!other.empty()) loaded = others.import(other, options, context);
+    if (!other.empty()) {
+        LoadOptions own = options;
+        own.scale *= scale_of_cad(other, options.unit);
+        loaded = others.import(other, own, context);
+        loaded.scale = options.scale;
+    }
     if (!facets.empty()) {
         LoadedFiles more = import_facets(facets, options, context);
         loaded.decks = std::move(more.decks);
+        loaded.unit = more.unit;
         move_in(loaded.warnings, more.warnings);
         if (other.empty())
             loaded.model = std::move(more.model);
@@ -268,6 +293,7 @@ LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOptions&
             loaded.model = joined(std::move(loaded.model), std::move(more.model));
     }
     if (!other.empty()) loaded.model = topology::with_loops(std::move(loaded.model), context);
+    if (loaded.unit.empty()) loaded.unit = options.unit;
     stitch(loaded, options, context);
     return loaded;
 }

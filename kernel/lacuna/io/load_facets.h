@@ -63,6 +63,9 @@ struct LoadOptions {
     bool keep_mesh = true;     ///< quads of FE formats are kept
     bool keep_noise = false;   ///< points of noisy facets stay where they are
     double scale = 1;          ///< factor on every coordinate, > 0 [-]
+    /// Unit of the model's lengths, as `metres_of()`: lengths of STEP and IGES files, which state theirs, are
+    /// converted to it, and numbers of other formats are lengths in it. Empty: none is declared.
+    std::string unit{};
     /// Parts of the meshes to leave out, as in `leave_out()`; each must be in at least one file.
     std::vector<std::string> without{};
 };
@@ -72,7 +75,8 @@ struct LoadedFiles {
     topology::Model model{};
     /// Decks of the files that hold elements, in their order; `nodes_at()` finds the nodes of model points.
     std::vector<std::shared_ptr<const Deck>> decks{};
-    double scale = 1; ///< factor from the model's coordinates to the decks' [-]
+    double scale = 1;   ///< factor from the model's coordinates to the decks' [-]
+    std::string unit{}; ///< declared unit of its lengths, by the options or a file; empty: none
     /// Those notes of the model that report content read differently from the file, to be shown to every
     /// user.
     std::vector<Message> warnings{};

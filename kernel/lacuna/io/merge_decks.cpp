@@ -6,6 +6,7 @@
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
+#include <lacuna/io/shared/units.h>
 
 #include <algorithm>
 #include <limits>
@@ -33,6 +34,7 @@ public:
 
     void merge(double scale)
     {
+        all_.unit = common_unit(all_.unit, all_.path, more_.unit, more_.path);
         const TextNumbers texts = numbers_in_text(all_), own = numbers_in_text(more_);
         std::vector<DeckTag> nodes = all_.point_tags, cells = element_tags(all_);
         nodes.insert(nodes.end(), texts.nodes.begin(), texts.nodes.end());

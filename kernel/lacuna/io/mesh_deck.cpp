@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/io/cell_field.h>
+#include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_view.h>
@@ -166,8 +167,8 @@ public:
         parts_.check();
         const bool abaqus = options_.format == DeckFormat::abaqus;
         if (parts_.cells()[0].shape == DeckShape::hex27 && !format_of(options_.format).has_hex27)
-            throw InvalidInput(Message("io.no_such_element",
-                                       "Abaqus, CalculiX, Nastran and UNV have no hexahedron of 27 nodes")
+            throw InvalidInput(Message("io.no_such_element", "{} has no hexahedron of 27 nodes",
+                                       format_of(options_.format).word)
                                    .remedy("sweep with order = 2, serendipity = true for 20 nodes"));
         if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
@@ -198,6 +199,13 @@ private:
         if (shape_info(shape).corners < 8) return; // tetrahedra and pyramids are of one type each
         const bool second = shape != DeckShape::hex8;
         element_ = options_.element.empty() ? (second ? "C3D20" : "C3D8") : options_.element;
+        const bool wedges = parts_.cells()[1].begin < parts_.cells()[1].end;
+        if (wedges && is_layer(element_) && layer_wedge(element_).empty())
+            throw InvalidInput(Message("io.element",
+                                       "element = \"{}\": the mesh has wedges, and there is no "
+                                       "such element of six nodes",
+                                       element_)
+                                   .remedy("use SC8R, COH3D8 or GK3D8"));
         if (is_abaqus_element(element_, shape)) return;
         throw InvalidInput("io.element", "element = \"{}\": expected an Abaqus name of a hexahedron of {}",
                            element_,
@@ -315,6 +323,7 @@ private:
         if (unv()) return std::to_string(words.unv);
         if (options_.format == DeckFormat::nastran) return words.nastran;
         if (options_.format != DeckFormat::abaqus) return "";
+        if (shape == DeckShape::wedge6 && !layer_wedge(element_).empty()) return layer_wedge(element_);
         return !element_.empty() && shape == parts_.cells()[0].shape ? element_ : words.abaqus;
     }
 
@@ -780,6 +789,36 @@ Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedT
     for (std::size_t p = 0; p < swept.size(); ++p) add(SweptParts{swept[p].mesh}, p);
     for (std::size_t t = 0; t < tets.size(); ++t) add(TetParts{tets[t].mesh}, swept.size() + t);
     return deck;
+}
+
+void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region, const std::string& element)
+{
+    const auto is_taken = [&](const std::string& name) {
+        return std::ranges::any_of(deck.sets, [&](const DeckSet& set) { return same_word(set.name, name); });
+    };
+    const std::string name = free_name(region, deck.format, is_taken);
+    deck.regions.push_back({highest_tag(deck.regions) + 1, name, {}});
+    DeckTag tag = 0;
+    for (const DeckTag used : element_tags(deck)) tag = std::max(tag, used);
+    DeckSet set{.tag = highest_tag(deck.sets) + 1, .name = name};
+    for (const Hex& cell : cells) {
+        const DeckShape shape = mesh::is_wedge(cell) ? DeckShape::wedge6 : DeckShape::hex8;
+        const ShapeWords& words = words_of(shape);
+        std::string type = element;
+        if (deck.format == DeckFormat::unv)
+            type = std::to_string(words.unv);
+        else if (deck.format == DeckFormat::nastran)
+            type = words.nastran;
+        else if (shape == DeckShape::wedge6)
+            type = layer_wedge(element);
+        DeckBlock& block = deck.blocks[block_of(deck.blocks, shape, type)];
+        for (std::size_t k = 0; k < cell.size(); ++k)
+            if (k == 0 || cell[k] != cell[k - 1] || shape == DeckShape::hex8) block.nodes.push_back(cell[k]);
+        block.tags.push_back(++tag);
+        block.regions.push_back(static_cast<Index>(deck.regions.size()) - 1);
+        set.members.push_back(tag);
+    }
+    if (deck.format != DeckFormat::nastran) deck.sets.push_back(std::move(set));
 }
 
 } // namespace lacuna::io

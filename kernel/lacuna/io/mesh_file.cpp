@@ -6,6 +6,7 @@
 #include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/swept_view.h>
+#include <lacuna/io/shared/units.h>
 
 #include <algorithm>
 
@@ -176,7 +177,9 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
     if (format.deck != deck.format && texts)
         notes.push_back(formatted(
             "materials, loads and other cards of {} are of another format and not carried over", deck.path));
-    write_view(row, view, {}, notes, options, path, context, nullptr);
+    MeshFileOptions own = options;
+    own.unit = common_unit(options.unit, "the mesh", deck.unit, deck.path);
+    write_view(row, view, {}, notes, own, path, context, nullptr);
 }
 
 void write_deck(const Deck& deck, DeckFormat format, const OutputPath& path, const RunContext& context,

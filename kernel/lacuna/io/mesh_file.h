@@ -35,6 +35,7 @@ struct MeshFileOptions {
     bool all_groups = false;
     /// Of several meshes, in formats where the skin is elements: quads shared by two of them are written too.
     bool interfaces = false;
+    std::string unit{}; ///< declared unit of the lengths, as `metres_of()`; empty: that of the deck, or none
 };
 
 /// Write hexahedra, wedges and their skin, with a group for each entity: the complete file or none.

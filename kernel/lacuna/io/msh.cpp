@@ -184,7 +184,7 @@ struct PartEntity {
 class MshFile {
 public:
     MshFile(const View& view, const MeshFileOptions& options, const ViewParts* parts)
-        : view_(view), numbers_{options.binary}, parts_(parts)
+        : view_(view), numbers_{options.binary}, parts_(parts), unit_(options.unit)
     {
         rows_ = rows_of(nullptr);
         if (parts != nullptr) part_rows_ = rows_of(parts);
@@ -359,7 +359,9 @@ private:
     {
         text_ = std::string("$MeshFormat\n") + version + (numbers_.binary ? " 1 8\n" : " 0 8\n");
         if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // shows readers the byte order
-        text_ += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names_.size()) + "\n";
+        text_ += "$EndMeshFormat\n";
+        if (!unit_.empty()) text_ += "$Comments\nlengths are in " + unit_ + "\n$EndComments\n";
+        text_ += "$PhysicalNames\n" + std::to_string(names_.size()) + "\n";
         for (const PhysicalName& name : names_)
             text_ += formatted("{} {} \"{}\"\n", name.dimension, name.tag, name.name);
         text_ += "$EndPhysicalNames\n";
@@ -625,6 +627,7 @@ private:
     View view_;
     MshNumbers numbers_;
     const ViewParts* parts_;
+    std::string unit_; ///< declared for the lengths; empty: none
     std::vector<Row> rows_, part_rows_;
     std::vector<char> used_;    ///< whether an entity has elements
     std::vector<Numbers> tags_; ///< element numbers, for each block

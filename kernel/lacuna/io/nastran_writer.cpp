@@ -202,12 +202,12 @@ std::string property_text(const MeshView& view)
 
 } // namespace
 
-DeckFile nastran_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile nastran_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
     static const MeshView::KeptText own{.head = "BEGIN BULK\n", .cards = {}, .tail = "ENDDATA\n"};
     const MeshView::KeptText& kept = view->kept ? *view->kept : own;
     DeckFile file;
-    file.add(kept.head);
+    file.add(kept.head + unit_comment(*view, "$", options.unit));
     add_nodes(view, file);
     for (std::size_t b = 0; b < view->blocks.size(); ++b) add_elements(view, b, file);
     file.add(kept.cards);

@@ -3,6 +3,7 @@
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/unv.h>
+#include <lacuna/io/shared/units.h>
 
 #include <lacuna/core/error.h>
 
@@ -49,6 +50,19 @@ std::string columns(std::initializer_list<long long> numbers)
     for (const long long number : numbers) out = put_column(out, number);
     text.resize(static_cast<std::size_t>(out - text.data()));
     return text + "\n";
+}
+
+/// Dataset 164: a length in the file is one in metres times the first factor.
+std::string units(const MeshView& view, const std::string& unit)
+{
+    const std::string begin = std::string(kMark) + "   164\n";
+    if (unit.empty() || (view.kept && view.kept->cards.find(begin) != begin.npos)) return {};
+    char factors[3 * kReal + kNumberBytes];
+    char* out = put_double(factors, 1 / metres_of(unit));
+    for (const double one : {1.0, 1.0}) out = put_double(out, one);
+    constexpr int kOwn = 9; // units that the dataset defines itself
+    return begin + formatted("{:>10}{:<20}{:>10}\n", kOwn, unit, 2) + std::string(factors, out) + "\n" +
+           "   0.0000000000000000D+00\n" + std::string(kMark);
 }
 
 void add_nodes(const View& view, DeckFile& file)
@@ -107,13 +121,14 @@ void add_members(const View& view, std::size_t set, std::string head, DeckFile& 
 
 } // namespace
 
-DeckFile unv_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile unv_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
     constexpr DeckTag kMost = 9'999'999'999; // ten characters: larger numbers would touch the previous number
     check_numbers(*view, kMost, "a universal file", "write another format");
     const std::vector<MeshView::Set>& sets = view->sets;
     DeckFile file;
     if (view->kept) file.add(view->kept->cards);
+    file.add(units(*view, options.unit));
     add_nodes(view, file);
     file.add(std::string(kMark) + "  2412\n");
     for (std::size_t b = 0; b < view->blocks.size(); ++b) add_elements(view, b, file);

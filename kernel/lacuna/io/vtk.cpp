@@ -365,9 +365,10 @@ std::string vtk_name(std::string_view name)
 }
 
 /// Version, title and, if there are any, the named lists.
-std::string vtk_head(const MeshView& view, bool binary)
+std::string vtk_head(const MeshView& view, bool binary, const std::string& unit)
 {
-    std::string head = "# vtk DataFile Version 3.0\nhexahedra\n";
+    std::string head = "# vtk DataFile Version 3.0\nhexahedra";
+    head.append(unit.empty() ? "" : ", lengths are in " + unit).append("\n");
     head.append(binary ? "BINARY" : "ASCII").append("\nDATASET UNSTRUCTURED_GRID\n");
     if (view.lists.empty()) return head;
     head.append("FIELD FieldData ").append(std::to_string(view.lists.size())).append("\n");
@@ -381,7 +382,7 @@ std::string vtk_head(const MeshView& view, bool binary)
     return head;
 }
 
-std::vector<Section> vtk_sections(const View& view, bool binary)
+std::vector<Section> vtk_sections(const View& view, bool binary, const std::string& unit)
 {
     const auto room = [binary](std::size_t numbers, std::size_t bytes) {
         return binary ? numbers * bytes : numbers * kNumberBytes + 1;
@@ -391,7 +392,7 @@ std::vector<Section> vtk_sections(const View& view, bool binary)
     };
     const std::string count = std::to_string(view->cells());
     std::vector<Section> all{
-        {vtk_head(*view, binary) + "POINTS " + std::to_string(view->points) + " double\n", view->points,
+        {vtk_head(*view, binary, unit) + "POINTS " + std::to_string(view->points) + " double\n", view->points,
          room(3, 8), [view, binary](std::size_t begin, std::size_t end, char* out) {
              view->each_point(begin, end, [&](std::span<const Vec3> points) {
                  for (const Vec3& point : points) {
@@ -453,16 +454,20 @@ void refuse_unknown(const MeshView& view)
 
 } // namespace
 
-DeckFile vtu_file(const View& view, const MeshFileOptions& /*options*/, const mesh::ViewParts* /*parts*/)
+DeckFile vtu_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
     refuse_unknown(*view);
-    return {.sections = xml_sections(*view, arrays_of(view)), .notes = {}, .sizes = Sizes::exact};
+    DeckFile file{.sections = xml_sections(*view, arrays_of(view)), .notes = {}, .sizes = Sizes::exact};
+    std::string& head = file.sections.front().text;
+    if (!options.unit.empty())
+        head.insert(head.find('\n') + 1, "<!-- lengths are in " + options.unit + " -->\n");
+    return file;
 }
 
 DeckFile vtk_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
     refuse_unknown(*view);
-    return {.sections = vtk_sections(view, options.binary),
+    return {.sections = vtk_sections(view, options.binary, options.unit),
             .notes = {},
             .sizes = options.binary ? Sizes::exact : Sizes::varying};
 }

@@ -76,16 +76,18 @@ void write_share(const mesh::LayeredMesh& layered, const io::OutputPath& path, c
                    {.binary = file.binary,
                     .version = file.version,
                     .partition = file.partition,
-                    .all_groups = file.all_groups},
+                    .all_groups = file.all_groups,
+                    .unit = file.unit},
                    {.material = file.material}, fields, context, team);
 }
 
 void write_share(std::span<const mesh::LayeredPart> parts, const io::OutputPath& path,
                  const LayeredFile& file, const Team* team, const RunContext& context)
 {
-    io::write_parts(io::needed_mesh_format("sweep_to", path.text()), parts, path,
-                    {.binary = file.binary, .version = file.version, .all_groups = file.all_groups}, {},
-                    context, team);
+    io::write_parts(
+        io::needed_mesh_format("sweep_to", path.text()), parts, path,
+        {.binary = file.binary, .version = file.version, .all_groups = file.all_groups, .unit = file.unit},
+        {}, context, team);
 }
 
 void help_write_parts(const std::string& bytes, const Team& team, const RunContext& context)

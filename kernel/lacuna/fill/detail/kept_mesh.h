@@ -17,6 +17,7 @@ struct KeptMesh {
     sweep::Swept swept; ///< its `faces` are those of the skin
     std::string region; ///< empty: the mesh has no name
     std::string material;
+    std::string unit;
     std::string whole;   ///< volume that this mesh is a piece of; empty: the mesh is no piece
     std::string turn_of; ///< for a piece of a full turn: region of the whole turn
 };

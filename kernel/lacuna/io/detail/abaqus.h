@@ -41,6 +41,12 @@ void each_data_line(const AbaqusCard& card, const Take& take)
     });
 }
 
+/// Whether an element type in capitals is a hexahedron of a thin layer, whose nodes 5 to 8 lie on 1 to 4 in
+/// the direction of its thickness: a cohesive one, a gasket, a continuum shell.
+bool is_layer(std::string_view type);
+/// The type of the wedges beside such hexahedra; empty: there is none.
+std::string layer_wedge(std::string_view type);
+
 /// Whether it assigns a section to a set of elements.
 bool is_section(const Keyword& keyword);
 

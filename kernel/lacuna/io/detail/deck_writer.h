@@ -137,6 +137,10 @@ char* put_real(char* out, double value, std::size_t width, RealForm form = RealF
 
 inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
 
+/// A comment line with the unit of the lengths, after a sign; empty if none is declared or the kept text says
+/// it.
+std::string unit_comment(const mesh::MeshView& view, std::string_view sign, const std::string& unit);
+
 /// Check that all node and element numbers fit into a format. @throw InvalidInput "io.number_taken"
 void check_numbers(const mesh::MeshView& view, DeckTag most, const std::string& format,
                    const std::string& remedy);

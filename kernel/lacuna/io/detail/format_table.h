@@ -19,7 +19,8 @@ class DeckBuilder;
 /// The writer of a file, one for each format: swept meshes, decks and meshes that are created while they are
 /// written are all views. @param parts  of .msh 4.1; null: the mesh is not divided
 using WriteView = DeckFile(const View& view, const MeshFileOptions& options, const mesh::ViewParts* parts);
-WriteView abaqus_file, exodus_file, msh_file, nastran_file, unv_file, vtk_file, vtu_file;
+WriteView abaqus_file, dyna_file, exodus_file, febio_file, med_file, msh_file, nastran_file, unv_file,
+    vtk_file, vtu_file;
 
 struct FormatRow : Format {
     void (*read)(Cursor&, DeckBuilder&) = nullptr;

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 
 namespace lacuna::io {
 
@@ -26,6 +27,11 @@ struct NumberedTets {
 /// @note  O(n log n) in the sides of the skins, O(n) in the cells.
 Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedTets> tets, std::size_t nodes,
              MeshDeckOptions options, bool interfaces, const RunContext& context = {});
+
+/// Add cells between nodes that a deck has, which it numbers in order, with a region and a set of them.
+/// @param cells    hexahedra, and wedges as `mesh::is_wedge()` says
+/// @param element  Abaqus name of the hexahedra: "COH3D8"
+void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region, const std::string& element);
 
 /// As `join_deck()` of `deck_file.h`, with tetrahedra and pyramids. If other parts of their mesh joined the
 /// deck before, nodes in the same place are shared with these.

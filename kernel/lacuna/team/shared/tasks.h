@@ -25,6 +25,7 @@ struct LayeredFile {
     std::string material{};                 ///< material name, for decks
     io::PartitionOptions partition{};       ///< for .msh and .pvtu
     bool all_groups = false;                ///< for .msh, as `io::MeshFileOptions::all_groups`
+    std::string unit{};                     ///< as `io::MeshFileOptions::unit`
 };
 
 /// Write a mesh whose nodes are computed while they are written, in the format given by the ending of the

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/mesh/shared/mesh_view.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+/// Sides of cells as lists of nodes. Internal to this folder.
+namespace lacuna::io {
+
+/// The nodes of the sides that the sets of a view name, for formats that list these instead of cells.
+class SideNodes {
+public:
+    /// @note  O(n log n) in the sides, O(n) in the cells
+    explicit SideNodes(const mesh::MeshView& view);
+
+    /// The nodes of a side, as indices: its corners, counter-clockwise seen from outside (of a shell: from
+    /// that side), the middles of its edges, and its centre. Empty for an edge of a shell.
+    /// @pre  a set of the view names the side
+    [[nodiscard]] std::span<const Index> operator[](const mesh::CellSide& side) const;
+
+private:
+    struct Nodes {
+        std::array<Index, 9> node{};
+        std::size_t count = 0;
+    };
+    static Nodes nodes_of(mesh::CellShape shape, std::span<const Index> cell, int side);
+
+    std::vector<mesh::CellSide> sides_; ///< rising
+    std::vector<Nodes> nodes_;          ///< for each of them
+};
+
+} // namespace lacuna::io

@@ -1,0 +1,749 @@
+// SPDX-License-Identifier: MIT
+//
+// Keyword decks of LS-DYNA: nodes, solids, shells, parts and sets are the mesh; all other cards are text.
+// Wedges, pyramids and tetrahedra are hexahedra with repeated nodes, as in *ELEMENT_SOLID of the Keyword
+// User's Manual, volume I: https://lsdyna.ansys.com/manuals/
+#include <lacuna/core/shared/same_corners.h>
+#include <lacuna/io/detail/deck_builder.h>
+#include <lacuna/io/detail/deck_files.h>
+#include <lacuna/io/detail/format_table.h>
+#include <lacuna/io/detail/join_sets.h>
+#include <lacuna/io/detail/side_nodes.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+namespace lacuna::io {
+
+void read_dyna(Cursor& cursor, DeckBuilder& into);
+
+namespace {
+
+using enum DeckShape;
+using mesh::MeshView;
+using mesh::SetKind;
+
+constexpr std::size_t kNumber = 8, kReal = 16, kSetNumber = 10; // columns of a field
+constexpr std::size_t kLong = 20;                               // columns of each field in long format
+constexpr std::size_t kPerLine = 8;                             // numbers per line of a set
+constexpr std::string_view kSolid = "ELEMENT_SOLID", kSolid20 = "ELEMENT_SOLID_H20",
+                           kThick = "ELEMENT_TSHELL", kShell = "ELEMENT_SHELL";
+
+/// Where the corners of a cell stand in the eight fields of a solid.
+struct Degenerate {
+    DeckShape shape;
+    std::array<std::uint8_t, 8> fields;
+};
+constexpr Degenerate kDegenerate[] = {{tet4, {0, 1, 2, 3, 3, 3, 3, 3}},
+                                      {pyramid5, {0, 1, 2, 3, 4, 4, 4, 4}},
+                                      {wedge6, {0, 2, 5, 3, 1, 1, 4, 4}},
+                                      {hex8, {0, 1, 2, 3, 4, 5, 6, 7}}};
+/// Patterns that are read as well: a triangle is swept, and a tetrahedron stands on its third side.
+constexpr Degenerate kReadToo[] = {{wedge6, {0, 1, 2, 2, 3, 4, 5, 5}}, {tet4, {0, 1, 2, 2, 3, 3, 3, 3}}};
+
+/// A keyword in capitals, without its star and without the sign of its format at the end.
+std::string keyword_of(std::string_view line)
+{
+    std::string word = upper(next_word(line, " \t\r,"));
+    word.erase(0, 1);
+    while (word.ends_with('+') || word.ends_with('-') || word.ends_with('%')) word.pop_back();
+    return word;
+}
+
+std::vector<std::string_view> fields_of(std::string_view line, std::size_t first, std::size_t width,
+                                        std::size_t count)
+{
+    std::vector<std::string_view> fields;
+    const bool free = line.find(',') != std::string_view::npos;
+    while (fields.size() < count && !line.empty()) {
+        const std::size_t own = fields.empty() ? first : width;
+        const std::size_t end = std::min(free ? line.find(',') : own, line.size());
+        fields.push_back(trimmed(line.substr(0, end)));
+        line.remove_prefix(std::min(end + (free ? 1 : 0), line.size()));
+    }
+    return fields;
+}
+
+/// Call `take(keyword, data lines)` for every card of a text.
+template <class Take>
+void each_card(std::string_view text, const Take& take)
+{
+    std::string keyword;
+    std::vector<std::string_view> lines;
+    each_line(text, [&](std::string_view line) {
+        if (line.starts_with('$')) return;
+        if (!line.starts_with('*')) return lines.push_back(line);
+        if (!keyword.empty()) take(keyword, lines);
+        keyword = keyword_of(line);
+        lines.clear();
+    });
+    if (!keyword.empty()) take(keyword, lines);
+}
+
+// --- reading ----------------------------------------------------------------------------------------------
+
+class DynaReader {
+public:
+    DynaReader(Cursor& cursor, DeckBuilder& into) : main_(cursor), into_(into), files_(cursor) {}
+
+    void read()
+    {
+        read_file(main_, 0, 0);
+        end_card();
+        if (into_.points().empty()) main_.fail_at(0, "expected cards *NODE, found none");
+        const TagPlaces tags(into_.deck().point_tags, [&](Index, Index node) {
+            main_.fail("{} is there twice", numbered("node", into_.deck().point_tags[index(node)]));
+        });
+        into_.resolve(tags, [&](std::uint64_t at, const Message& why) { files_.place_of(at).fail(why); });
+        const std::vector<DeckTag> elements = element_tags(into_.deck());
+        const TagPlaces unique(elements, [&](Index a, Index) {
+            main_.fail(Message(kUnreadable, "{} is there twice", numbered("element", elements[index(a)]))
+                           .remedy("number solids and shells together, each with a number of its own"));
+        });
+        name_regions();
+        find_sides();
+        for (SetCard& card : sets_) add_set(card);
+        std::vector<DeckText>& texts = into_.deck().texts;
+        if (head_.find('*') == head_.npos) head_ += "*KEYWORD\n";
+        texts.push_back({DeckText::Place::head, "", head_});
+        texts.push_back({DeckText::Place::cards, "", cards_});
+        texts.push_back({DeckText::Place::tail, "", "*END\n"});
+    }
+
+private:
+    enum class Mode { keep, node, element, set, include };
+    /// A set whose card is kept as text if the deck cannot hold it.
+    struct SetCard {
+        SetKind kind;
+        bool titled, ranges;
+        std::size_t width;
+        std::string text;
+        DeckPlace place;
+    };
+
+    void read_file(Cursor& cursor, std::uint64_t file, int depth)
+    {
+        while (!cursor.at_end()) {
+            const std::string_view raw = cursor.raw_line();
+            place_ = {&cursor, cursor.last(), file};
+            std::string_view line = raw;
+            if (line.ends_with('\r')) line.remove_suffix(1);
+            if (line.starts_with('*')) {
+                end_card();
+                if (keyword_of(line) == "END") return;
+                begin_card(line);
+                if (keyword_ == "KEYWORD" && begun_) continue;
+                begun_ = begun_ || keyword_ != "KEYWORD";
+            }
+            const bool is_data = !line.starts_with('*') && !line.starts_with('$');
+            if (mode_ == Mode::keep) {
+                (begun_ ? cards_ : head_).append(line).append("\n");
+                begun_ = begun_ || line.starts_with('*');
+            } else if (mode_ == Mode::set) {
+                sets_.back().text.append(line).append("\n");
+            } else if (is_data && !trimmed(line).empty()) {
+                if (mode_ == Mode::node)
+                    take_node(line);
+                else if (mode_ == Mode::element)
+                    take_element(line);
+                else
+                    take_include(trimmed(line), depth);
+            }
+        }
+    }
+
+    void begin_card(std::string_view line)
+    {
+        keyword_ = keyword_of(line);
+        const std::string_view end = trimmed(line.substr(0, line.find('$')));
+        const auto width_of = [&](std::size_t plain) {
+            return end.ends_with('+') || (long_ && !end.ends_with('-'))  ? kLong
+                   : end.ends_with('%') || (ten_ && !end.ends_with('-')) ? std::max(plain, kSetNumber)
+                                                                         : plain;
+        };
+        width_ = width_of(kNumber);
+        mode_ = Mode::keep;
+        std::string base = keyword_;
+        const bool titled = base.ends_with("_TITLE");
+        if (titled) base.resize(base.size() - 6);
+        const bool ranges = base.ends_with("_GENERATE");
+        if (ranges) base.resize(base.size() - 9);
+        if (base.ends_with("_LIST")) base.resize(base.size() - 5);
+        if (keyword_ == "KEYWORD") {
+            const std::string options = upper(line);
+            const bool wide = options.find("LONG=") != options.npos,
+                       ten = options.find("I10=Y") != options.npos;
+            if (begun_ && (wide != long_ || ten != ten_))
+                place_.fail("the fields of an included file are of another width than those of the deck");
+            long_ = wide, ten_ = ten;
+        } else if (keyword_ == "NODE") {
+            mode_ = Mode::node;
+        } else if (keyword_ == kSolid || keyword_ == kSolid20 || keyword_ == kThick || keyword_ == kShell) {
+            mode_ = Mode::element;
+        } else if (keyword_ == "INCLUDE") {
+            mode_ = Mode::include;
+        } else if (keyword_.starts_with("INCLUDE") || keyword_.starts_with("NODE_TRANSFORM")) {
+            place_.fail(Message(kUnreadable, "*{} is not read", keyword_)
+                            .remedy("write the deck with the cards that it stands for"));
+        } else if (base == "SET_NODE" || base == "SET_SOLID" || base == "SET_SHELL" ||
+                   base == "SET_SEGMENT") {
+            mode_ = Mode::set;
+            const SetKind kind = base == "SET_NODE"      ? SetKind::nodes
+                                 : base == "SET_SEGMENT" ? SetKind::sides
+                                                         : SetKind::elements;
+            sets_.push_back({kind, titled, ranges, width_of(kSetNumber), {}, place_});
+        } else {
+            const bool element = keyword_.starts_with(kSolid) || keyword_.starts_with(kShell);
+            if (element && unread_.insert(keyword_).second)
+                into_.warn(formatted("elements of *{} are kept as text and have no faces", keyword_));
+            into_.pass_over("*" + keyword_);
+        }
+    }
+
+    /// Finish what the card before the next keyword began.
+    void end_card()
+    {
+        if (mode_ == Mode::element && (!head_line_.empty() || !nodes_.empty()))
+            place_.fail("*{} ends within an element", keyword_);
+        mode_ = Mode::keep;
+    }
+
+    void take_include(std::string_view name, int depth)
+    {
+        if (name.ends_with(" +"))
+            place_.fail(Message(kUnreadable, "INCLUDE: the name of the file goes on in the next line")
+                            .remedy("give it a shorter name"));
+        const DeckPlace place = place_;
+        Cursor& included = files_.include(std::string(name), place, depth);
+        mode_ = Mode::keep;
+        read_file(included, files_.last(), depth + 1);
+        end_card();
+        mode_ = Mode::include;
+    }
+
+    Index number(std::string_view field, const char* what) const
+    {
+        if (field.starts_with('&') || field.starts_with("-&"))
+            place_.fail(Message(kUnreadable, "{} is a parameter, which is not read", shown(field))
+                            .remedy("write its value"));
+        if (field.empty()) return 0;
+        const auto value = parse_integer<Index>(field);
+        if (!value || *value < 0)
+            place_.fail("expected the number of {}, found {}", what, found(shown(field)));
+        return *value;
+    }
+
+    void take_node(std::string_view line)
+    {
+        const std::size_t real = width_ == kLong ? kLong : kReal;
+        const auto fields = fields_of(line, width_, real, 4);
+        Vec3 point = Vec3::Zero();
+        if (fields.empty() || fields[0].empty()) place_.fail("expected the number of a node, found none");
+        for (std::size_t k = 1; k < fields.size(); ++k) {
+            const auto value = fields[k].empty() ? 0.0 : parse_real(fields[k], Exponents::fortran);
+            if (!value) place_.fail("expected a coordinate, found {}", found(shown(fields[k])));
+            point[static_cast<Index>(k) - 1] = *value;
+        }
+        into_.add_point(number(fields[0], "a node"), point, *place_.cursor);
+        // The node's constraints follow its coordinates.
+        std::string_view more = line.substr(std::min(width_ + 3 * real, line.size()));
+        if (line.find(',') != line.npos)
+            more = fields.size() < 4 ? "" : line.substr(std::min(line.size(), text_after(line, fields[3])));
+        std::string text;
+        for (const std::string_view field : fields_of(more, width_, width_, 2))
+            text += std::string(kNumber - std::min(kNumber, field.size()), ' ').append(field);
+        if (text.find_first_not_of(" 0.") != text.npos)
+            into_.deck().point_more.emplace_back(into_.points().size() - 1, std::move(text));
+    }
+
+    /// The position behind a field of a line and its comma.
+    static std::size_t text_after(std::string_view line, std::string_view field)
+    {
+        return line.find(',', static_cast<std::size_t>(field.data() - line.data()) + field.size()) + 1;
+    }
+
+    void take_element(std::string_view line)
+    {
+        const auto fields = fields_of(line, width_, width_, 10);
+        std::size_t first = 0;
+        if (head_line_.empty()) {
+            head_line_ = {number(fields[0], "an element"),
+                          number(fields.size() > 1 ? fields[1] : "", "a part")};
+            element_place_ = place_;
+            first = 2;
+        }
+        for (std::size_t k = first; k < fields.size(); ++k) nodes_.push_back(number(fields[k], "a node"));
+        const bool has_nodes = std::ranges::any_of(nodes_, [](Index node) { return node > 0; });
+        if (first > 0 && !has_nodes) return nodes_.clear();
+        nodes_.resize((nodes_.size() + 9) / 10 * 10 - (first > 0 ? 2 : 0), 0);
+        const bool twenty = keyword_ == kSolid20;
+        if (twenty && nodes_.size() < 20) return;
+        add_element(twenty);
+        head_line_.clear();
+        nodes_.clear();
+    }
+
+    void add_element(bool twenty)
+    {
+        const auto add = [&](DeckShape shape, std::span<const Index> nodes) {
+            if (std::ranges::find(nodes, 0) != nodes.end())
+                element_place_.fail("{} lacks a node", numbered("element", head_line_[0]));
+            into_.add_element(into_.block_of(shape, keyword_), head_line_[0], into_.region_of(head_line_[1]),
+                              nodes, element_place_.number());
+        };
+        const std::span<const Index> nodes(nodes_);
+        if (twenty) return add(hex20, nodes.first(20));
+        if (keyword_ == kShell) {
+            if (nodes[4] > 0 && nodes[2] != nodes[3]) return add(quad8, nodes.first(8));
+            const bool triangle = nodes[3] == 0 || nodes[3] == nodes[2];
+            return add(triangle ? tri3 : quad4, nodes.first(triangle ? 3 : 4));
+        }
+        if (nodes.size() == 10 && nodes[8] > 0 && nodes[9] > 0) return add(tet10, nodes);
+        std::array<Index, 8> eight{};
+        std::ranges::copy(nodes.first(8), eight.begin());
+        const auto corners_by = [&](const Degenerate& of) { return try_pattern(of, eight, add); };
+        if (std::ranges::any_of(kDegenerate, corners_by) || std::ranges::any_of(kReadToo, corners_by)) return;
+        element_place_.fail("{} repeats nodes as no tetrahedron, pyramid or wedge does",
+                            numbered("element", head_line_[0]));
+    }
+
+    /// Add an element that repeats its nodes as a pattern says, and is no simpler one.
+    template <class Add>
+    static bool try_pattern(const Degenerate& of, const std::array<Index, 8>& eight, const Add& add)
+    {
+        const auto count = static_cast<std::size_t>(shape_info(of.shape).corners);
+        std::array<Index, 8> corner{};
+        for (std::size_t k = 0; k < 8; ++k) corner[of.fields[k]] = eight[k];
+        for (std::size_t k = 0; k < 8; ++k)
+            if (corner[of.fields[k]] != eight[k]) return false;
+        for (std::size_t k = 0; k < count; ++k)
+            if (std::find(corner.begin(), corner.begin() + static_cast<std::ptrdiff_t>(k), corner[k]) !=
+                corner.begin() + static_cast<std::ptrdiff_t>(k))
+                return false;
+        add(of.shape, std::span<const Index>(corner).first(count));
+        return true;
+    }
+
+    /// Name the regions after the titles of their parts; parts without elements keep their numbers.
+    void name_regions()
+    {
+        each_card(cards_, [&](const std::string& keyword, const std::vector<std::string_view>& lines) {
+            if (keyword != "PART" && !keyword.starts_with("PART_")) return;
+            const std::size_t each = keyword == "PART" ? 2 : std::max<std::size_t>(lines.size(), 2);
+            for (std::size_t k = 0; k + 1 < lines.size(); k += each) {
+                const auto fields = fields_of(lines[k + 1], kSetNumber, kSetNumber, 3);
+                const auto part = parse_integer<int>(fields.empty() ? std::string_view() : fields[0]);
+                if (!part || *part < 0) continue;
+                DeckRegion& region = into_.deck().regions[index(into_.region_of(*part))];
+                region.name = trimmed(lines[k]);
+                if (fields.size() > 2) region.material = fields[2];
+            }
+        });
+        std::set<std::string> names;
+        for (DeckRegion& region : into_.deck().regions)
+            if (region.name.empty() || !names.insert(upper(region.name)).second)
+                region.name = "pid:" + std::to_string(region.tag);
+    }
+
+    /// Find the sides that segments name by their nodes.
+    void find_sides()
+    {
+        for (const SetCard& card : sets_)
+            if (card.kind == SetKind::sides)
+                each_row(card, [&](std::span<const Index> row) {
+                    if (const auto corners = corners_of(row)) sides_.try_emplace(face_key(*corners));
+                });
+        if (sides_.empty()) return;
+        each_element(into_.deck(), [&](const DeckBlock& block, std::size_t e, std::size_t) {
+            const auto visit = [&](Quad corners, int side) {
+                for (Index& k : corners)
+                    k = k < 0
+                            ? -1
+                            : static_cast<Index>(into_.deck().point_tags[index(block.element(e)[index(k)])]);
+                if (const auto at = sides_.find(face_key(corners)); at != sides_.end())
+                    at->second.push_back({corners, {block.tags[e], side}});
+            };
+            if (shape_info(block.shape).dimension == 2) visit(shell_corners(block.shape), 0);
+            int side = 0;
+            for (const Quad& face : face_corners(block.shape)) visit(face, ++side);
+        });
+    }
+
+    /// The side of a solid that a segment covers, as it is oriented if there are two; else that of a shell.
+    [[nodiscard]] std::optional<DeckSide> side_of(const Quad& segment) const
+    {
+        const auto at = sides_.find(face_key(segment));
+        if (at == sides_.end() || at->second.empty()) return {};
+        const auto is_along = [&](const auto& of) { return is_rotated(of.first, segment); };
+        const auto is_solid = [](const auto& of) { return of.second.side > 0; };
+        const auto& all = at->second;
+        auto best = std::ranges::find_if(all, [&](const auto& of) { return is_solid(of) && is_along(of); });
+        if (best == all.end()) best = std::ranges::find_if(all, is_solid);
+        if (best != all.end()) return best->second;
+        return DeckSide{all.front().second.element, is_along(all.front()) ? 0 : -1};
+    }
+
+    static bool is_rotated(const Quad& a, const Quad& b)
+    {
+        const std::size_t corners = a[3] < 0 ? 3 : 4;
+        for (std::size_t turn = 0; turn < corners; ++turn) {
+            std::size_t k = 0;
+            while (k < corners && a[k] == b[(k + turn) % corners]) ++k;
+            if (k == corners) return true;
+        }
+        return false;
+    }
+
+    /// Corners of a segment; empty: it has attributes, which a deck cannot hold.
+    static std::optional<Quad> corners_of(std::span<const Index> row)
+    {
+        if (row.size() < 3 || std::ranges::any_of(row.subspan(std::min<std::size_t>(row.size(), 4)),
+                                                  [](Index more) { return more != 0; }))
+            return {};
+        const Index last = row.size() > 3 && row[3] != 0 && row[3] != row[2] ? row[3] : -1;
+        return Quad{row[0], row[1], row[2], last};
+    }
+
+    /// Call `take(numbers)` for each data line of a set behind its head; lines with other words: no numbers.
+    template <class Take>
+    void each_row(const SetCard& card, const Take& take) const
+    {
+        std::size_t line = 0;
+        const std::size_t first = card.titled ? 2 : 1;
+        each_line(card.text, [&](std::string_view text) {
+            if (text.starts_with('*') || text.starts_with('$') || (line >= first && trimmed(text).empty()))
+                return;
+            if (line++ < first) return;
+            std::vector<Index> row;
+            for (const std::string_view field : fields_of(text, card.width, card.width, kPerLine))
+                row.push_back(field.empty() ? 0 : parse_integer<Index>(field).value_or(-1));
+            take(row);
+        });
+    }
+
+    void add_set(const SetCard& card)
+    {
+        DeckSet set;
+        set.kind = card.kind;
+        std::vector<std::string_view> lines;
+        each_line(card.text, [&](std::string_view line) {
+            if (!line.starts_with('*') && !line.starts_with('$')) lines.push_back(line);
+        });
+        const std::size_t at = card.titled ? 1 : 0;
+        bool holds = lines.size() > at;
+        if (holds) {
+            const auto head = fields_of(lines[at], card.width, card.width, kPerLine);
+            set.tag = parse_integer<int>(head.empty() ? std::string_view() : head[0]).value_or(-1);
+            holds = set.tag >= 0;
+            for (std::size_t k = 1; k < head.size(); ++k)
+                if (!head[k].empty() && head[k] != "MECH" && parse_real(head[k]) != 0.0) holds = false;
+        }
+        if (holds && card.titled) set.name = trimmed(lines[0]);
+        if (set.name.empty())
+            set.name = (card.kind == SetKind::nodes   ? "nodes_"
+                        : card.kind == SetKind::sides ? "segments_"
+                                                      : "elements_") +
+                       std::to_string(set.tag);
+        each_row(card, [&](std::span<const Index> row) {
+            if (std::ranges::any_of(row, [](Index number) { return number < 0; })) {
+                holds = false;
+            } else if (card.kind == SetKind::sides) {
+                const auto corners = corners_of(row);
+                const auto side = corners ? side_of(*corners) : std::nullopt;
+                if (side) set.sides.push_back(*side);
+                if (!side) holds = false;
+            } else if (card.ranges) {
+                for (std::size_t k = 0; k + 1 < row.size(); k += 2) add_range(row[k], row[k + 1], set);
+            } else {
+                std::ranges::copy_if(row, std::back_inserter(set.members), [](Index of) { return of > 0; });
+            }
+        });
+        if (!holds || (set.members.empty() && set.sides.empty())) {
+            cards_ += card.text;
+            into_.pass_over("sets that are kept as text");
+            return;
+        }
+        tidy(set);
+        into_.deck().sets.push_back(std::move(set));
+    }
+
+    void add_range(Index first, Index last, DeckSet& set)
+    {
+        std::vector<DeckTag>& known = set.kind == SetKind::nodes ? sorted_nodes_ : sorted_elements_;
+        if (known.empty()) {
+            known = set.kind == SetKind::nodes ? into_.deck().point_tags : element_tags(into_.deck());
+            std::ranges::sort(known);
+        }
+        const auto begin = std::ranges::lower_bound(known, first),
+                   end = std::ranges::upper_bound(known, last);
+        if (begin < end) set.members.insert(set.members.end(), begin, end);
+    }
+
+    Cursor& main_;
+    DeckBuilder& into_;
+    DeckFiles files_;
+    DeckPlace place_, element_place_;
+    std::string keyword_, head_, cards_;
+    Mode mode_ = Mode::keep;
+    std::set<std::string> unread_; ///< keywords of elements that are kept as text
+    bool begun_ = false, long_ = false, ten_ = false;
+    std::size_t width_ = kNumber;
+    std::vector<Index> head_line_, nodes_; ///< of the element that is read: number and part; nodes
+    std::vector<SetCard> sets_;
+    std::unordered_map<Quad, std::vector<std::pair<Quad, DeckSide>>, CornerHash<4>> sides_;
+    std::vector<DeckTag> sorted_nodes_, sorted_elements_;
+};
+
+// --- writing ----------------------------------------------------------------------------------------------
+
+char* put_right(char* out, std::string_view text, std::size_t width)
+{
+    for (std::size_t k = text.size(); k < width; ++k) *out++ = ' ';
+    return put_words(out, text);
+}
+
+char* put_number(char* out, DeckTag number, std::size_t width)
+{
+    char text[kNumberBytes];
+    return put_right(out, {text, static_cast<std::size_t>(put_text(text, number) - text)}, width);
+}
+
+class DynaWriter {
+public:
+    DynaWriter(const View& view, const std::string& unit) : view_(view), sides_(*view)
+    {
+        own_.head = "*KEYWORD\n", own_.tail = "*END\n";
+        kept_ = view_->kept && !view_->kept->head.empty() ? &*view_->kept : &own_;
+        const std::string head = upper(kept_->head);
+        // A deck in long format may have cards in the plain one.
+        const bool is_plain = head.find("LONG=") == head.npos && head.find("I10=") == head.npos;
+        end_ = is_plain ? "\n" : " -\n";
+        file_.add(kept_->head + unit_comment(*view_, "$", unit));
+    }
+
+    DeckFile write()
+    {
+        each_card(kept_->cards, [&](const std::string& keyword, const std::vector<std::string_view>& lines) {
+            scan(keyword, lines);
+        });
+        add_nodes();
+        for (std::size_t b = 0; b < view_->blocks.size(); ++b) add_elements(b);
+        file_.add(kept_->cards);
+        for (std::size_t r = 0; r < view_->regions.size(); ++r) add_part(r);
+        for (std::size_t s = 0; s < view_->sets.size(); ++s) add_set(s);
+        file_.add(kept_->tail);
+        return std::move(file_);
+    }
+
+private:
+    /// Note the numbers of parts, sections and sets in the kept text.
+    void scan(const std::string& keyword, const std::vector<std::string_view>& lines)
+    {
+        const auto number = [&](std::size_t line) {
+            const auto fields = line < lines.size() ? fields_of(lines[line], kSetNumber, kSetNumber, 1)
+                                                    : std::vector<std::string_view>();
+            return fields.empty() ? 0 : parse_integer<int>(fields[0]).value_or(0);
+        };
+        const std::size_t titled = keyword.ends_with("_TITLE") ? 1 : 0;
+        if (keyword == "PART" || keyword.starts_with("PART_"))
+            for (std::size_t k = 1; k < lines.size(); k += keyword == "PART" ? 2 : lines.size())
+                parts_.push_back(number(k));
+        if (keyword.starts_with("SECTION_")) highest_section_ = std::max(highest_section_, number(titled));
+        if (keyword.starts_with("SET_")) highest_set_ = std::max(highest_set_, number(titled));
+    }
+
+    void add_nodes()
+    {
+        const auto put = [more = view_->kept ? kept_->points : MeshView::TextByIndex()](
+                             std::size_t p, DeckTag tag, const Vec3& point, char* out) {
+            out = put_number(out, tag, kNumber);
+            for (const double x : point) {
+                char text[kReal];
+                out = put_right(out, {text, static_cast<std::size_t>(put_real(text, x, kReal) - text)},
+                                kReal);
+            }
+            const auto own = std::ranges::lower_bound(more, p, {}, &MeshView::TextByIndex::value_type::first);
+            if (own != more.end() && own->first == p) out = put_words(out, own->second);
+            *out++ = '\n';
+            return out;
+        };
+        constexpr std::size_t kMost = 3 * kNumber + 3 * kReal + 1;
+        file_.sections.push_back(section_of_points("*NODE" + end_, view_, kMost, put));
+    }
+
+    void add_elements(std::size_t b)
+    {
+        const MeshView::Block& block = view_->blocks[b];
+        if (block.count == 0) return;
+        const auto [dimension, corners, nodes] = shape_info(block.shape);
+        const auto pattern = std::ranges::find(kDegenerate, block.shape, &Degenerate::shape);
+        std::string keyword(dimension == 2 ? kShell : block.shape == hex20 ? kSolid20 : kSolid);
+        if (view_->kept && block.type == kThick) keyword = kThick;
+        const bool shell = block.shape == tri3 || block.shape == quad4 || block.shape == quad8;
+        if (pattern == std::end(kDegenerate) && block.shape != tet10 && block.shape != hex20 && !shell)
+            refuse_element(block, "LS-DYNA", "there is no such element");
+        file_.add("*" + keyword + end_);
+        const auto put = [=, view = view_](std::size_t, DeckTag tag, Index region, std::span<const Index> own,
+                                           char* out) {
+            out = put_number(out, tag, kNumber);
+            out = put_number(out, region < 0 ? 0 : view->regions[index(region)].tag, kNumber);
+            const auto put_node = [&](std::size_t k) {
+                out = put_number(out, view->point_tags[index(own[k])], kNumber);
+            };
+            if (pattern != std::end(kDegenerate)) {
+                for (const std::uint8_t k : pattern->fields) put_node(k);
+            } else {
+                for (std::size_t k = 0; k < own.size(); ++k) {
+                    if (!shell && k % 10 == 0) *out++ = '\n';
+                    put_node(k);
+                }
+                if (own.size() == 3) put_node(2);
+            }
+            *out++ = '\n';
+            return out;
+        };
+        file_.sections.push_back(section_of_cells(view_, b, 24 * kNumber, put));
+        for (const auto& [end, region] : block.regions)
+            if (region >= 0) forms_[region].insert(block.shape);
+        for (const auto& [end, region] : block.regions)
+            if (block.type.starts_with("COH")) cohesive_.insert(region);
+    }
+
+    /// The part of a region that no card defines, and the section of its solids.
+    void add_part(std::size_t r)
+    {
+        const auto forms = forms_.find(static_cast<Index>(r));
+        const int tag = view_->regions[r].tag;
+        if (forms == forms_.end() || std::ranges::find(parts_, tag) != parts_.end()) return;
+        const bool solid = shape_info(*forms->second.rbegin()).dimension == 3;
+        const int section = highest_section_ > 0 ? ++highest_section_ : tag;
+        std::string text = "*PART" + end_ + title(view_->regions[r].name) + "\n";
+        for (const int field : {tag, section, 1}) text += formatted("{:>10}", field);
+        text += "\n";
+        if (solid) {
+            const bool one = forms->second.size() == 1;
+            const int form = cohesive_.contains(forms->first)       ? 19
+                             : one && forms->second.contains(hex20) ? 23
+                             : one && forms->second.contains(tet10) ? 16
+                             : one && forms->second.contains(tet4)  ? 10
+                                                                    : 1;
+            text += formatted("*SECTION_SOLID{}{:>10}{:>10}\n", end_, section, form);
+        }
+        file_.add(std::move(text));
+    }
+
+    std::string title(const std::string& name)
+    {
+        constexpr std::size_t kLongest = 80;
+        if (name.size() > kLongest)
+            file_.notes.push_back(formatted("{} is called {}", name, name.substr(0, kLongest)));
+        return name.substr(0, kLongest);
+    }
+
+    void add_set(std::size_t s)
+    {
+        const MeshView::Set& set = view_->sets[s];
+        if (set.kind == SetKind::sides) return add_segments(set);
+        if (set.count == 0) return;
+        if (set.kind == SetKind::nodes) return add_members(s, "*SET_NODE_LIST_TITLE", numbers_of(s));
+        std::vector<std::size_t> of[2]; // solids, shells
+        if (std::ranges::none_of(view_->blocks,
+                                 [](const auto& b) { return shape_info(b.shape).dimension == 2; }))
+            return add_members(s, "*SET_SOLID_TITLE", numbers_of(s));
+        find_shells();
+        set.members.each(0, set.count, [&](std::size_t, DeckTag tag) {
+            of[std::ranges::binary_search(shells_, tag) ? 1 : 0].push_back(static_cast<std::size_t>(tag));
+        });
+        for (const std::size_t k : {0, 1}) {
+            mesh::Ranges members;
+            for (const std::size_t tag : of[k]) members.add(tag, tag + 1);
+            if (!of[k].empty())
+                add_members(s, k == 0 ? "*SET_SOLID_TITLE" : "*SET_SHELL_LIST_TITLE",
+                            mesh::Numbers(std::move(members)), of[k].size());
+        }
+    }
+
+    void find_shells()
+    {
+        if (!shells_.empty()) return;
+        for (const MeshView::Block& block : view_->blocks)
+            if (shape_info(block.shape).dimension == 2)
+                block.tags.each(0, block.count, [&](std::size_t, DeckTag tag) { shells_.push_back(tag); });
+        std::ranges::sort(shells_);
+    }
+
+    [[nodiscard]] mesh::Numbers numbers_of(std::size_t s) const { return view_->sets[s].members; }
+
+    std::string head_of(const MeshView::Set& set, const std::string& keyword)
+    {
+        int tag = set.tag;
+        if (tag <= 0 || !ids_[keyword].insert(tag).second)
+            tag = highest_set_ = highest_tag(view_->sets, highest_set_) + 1;
+        return keyword + end_ + title(set.name) + "\n" + formatted("{:>10}\n", tag);
+    }
+
+    void add_members(std::size_t s, const std::string& keyword, mesh::Numbers members, std::size_t count = 0)
+    {
+        if (count == 0) count = view_->sets[s].count;
+        file_.sections.push_back(
+            {head_of(view_->sets[s], keyword), count, kSetNumber + 1,
+             [members = std::move(members), count](std::size_t begin, std::size_t end, char* out) {
+                 members.each(begin, end, [&](std::size_t i, DeckTag tag) {
+                     out = put_number(out, tag, kSetNumber);
+                     if ((i + 1) % kPerLine == 0 || i + 1 == count) *out++ = '\n';
+                 });
+                 return out;
+             }});
+    }
+
+    void add_segments(const MeshView::Set& set)
+    {
+        std::string text;
+        std::size_t edges = 0;
+        for (const DeckSide& side : set.sides) {
+            const std::span<const Index> nodes = sides_[side];
+            if (nodes.empty()) ++edges;
+            if (nodes.empty()) continue;
+            const std::size_t corners = nodes.size() == 3 || nodes.size() == 6 ? 3 : 4;
+            char line[4 * kNumberBytes];
+            char* out = line;
+            for (std::size_t k = 0; k < 4; ++k)
+                out = put_number(out, view_->point_tags[index(nodes[std::min(k, corners - 1)])], kSetNumber);
+            text.append(line, out).append("\n");
+        }
+        if (edges > 0)
+            file_.notes.push_back(
+                formatted("{} edges of shells in the set {} are not written", edges, set.name));
+        if (!text.empty()) file_.add(head_of(set, "*SET_SEGMENT_TITLE") + text);
+    }
+
+    View view_;
+    SideNodes sides_;
+    MeshView::KeptText own_;
+    const MeshView::KeptText* kept_ = nullptr; ///< of the deck, or `own_`
+    DeckFile file_;
+    std::string end_;                            ///< of a keyword's line
+    std::map<Index, std::set<DeckShape>> forms_; ///< shapes in each region
+    std::set<Index> cohesive_;                   ///< regions of cohesive elements
+    std::vector<int> parts_;                     ///< that the kept text defines
+    int highest_section_ = 0, highest_set_ = 0;  ///< in the kept text
+    std::map<std::string, std::set<int>> ids_;   ///< of the sets of a keyword
+    std::vector<DeckTag> shells_;
+};
+
+} // namespace
+
+void read_dyna(Cursor& cursor, DeckBuilder& into) { DynaReader(cursor, into).read(); }
+
+DeckFile dyna_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
+{
+    constexpr DeckTag kMost = 99'999'999; // eight characters
+    check_numbers(*view, kMost, "an LS-DYNA deck", "give first_node and first_cell, or write another format");
+    return DynaWriter(view, options.unit).write();
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+//
+// The mesh of FEBio, format 4.0: nodes, elements of one shape in each part, surfaces, sets and domains.
+// https://help.febio.org/docs/FEBioUser-4-0/
+#include <lacuna/io/detail/cell_shapes.h>
+#include <lacuna/io/detail/format_table.h>
+#include <lacuna/io/detail/side_nodes.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace lacuna::io {
+
+namespace {
+
+using mesh::MeshView;
+using mesh::SetKind;
+
+/// The word of a shape; empty: FEBio has none.
+std::string_view word_of(DeckShape shape)
+{
+    constexpr std::string_view kWords[kDeckShapes] = {
+        "",      "",       "tri3", "tri6",   "quad4",   "quad8", "quad9", "tet4",  "tet10",
+        "pyra5", "pyra13", "",     "penta6", "penta15", "",      "hex8",  "hex20", "hex27"};
+    return kWords[static_cast<std::size_t>(shape)];
+}
+
+/// The place among the nodes of FEBio of each node of a hex27: centres of the sides go round, then up.
+std::size_t place_of(DeckShape shape, std::size_t k)
+{
+    constexpr std::size_t kCentres[] = {22, 21, 23, 20, 24, 25, 26};
+    return shape == DeckShape::hex27 && k >= 20 ? kCentres[k - 20] : k;
+}
+
+/// Text in an attribute.
+std::string escaped(const std::string& text)
+{
+    std::string safe;
+    for (const char c : text) switch (c) {
+        case '&':
+            safe += "&amp;";
+            break;
+        case '<':
+            safe += "&lt;";
+            break;
+        case '>':
+            safe += "&gt;";
+            break;
+        case '"':
+            safe += "&quot;";
+            break;
+        default:
+            safe += c;
+        }
+    return safe;
+}
+
+class FebioWriter {
+public:
+    explicit FebioWriter(const View& view) : view_(view), sides_(*view) {}
+
+    DeckFile write(const std::string& unit)
+    {
+        file_.add("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<febio_spec version=\"4.0\">\n" +
+                  (unit.empty() ? "" : "  <!-- lengths are in " + unit + " -->\n") +
+                  "  <Module type=\"solid\"/>\n  <Mesh>\n");
+        file_.sections.push_back(
+            section_of_points("    <Nodes name=\"nodes\">\n", view_, 5 * kNumberBytes, put_node));
+        file_.add("    </Nodes>\n");
+        for (std::size_t b = 0; b < view_->blocks.size(); ++b) add_elements(b);
+        for (std::size_t s = 0; s < view_->sets.size(); ++s) add_set(s);
+        file_.add("  </Mesh>\n  <MeshDomains>\n" + domains_ + "  </MeshDomains>\n</febio_spec>\n");
+        return std::move(file_);
+    }
+
+private:
+    static char* put_node(std::size_t, DeckTag tag, const Vec3& point, char* out)
+    {
+        out = put_words(out, "      <node id=\"");
+        out = put_words(put_text(out, tag), "\">");
+        for (const Index axis : {0, 1, 2}) {
+            if (axis > 0) *out++ = ',';
+            out = put_text(out, point[axis]);
+        }
+        return put_words(out, "</node>\n");
+    }
+
+    /// The elements of one shape and region: a part and its domain.
+    void add_elements(std::size_t b)
+    {
+        const MeshView::Block& block = view_->blocks[b];
+        const std::string word(word_of(block.shape));
+        if (word.empty()) refuse_element(block, "FEBio", "there is no such element");
+        std::map<Index, mesh::Ranges> of_region;
+        mesh::each_run(block.regions, 0, block.count, [&](std::size_t first, std::size_t last, Index region) {
+            of_region[region].add(first, last);
+        });
+        for (auto& [region, elements] : of_region) {
+            const std::string material = region < 0 ? "elements" : region_name(view_->regions[index(region)]);
+            const std::string part = free(material, material + "_" + word, parts_);
+            ++wholes_[material].first;
+            wholes_[material].second += elements.count();
+            file_.sections.push_back(
+                {formatted("    <Elements type=\"{}\" name=\"{}\">\n", word, escaped(part)), elements.count(),
+                 29 * kNumberBytes,
+                 [view = view_, b, all = std::move(elements)](std::size_t begin, std::size_t end, char* out) {
+                     all.each(begin, end, [&](std::size_t first, std::size_t last) {
+                         const MeshView::Block& of = view->blocks[b];
+                         each_cell(
+                             of, first, last, [&](std::size_t, DeckTag tag, std::span<const Index> nodes) {
+                                 out = put_words(put_text(put_words(out, "      <elem id=\""), tag), "\">");
+                                 for (std::size_t k = 0; k < nodes.size(); ++k) {
+                                     if (k > 0) *out++ = ',';
+                                     out = put_text(out,
+                                                    view->point_tags[index(nodes[place_of(of.shape, k)])]);
+                                 }
+                                 out = put_words(out, "</elem>\n");
+                             });
+                     });
+                     return out;
+                 }});
+            file_.add("    </Elements>\n");
+            domains_ += formatted("    <{} name=\"{}\" mat=\"{}\"/>\n",
+                                  shape_info(block.shape).dimension == 3 ? "SolidDomain" : "ShellDomain",
+                                  escaped(part), escaped(material));
+        }
+    }
+
+    static std::string region_name(const MeshView::Region& region)
+    {
+        return region.name.empty() ? "part_" + std::to_string(region.tag) : region.name;
+    }
+
+    /// A name that is not in use: the first, the second, or that with a number.
+    static std::string free(const std::string& first, const std::string& second, std::set<std::string>& used)
+    {
+        if (used.insert(first).second) return first;
+        std::string name = second;
+        for (int i = 2; !used.insert(name).second; ++i) name = second + "_" + std::to_string(i);
+        return name;
+    }
+
+    void add_set(std::size_t s)
+    {
+        const MeshView::Set& set = view_->sets[s];
+        if (set.kind == SetKind::sides) return add_surface(set);
+        // A part is a set of its elements by itself.
+        const auto whole = wholes_.find(set.name);
+        const bool is_part = set.kind == SetKind::elements && whole != wholes_.end() &&
+                             whole->second == std::pair(1, set.count);
+        if (set.count == 0 || is_part) return;
+        const std::string_view word = set.kind == SetKind::nodes ? "NodeSet" : "ElementSet";
+        std::set<std::string>& used = set.kind == SetKind::nodes ? node_sets_ : parts_;
+        const std::string name = free(set.name, set.name + "_cells", used);
+        file_.sections.push_back(
+            section_of_members(formatted("    <{} name=\"{}\">", word, escaped(name)), view_, s, kNumberBytes,
+                               [count = set.count](std::size_t i, DeckTag tag, char* out) {
+                                   out = put_text(out, tag);
+                                   if (i + 1 < count) *out++ = ',';
+                                   return out;
+                               }));
+        file_.add(formatted("</{}>\n", word));
+    }
+
+    void add_surface(const MeshView::Set& set)
+    {
+        std::string text;
+        std::size_t edges = 0, number = 0;
+        for (const DeckSide& side : set.sides) {
+            const std::span<const Index> nodes = sides_[side];
+            if (nodes.empty()) {
+                ++edges;
+                continue;
+            }
+            const std::string word = (nodes.size() % 3 == 0 && nodes.size() < 9 ? "tri" : "quad") +
+                                     std::to_string(nodes.size());
+            text += formatted("      <{} id=\"{}\">", word, ++number);
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+                text += (k > 0 ? "," : "") + std::to_string(view_->point_tags[index(nodes[k])]);
+            text += formatted("</{}>\n", word);
+        }
+        if (edges > 0)
+            file_.notes.push_back(
+                formatted("{} edges of shells in the set {} are not written", edges, set.name));
+        if (number == 0) return;
+        const std::string name = free(set.name, set.name + "_surface", surfaces_);
+        file_.add(formatted("    <Surface name=\"{}\">\n{}    </Surface>\n", escaped(name), text));
+    }
+
+    View view_;
+    SideNodes sides_;
+    DeckFile file_;
+    std::string domains_;
+    std::map<std::string, std::pair<int, std::size_t>> wholes_; ///< parts and elements of each region
+    std::set<std::string> parts_, node_sets_, surfaces_;        ///< names in use
+};
+
+} // namespace
+
+DeckFile febio_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
+{
+    check_numbers(*view, std::numeric_limits<std::int32_t>::max(), "a FEBio file",
+                  "give first_node and first_cell");
+    return FebioWriter(view).write(options.unit);
+}
+
+} // namespace lacuna::io

@@ -1,0 +1,330 @@
+-- SPDX-License-Identifier: MIT
+-- Thin layers: names of elements, the direction of their stack, and interfaces split along faces.
+-- usage: lacuna split.lua scratch=FOLDER ccx=PROGRAM
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local lacuna = require "lacuna"
+local params = lacuna.params { scratch = ".", lacuna = "", ccx = "" }
+local function at(name) return params.scratch .. "/" .. name end
+local function read(path)
+  local file <close> = assert(io.open(path, "rb"))
+  return file:read("a")
+end
+
+-- Nodes, elements by type, and sets of an Abaqus deck.
+local function abaqus(path)
+  local deck, kind, name = { nodes = {}, elements = {}, sets = {} }, nil, nil
+  local pending
+  for line in read(path):gmatch "[^\n]+" do
+    if line:sub(1, 2) == "**" then
+    elseif line:sub(1, 1) == "*" then
+      kind = line:match "^%*(%w+)"
+      name = line:match "[EN]L?SET=([^,]+)" or line:match "NAME=([^,]+)"
+      if kind == "ELEMENT" then
+        name = line:match "TYPE=([^,]+)"
+        deck.elements[name] = deck.elements[name] or {}
+      elseif kind == "NSET" then
+        name = line:match "NSET=([^,]+)"
+        deck.sets[name] = {}
+      end
+      pending = nil
+    else
+      local row = {}
+      for word in line:gmatch "[^%s,]+" do row[#row + 1] = tonumber(word) end
+      if kind == "NODE" then
+        deck.nodes[row[1]] = { row[2], row[3], row[4] }
+      elseif kind == "ELEMENT" then
+        deck.elements[name][table.remove(row, 1)] = row
+      elseif kind == "NSET" then
+        for _, tag in ipairs(row) do deck.sets[name][tag] = true end
+      end
+    end
+  end
+  return deck
+end
+local function size(of)
+  local count = 0
+  for _ in pairs(of) do count = count + 1 end
+  return count
+end
+
+-- --- element names ---------------------------------------------------------------------------------------
+
+local model = lacuna.synthetic.prism { sides = 4, height = 0.1 }
+local plate = model:open_volume { name = "layer" }:sweep { layers = 2, size = 0.5 }
+for _, element in ipairs { "COH3D8", "COH3D8P", "GK3D8", "GK3D8N", "SC8R", "SC8RT", "CSS8", "c3d8i" } do
+  plate:write(at "layer.inp", { element = element })
+  local deck = abaqus(at "layer.inp")
+  local cells = deck.elements[element:upper()]
+  check.equal(size(cells), plate.hexes, element)
+  -- The stack goes from nodes 1-4 to nodes 5-8, along the sweep.
+  for _, cell in pairs(cells) do
+    for k = 1, 4 do
+      local low, high = deck.nodes[cell[k]], deck.nodes[cell[k + 4]]
+      check.near(high[1] - low[1], 0, 1e-12)
+      check.near(high[2] - low[2], 0, 1e-12)
+      check.near(high[3] - low[3], 0.05, 1e-12)
+    end
+  end
+end
+check.fails(function() plate:write(at "no.inp", { element = "COH3D6" }) end, "eight nodes")
+local second = model:open_volume():sweep { layers = 1, size = 0.5, order = 2, serendipity = true }
+check.fails(function() second:write(at "no.inp", { element = "GK3D8" }) end, "twenty nodes")
+do
+  local fan = lacuna.model()
+  fan:add_face { name = "source", keep_mesh = true, points = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0.5, 0 },
+    { 1, 1, 0 },
+    { 0, 1, 0 } }, cells = { { 1, 2, 4, 5 }, { 2, 3, 4 } } }
+  local mixed = fan:open_volume { source = "source", along = { vector = { 0, 0, 0.1 } } }
+    :sweep { layers = 1, wedges = true }
+  for element, wedge in pairs { COH3D8 = "COH3D6", GK3D8 = "GK3D6", SC8R = "SC6R", C3D8I = "C3D6" } do
+    mixed:write(at "mixed.inp", { element = element })
+    check.equal(size(abaqus(at "mixed.inp").elements[wedge]), 1, element)
+  end
+  check.fails(function() mixed:write(at "no.inp", { element = "CSS8" }) end, "wedges", "SC8R")
+end
+
+-- --- interfaces ------------------------------------------------------------------------------------------
+
+-- Blocks of a grid, each a volume of an assembly; { name = { x0, x1, y0, y1, z0, z1 } }.
+local function block_model(box)
+  local x0, x1, y0, y1, z0, z1 = table.unpack(box)
+  local block = lacuna.model()
+  local function face(name, ...)
+    block:add_face { name = name, points = { ... }, cells = { { 1, 2, 3, 4 } } }
+  end
+  face("source", { x0, y0, z0 }, { x0, y1, z0 }, { x1, y1, z0 }, { x1, y0, z0 })
+  face("target", { x0, y0, z1 }, { x1, y0, z1 }, { x1, y1, z1 }, { x0, y1, z1 })
+  face("south", { x0, y0, z0 }, { x1, y0, z0 }, { x1, y0, z1 }, { x0, y0, z1 })
+  face("north", { x0, y1, z0 }, { x0, y1, z1 }, { x1, y1, z1 }, { x1, y1, z0 })
+  face("west", { x0, y0, z0 }, { x0, y0, z1 }, { x0, y1, z1 }, { x0, y1, z0 })
+  face("east", { x1, y0, z0 }, { x1, y1, z0 }, { x1, y1, z1 }, { x1, y0, z1 })
+  return block
+end
+local function assembly(boxes, layers)
+  local volumes, names = {}, {}
+  for name in pairs(boxes) do names[#names + 1] = name end
+  table.sort(names)
+  for _, name in ipairs(names) do
+    volumes[#volumes + 1] = block_model(boxes[name]):open_volume { source = "source", target = "target",
+      walls = { "south", "north", "west", "east" }, name = name }
+  end
+  return lacuna.assembly(volumes):sweep { layers = layers or 2, size = 0.5 }
+end
+-- Nodes by their place: how many stand there.
+local function stacked(deck)
+  local by = {}
+  for tag, p in pairs(deck.nodes) do
+    local key = ("%.6f %.6f %.6f"):format(p[1], p[2], p[3])
+    by[key] = by[key] or {}
+    table.insert(by[key], tag)
+  end
+  return by
+end
+
+-- Two blocks: every node of the face between them is doubled; each side keeps the nodes of its own cells.
+local two = assembly { a = { 0, 1, 0, 1, 0, 1 }, b = { 1, 2, 0, 1, 0, 1 } }
+for _, faces in ipairs { "all", { { "a", "b" } }, { { "b", "a" } }, { "a:east" }, "b:west" } do
+  local split = lacuna.split_interface(two, { faces = faces, element = "coh3d8", name = "glue" })
+  check.equal(split.nodes, two.nodes + 9)
+  check.equal(split.hexes, two.hexes)
+  check.equal(split.interface_cells, 4)
+  check.near(split:quality().min_scaled_jacobian, two:quality().min_scaled_jacobian, 1e-12)
+  split:write(at "two.inp")
+  local deck = abaqus(at "two.inp")
+  check.equal(size(deck.elements.COH3D8), 4)
+  check.equal(size(deck.elements.C3D8), two.hexes)
+  local of = {} -- the side of each node, by the cells that have it
+  for _, cell in pairs(deck.elements.C3D8) do
+    local x = 0
+    for _, n in ipairs(cell) do x = x + deck.nodes[n][1] / 8 end
+    for _, n in ipairs(cell) do
+      check.that(not of[n] or of[n] == (x < 1 and "a" or "b"), "a node of both sides")
+      of[n] = x < 1 and "a" or "b"
+    end
+  end
+  for _, cell in pairs(deck.elements.COH3D8) do
+    for k = 1, 4 do
+      check.equal(of[cell[k]], "a")
+      check.equal(of[cell[k + 4]], "b")
+      for axis = 1, 3 do check.equal(deck.nodes[cell[k]][axis], deck.nodes[cell[k + 4]][axis]) end
+    end
+    -- From a to b: the normal of nodes 1-2-3 points to +x.
+    local p, q, r = deck.nodes[cell[1]], deck.nodes[cell[2]], deck.nodes[cell[3]]
+    local normal = (q[2] - p[2]) * (r[3] - p[3]) - (q[3] - p[3]) * (r[2] - p[2])
+    check.that(normal > 0, "the direction of the stack")
+  end
+  for n in pairs(deck.sets.a_east) do check.equal(of[n], "a", "sets follow") end
+  for n in pairs(deck.sets.b_west) do check.equal(of[n], "b", "sets follow") end
+  check.equal(size(deck.sets.a_east), 9)
+end
+-- Other formats hold the same cells, as hexahedra of a group of their own.
+local glued = lacuna.split_interface(two, { faces = "all", name = "glue" })
+local groups = {}
+for _, group in ipairs(glued:groups()) do groups[group.name] = group.cells end
+check.equal(groups.glue, 4)
+for _, ending in ipairs { "msh", "vtu", "bdf", "unv", "exo", "k", "feb" } do
+  glued:write(at("two." .. ending))
+  if ending ~= "feb" then
+    local made = lacuna.convert(at("two." .. ending), at "back.exo")
+    check.equal(made.nodes, glued.nodes, ending)
+  end
+end
+check.that(read(at "two.k"):find("glue\n.-%*SECTION_SOLID\n%s+%d+%s+19\n"), "cohesive solids")
+
+-- A cross of four blocks: the nodes of the middle line are there once for each region that is cut off.
+local cross = assembly { a = { 0, 1, 0, 1, 0, 1 }, b = { 1, 2, 0, 1, 0, 1 }, c = { 1, 2, 1, 2, 0, 1 },
+  d = { 0, 1, 1, 2, 0, 1 } }
+local function on_the_line(faces)
+  lacuna.split_interface(cross, { faces = faces }):write(at "cross.inp")
+  local count
+  for key, tags in pairs(stacked(abaqus(at "cross.inp"))) do
+    if key:match "^1%.000000 1%.000000" then
+      check.that(not count or count == #tags)
+      count = #tags
+    end
+  end
+  return count
+end
+check.equal(on_the_line "all", 4)
+check.equal(on_the_line { { "a", "b" } }, 1) -- an end of the interface inside the mesh
+check.equal(on_the_line { { "a", "b" }, { "c", "d" } }, 2)
+check.equal(on_the_line { { "a", "b" }, { "b", "c" } }, 2)
+check.equal(on_the_line { { "a", "b" }, { "b", "c" }, { "c", "d" } }, 3)
+
+-- Three regions that meet: their nodes are tripled.
+local three = assembly { a = { 0, 2, 0, 1, 0, 1 }, b = { 0, 1, 1, 2, 0, 1 }, c = { 1, 2, 1, 2, 0, 1 } }
+local split = lacuna.split_interface(three, { faces = "all" })
+split:write(at "three.inp")
+local most = 0
+for _, tags in pairs(stacked(abaqus(at "three.inp"))) do most = math.max(most, #tags) end
+check.equal(most, 3)
+check.equal(split.nodes, three.nodes + 2 * 3 + 2 * 6 + 2 * 3)
+
+-- A crack tip: the last cells share the nodes of the tip.
+local crack = lacuna.split_interface(cross, { faces = { { "a", "b" } } })
+crack:write(at "crack.inp")
+local tips = 0
+for _, cell in pairs(abaqus(at "crack.inp").elements.COH3D8) do
+  for k = 1, 4 do if cell[k] == cell[k + 4] then tips = tips + 1 end end
+end
+check.equal(tips, 4)
+
+-- What is refused.
+local function refused(mesh, options, ...)
+  check.fails(function() lacuna.split_interface(mesh, options) end, ...)
+end
+refused(two, { faces = "nothing" }, "share the named faces", '{ "a", "b" }')
+refused(two, {}, "no faces are named")
+refused(two, { faces = "all", element = "SC8R" }, "SC8R", "COH3D8")
+refused(glued, { faces = "all" }, "was split before")
+refused(plate, { faces = "all" }, "assembly")
+refused(two, { faces = { { "a" } } }, "pairs of regions")
+check.fails(function() glued:write(at "polyMesh") end, "polyMesh")
+check.fails(function() lacuna.assembly { glued } : sweep { layers = 1 } end, "was split")
+local quadratic = lacuna.assembly {
+  block_model { 0, 1, 0, 1, 0, 1 }:open_volume { source = "source", target = "target", name = "a" },
+  block_model { 1, 2, 0, 1, 0, 1 }:open_volume { source = "source", target = "target", name = "b" } }
+  :sweep { layers = 1, size = 0.5, order = 2, serendipity = true }
+refused(quadratic, { faces = "all" }, "order 2", "order = 1")
+
+-- --- CalculiX --------------------------------------------------------------------------------------------
+
+if params.ccx == "" then
+  print "left out: calculix-ccx is not installed"
+  check.done()
+  return
+end
+local function solve(name, deck)
+  check.write(at(name .. ".inp"), deck)
+  local command = "cd '%s' && rm -f %s.dat && '%s' %s > %s.log 2>&1"
+  os.execute(command:format(params.scratch, name, params.ccx, name, name))
+  local file = io.open(at(name .. ".dat"))
+  if not file then return nil end
+  local found = {}
+  for line in file:lines() do
+    local n, x, y, z = line:match "^%s*(%d+)%s+(%S+)%s+(%S+)%s+(%S+)%s*$"
+    if n then found[tonumber(n)] = { tonumber(x), tonumber(y), tonumber(z) } end
+  end
+  file:close()
+  return found
+end
+local steel = [[
+*MATERIAL, NAME=steel
+*ELASTIC
+210000., 0.3
+]]
+-- Two blocks pulled apart: with the doubled nodes tied to each other they are as before they were split.
+local function pulled(deck, ties, sections)
+  return deck:gsub("%*ELEMENT, TYPE=COH3D8.-\n%*", "*") .. steel .. sections .. ties .. [[
+*STEP
+*STATIC
+*BOUNDARY
+a_west, 1, 3
+b_east, 1, 1, 0.01
+*NODE PRINT, NSET=b_east
+U
+*END STEP
+]]
+end
+two:write(at "one.inp")
+local section = "*SOLID SECTION, ELSET=a, MATERIAL=steel\n*SOLID SECTION, ELSET=b, MATERIAL=steel\n"
+local one = solve("whole", pulled(read(at "one.inp"), "", section))
+check.that(one and size(one) == 9, "CalculiX solves the mesh before it is split")
+glued:write(at "glued.inp")
+local ties, done = {}, {}
+for _, cell in pairs(abaqus(at "glued.inp").elements.COH3D8) do
+  for k = 1, 4 do
+    if not done[cell[k + 4]] then
+      done[cell[k + 4]] = true
+      for axis = 1, 3 do
+        ties[#ties + 1] = ("*EQUATION\n2\n%d, %d, 1., %d, %d, -1.\n"):format(cell[k + 4], axis, cell[k], axis)
+      end
+    end
+  end
+end
+local text = read(at "glued.inp"):gsub("%*ELSET, ELSET=glue\n[^*]*", "")
+local tied = solve("tied", pulled(text, table.concat(ties), section))
+check.that(tied, "CalculiX solves the tied mesh")
+local function places(deck, found)
+  local by = {}
+  for n, u in pairs(found) do
+    local p = deck.nodes[n]
+    by[("%.6f %.6f %.6f"):format(p[1], p[2], p[3])] = u
+  end
+  return by
+end
+local before, after = places(abaqus(at "one.inp"), one), places(abaqus(at "glued.inp"), tied)
+for place, u in pairs(before) do
+  for axis = 1, 3 do check.near(after[place][axis], u[axis], 1e-8) end
+end
+
+-- Of the names of thin layers, those that CalculiX knows bend as a beam of the same section.
+local strip = block_model { 0, 10, 0, 1, 0, 0.2 }:open_volume { source = "source", target = "target",
+  walls = { "south", "north", "west", "east" }, name = "strip" }:sweep { layers = 1, size = 0.5 }
+local known = 0
+for _, element in ipairs { "C3D8I", "SC8R", "CSS8", "COH3D8", "GK3D8" } do
+  strip:write(at "strip.inp", { element = element })
+  local found = solve("bent", read(at "strip.inp") .. steel .. [[
+*SOLID SECTION, ELSET=strip, MATERIAL=steel
+*STEP
+*STATIC
+*BOUNDARY
+west, 1, 3
+*CLOAD
+east, 3, -0.01
+*NODE PRINT, NSET=east
+U
+*END STEP
+]])
+  if found and size(found) > 0 then
+    known = known + 1
+    local count = size(found)
+    local exact = -0.01 * count * 10 ^ 3 / (3 * 210000 * 1 * 0.2 ^ 3 / 12)
+    for _, u in pairs(found) do check.near(u[3] / exact, 1, 0.03) end
+  else
+    check.that(element ~= "C3D8I", "CalculiX knows C3D8I")
+    print(("left out: CalculiX does not know %s"):format(element))
+  end
+end
+check.that(known > 0)
+check.done()
