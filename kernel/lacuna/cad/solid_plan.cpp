@@ -246,7 +246,8 @@ private:
         ++plan_.fitted;
         if (const auto* swept = dynamic_cast<const geometry::SweptSurface*>(face.surface.get())) {
             made.kind = SolidFace::patches;
-            made.surfaces = swept_patches(*swept, motion_precision_);
+            // Of a curved edge a spline of that precision has 16,000 poles, for which Open CASCADE takes minutes.
+            made.surfaces = swept_patches(*swept, swept->has_kinks() ? motion_precision_ : precision_);
             return made;
         }
         const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())

@@ -23,6 +23,7 @@ namespace lacuna::fill {
 struct FilledVolume {
     sweep::Swept swept;
     std::string material; ///< material of the volume
+    bool copied = false;  ///< made by moved(): in an assembly, nodes move by rounding onto other members'
 };
 
 /// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
@@ -44,6 +45,7 @@ struct FilledParts {
     std::vector<std::string> materials; ///< one for each part, then for each of `tets`; empty: no material
     std::vector<sweep::LeftOut> left_out;
     std::vector<FilledTets> tets;
+    bool copied = false; ///< as of `FilledVolume`
 };
 
 /// A mesh, and the volumes with the roles that they were swept with.
@@ -51,6 +53,9 @@ struct Filled {
     std::vector<Volume> volumes;
     std::variant<FilledVolume, FilledParts> mesh;
 };
+
+/// The same mesh as one of a single part.
+FilledParts as_parts(const FilledVolume& mesh);
 
 /// The sweeps that produced a mesh: a single one, or one for each part.
 std::span<const sweep::Swept> parts(const FilledVolume& mesh);

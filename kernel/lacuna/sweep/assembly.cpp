@@ -119,11 +119,6 @@ private:
     void check_members() const
     {
         if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs at least one volume");
-        if (std::ranges::all_of(members_,
-                                [](const AssemblyMember& m) { return m.fixed != nullptr && !m.unswept; }))
-            throw InvalidInput(
-                "assembly.all_fixed",
-                "all members of the assembly have given meshes; add at least one volume to sweep");
         for (std::size_t m = 0; m < members_.size(); ++m) {
             if (members_[m].region == "volume" && members_.size() > 1)
                 throw InvalidInput(
