@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_order.h>
@@ -537,11 +538,13 @@ private:
                                                    a.size() == 1 ? "quad" : "quads"));
                 continue;
             }
-            throw NotSweepable(
-                "assembly.not_shared",
-                "{} of {} and {} of {} are one face, but their meshes on it differ: {} quads and {}{}",
-                face_a, region_a, face_b, region_b, found(a.size()), needed(b.size()),
-                part.not_kept.empty() ? "" : "; " + part.not_kept.front());
+            throw NotSweepable("assembly.not_shared",
+                               "{} of {} and {} of {} are one face, round {}, but their meshes on it differ: "
+                               "{} quads and {}{}",
+                               face_a, region_a, face_b, region_b,
+                               place_with_digits(face_centroid(members_[m].volume->model, own), 4),
+                               found(a.size()), needed(b.size()),
+                               part.not_kept.empty() ? "" : "; " + part.not_kept.front());
         }
     }
 
