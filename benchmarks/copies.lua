@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: MIT
--- A block of about 100,000 cells and copies of it as one mesh: a line of JSON with the peak of memory and seconds.
+-- A block of about 100,000 cells and copies of it as one mesh: a line of JSON with peak memory and seconds.
 -- usage: lacuna copies.lua [copies=100] [hexes=100000] [output=]
 local lacuna = require "lacuna"
 

@@ -106,7 +106,7 @@ FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const 
 /// Quads on faces, without layers.
 struct FilledShell {
     io::Deck deck; ///< quads of 4, 8 or 9 nodes and kept triangles; a region for each face or name of faces
-    double min_scaled_jacobian = 1, mean_scaled_jacobian = 1; ///< of the corners of the quads, in their planes
+    double min_scaled_jacobian = 1, mean_scaled_jacobian = 1; ///< of the quads' corners, in their planes
     double area = 0, face_area = 0; ///< of the quads, and of the faces' facets [model length²]
     std::vector<std::string> report;
 };

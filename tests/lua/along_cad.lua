@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Sources of CAD along a path: exact edges and faces, edges as paths, solids for CAD, and files written a layer at
--- a time.
+-- Sources of CAD along a path: exact edges and faces, edges as paths, solids for CAD, and files written a
+-- layer at a time.
 local lacuna = require "lacuna"
 local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
@@ -62,9 +62,10 @@ for i, case in ipairs(cases) do
   for _, ending in ipairs { "msh", "vtu", "inp" } do
     local function open() return part:open_volume { source = source, along = case[1], name = "coil" } end
     local path = ("%s/%d.%s"):format(params.scratch, i, ending)
-    local report = open():sweep_to(path, { size = 1.2, write = { quality = ending ~= "inp" and false or nil } })
+    local write = { quality = ending ~= "inp" and false or nil }
+    local report = open():sweep_to(path, { size = 1.2, write = write })
     check.that(report.streamed, "streamed")
-    open():sweep({ size = 1.2 }):write(path .. ".whole." .. ending, { quality = ending ~= "inp" and false or nil })
+    open():sweep({ size = 1.2 }):write(path .. ".whole." .. ending, write)
     local function bytes(name)
       local file <close> = assert(io.open(name, "rb"))
       return file:read "a"
@@ -97,7 +98,8 @@ for _, edge in ipairs(tray:info().free_edges) do
   if math.abs(edge.length - 2.5 * pi) < 0.05 then round = round or edge.tag end
 end
 local square = tray:face { kind = "plane" }
-local rail = tray:open_volume { source = square, along = { path = { round } } }:sweep { size = 0.25, layers = 32 }
+local rail = tray:open_volume { source = square, along = { path = { round } } }
+  :sweep { size = 0.25, layers = 32 }
 check.near(rail:quality().volume / (2.5 * pi), 1, 1e-3)
 check.that(rail:quality().min_scaled_jacobian > 0.9)
 

@@ -285,7 +285,8 @@ check.fails(function() cube(names):face(added[1]) end, "another model")
 
 -- The language server's stub names every function there is, and no other.
 local stub <close> = assert(io.open(arg[0]:match("^(.*/)") .. "../../lua/lacuna.d.lua"))
-local stubbed = { Model = {}, Volume = {}, Mesh = {}, Assembly = {}, AssemblyMesh = {}, QuadMesh = {}, Buffer = {},
+local stubbed = { Model = {}, Volume = {}, Mesh = {}, Assembly = {}, AssemblyMesh = {}, QuadMesh = {},
+  Buffer = {},
   lacuna = {}, synthetic = {} }
 for line in stub:lines() do
   local owner, name = line:match("^function ([%w]+)[.:]([%w_]+)%(")

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: MIT
--- Quads on faces without layers: they conform, lie on their faces, keep given quads, and every format has them.
+-- Quads on faces without layers: they conform, lie on their faces, keep given quads; all formats have them.
 local lacuna = require "lacuna"
 local folder = arg[0]:match "^(.*[/\\])" or ""
 local check = dofile(folder .. "check.lua")
@@ -87,12 +87,13 @@ check.equal(#full:coordinates(), full.nodes)
 
 -- Given quads stay, and the mesh is a model again, to be swept.
 local kept = lacuna.model()
-kept:add_face { name = "plate", points = { { 0, 0, 0 }, { 1, 0.1, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 1, 0.8, 0 },
-  { 0, 1, 0 } }, cells = { { 1, 2, 5, 6 }, { 2, 3, 4, 5 } }, keep_mesh = true }
+kept:add_face { name = "plate", points = { { 0, 0, 0 }, { 1, 0.1, 0 }, { 2, 0, 0 }, { 2, 1, 0 },
+  { 1, 0.8, 0 }, { 0, 1, 0 } }, cells = { { 1, 2, 5, 6 }, { 2, 3, 4, 5 } }, keep_mesh = true }
 local plate = kept:quads { size = 0.1 }
 check.equal(plate.quads, 2)
 check.equal(plate.nodes, 6)
-local solid = ribbed:model():open_volume { source = "left", along = { vector = { 0, 0, -1 } } }:sweep { layers = 3 }
+local solid = ribbed:model():open_volume { source = "left", along = { vector = { 0, 0, -1 } } }
+  :sweep { layers = 3 }
 check.equal(solid.hexes, 24)
 
 -- Every format, and back.
@@ -105,7 +106,8 @@ for order = 1, 2 do
     local read, area, quads = lacuna.load(path), 0, 0
     for _, face in ipairs(read:faces()) do area = area + face.area end
     check.near(area, mesh:quality().area, 1e-5)
-    if ending == "msh" or ending == "inp" or ending == "exo" then check.equal(read:face("source").name, "source") end
+    local named = ending == "msh" or ending == "inp" or ending == "exo"
+    if named then check.equal(read:face("source").name, "source") end
     check.equal(read:quads({ quads = order == 1 and "keep" or "auto", size = 0.6 }).hexes, quads)
   end
 end

@@ -246,7 +246,7 @@ private:
         ++plan_.fitted;
         if (const auto* swept = dynamic_cast<const geometry::SweptSurface*>(face.surface.get())) {
             made.kind = SolidFace::patches;
-            // Of a curved edge a spline of that precision has 16,000 poles, for which Open CASCADE takes minutes.
+            // Of curved edges that precision takes 16,000 poles, and Open CASCADE minutes.
             made.surfaces = swept_patches(*swept, swept->has_kinks() ? motion_precision_ : precision_);
             return made;
         }

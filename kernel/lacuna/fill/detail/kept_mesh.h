@@ -35,7 +35,7 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh);
 /// @throw InvalidInput "fill.mixed_member"  the mesh has tetrahedra.
 std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh);
 
-/// Move nodes of copies onto those of the other meshes from which rounding separates them, and make the skins.
+/// Move nodes of copies onto those of other meshes from which rounding separates them; make the skins.
 /// @throw InvalidInput  as `io::skin_of()`.
 void add_skins(std::span<KeptMesh* const> meshes, const RunContext& context);
 
