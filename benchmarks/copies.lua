@@ -7,7 +7,7 @@ local params = lacuna.params { copies = 100, hexes = 100000, output = "" }
 local side = math.floor((params.hexes / 40) ^ 0.5 + 0.5)
 local block = lacuna.synthetic.prism { sides = 4, height = 1 }:open_volume {
   source = "source", target = "target", walls = "auto",
-}:sweep { layers = 40, intervals = { { "sweep", 40 } }, size = 2 ^ 0.5 / side, quads = "mapped" }
+}:sweep { layers = 40, size = 2 ^ 0.5 / side, quads = "mapped" }
 local start = os.clock()
 local mesh = params.copies > 1 and block:pattern { translate = { 0, 0, 1 }, count = params.copies } or block
 local made = os.clock() - start
