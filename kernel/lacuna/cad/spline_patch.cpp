@@ -10,8 +10,8 @@ namespace lacuna::cad {
 
 namespace {
 
-/// Most intervals between the interpolated points of a spline. A circle
-/// is met to 3e-10 of its radius by 256; five turns then enclose their volume to 3e-10 by 512.
+/// Most intervals between the interpolated points of a spline. A circle is met to 3e-10 of its radius by 256;
+/// five turns of a helix enclose their volume to 2e-7 by 512.
 constexpr std::size_t kMostSides = 512;
 /// Number of lines in each direction along which a surface is probed.
 constexpr std::size_t kProbes = 5;
