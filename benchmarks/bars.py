@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The bars of speed and memory that Lacuna holds itself to, in one run: each bar, the figure, met or not.
 
-usage: bars.py LACUNA [--runs 5] [--scale 1] [--only gmsh,block,bare,residual,certificate,growth,facets]
+usage: bars.py LACUNA [--runs 5] [--scale 1] [--only gmsh,block,bare,residual,certificate,growth,facets,copies]
                [--folder /tmp] [--output BARS.jsonl]
 
 Every figure is the median of `runs` processes, which run in turn with their peers; growth to the largest meshes is
@@ -12,12 +12,14 @@ missed, and 3 where none is missed but some are unmeasured. The largest file tak
 
   gmsh         disc and plate with five holes of 1e6, whole processes, against Gmsh's best setting for quads alone
   block        block of 1e7 against Gmsh's transfinite block
-  bare         block and disc of 1e7 against the bare loop that fills and writes the same arrays
+  bare         block and disc of 1e7, and the block from its source alone, against the bare loop that fills and
+               writes the same arrays
   residual     twisted by 90 degrees, 2e4 source quads: layers placed, proved and compared, a core; two threads against one
   certificate  cells that must be cut to be decided, a core; two threads against one over curved cells
   growth       block and disc of 1e5 to 1e8, swept and written at once: power of the time, with that of the bare
                loop beside it, which tells what of it is the system's writing; memory at 1e8
   facets       a million facets from roles to a sealed volume; power from 87,000 on
+  copies       memory of 100 copies of 100,000 cells against 1.2 times that of one and 24 bytes a node
 """
 import argparse
 import json
@@ -32,7 +34,7 @@ import tempfile
 import compare
 
 HERE = pathlib.Path(__file__).resolve().parent
-GROUPS = ("gmsh", "block", "bare", "residual", "certificate", "growth", "facets")
+GROUPS = ("gmsh", "block", "bare", "residual", "certificate", "growth", "facets", "copies")
 
 
 class Bars:
@@ -89,7 +91,7 @@ def peers(bars, options, folder, wanted):
         bars.tell(f"{case} of {hexes:.0e}: times faster than Gmsh, whole process", found and found["times"], times, True)
         bars.tell(f"{case} of {hexes:.0e}: share of Gmsh's memory", found and found["memory"], memory, False)
     if "bare" in wanted:
-        for case, times in (("block", 1.3), ("disc", 2)):
+        for case, times in (("block", 1.3), ("along", 1.3), ("disc", 2)):
             found = against(case, round(1e7 * options.scale), "bare", options, folder)
             bars.tell(f"{case} of 1e+07: times the time of the bare loop", found and 1 / found["times"], times, False)
 
@@ -191,6 +193,18 @@ def facets(bars, options, folder):
     bars.tell("the same from 87,000 on: power of the time", power(points), 1.1, False)
 
 
+def copies(bars, options):
+    def run(count):
+        command = [options.lacuna, str(HERE / "copies.lua"), f"copies={count}", f"hexes={round(1e5 * options.scale)}"]
+        lines = [json.loads(subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+                 for _ in range(options.runs)]
+        return sorted(lines, key=lambda line: line["peak_mib"])[len(lines) // 2]
+    one, all_ = run(1), run(100)
+    bars.file.write(json.dumps(all_) + "\n")
+    allowed = 1.2 * one["peak_mib"] + 24 * all_["nodes"] / 2**20
+    bars.tell("100 copies of 1e5: memory against 1.2 of one and 24 bytes a node", all_["peak_mib"] / allowed, 1, False)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("lacuna", help="the program")
@@ -221,6 +235,8 @@ def main():
             growth(bars, options, folder)
         if "facets" in wanted:
             facets(bars, options, folder)
+        if "copies" in wanted:
+            copies(bars, options)
     print(f"{bars.missed} bars missed, {bars.unmeasured} not measured; written to {output}")
     return 1 if bars.missed else 3 if bars.unmeasured else 0
 

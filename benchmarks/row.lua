@@ -14,6 +14,9 @@ local shapes = {
   block = { 1.4, function()
     return synthetic.prism { sides = 4, height = 1.4, drop = "walls" }
   end, "mapped" },
+  along = { 1.4, function() -- the same from its source alone
+    return synthetic.prism { sides = 4, height = 1.4, drop = { "walls", "target" } }
+  end, "mapped", { vector = { 0, 0, 1.4 } } },
   disc = { 2, function() return synthetic.prism { sides = 96, drop = "walls" } end },
   plate = { 0.5, function() return synthetic.plate { holes = 5, drop = { "wall_1", "wall_2" } } end },
   slot = { 4, function()
@@ -52,11 +55,12 @@ end
 
 local shape = assert(shapes[params.shape], "no shape is called " .. params.shape)
 local start = os.clock()
-local height, make, style = table.unpack(shape)
+local height, make, style, along = table.unpack(shape)
 local model = make()
 local ends = { source = named(model, "source") and "source", target = named(model, "target") and "target" }
-local volume = model:open_volume { source = ends.source, target = ends.target,
-  walls = ends.source and "auto" or model:faces() }
+local volume = along and model:open_volume { source = "source", along = along } or
+  model:open_volume { source = ends.source, target = ends.target,
+    walls = ends.source and "auto" or model:faces() }
 volume:close()
 local closed = os.clock()
 

@@ -78,6 +78,36 @@
 ---@field twist? number|fun(height: number): number of the target, or at heights from 0 to 1 [degrees]
 ---@field scale? number|fun(height: number): number of the target, or at heights from 0 to 1
 
+---@class lacuna.QuadsOptions
+---@field faces? lacuna.FaceRefs default: all
+---@field size? number|fun(x: number, y: number, z: number): number edge length; default: the rims' spacing
+---@field curvature? integer sides for a full turn where the size is coarser; default 12; 0: the size alone
+---@field gap? integer quads asked for across a narrow place; default: none, 3 where there is no size
+---@field quads? "auto"|"paved"|"mapped"|"gmsh"|"keep" default "auto"; the report says which way each face was meshed
+---@field order? 1|2 quads of 4, or of 9 nodes with middle nodes on curves and surfaces; default 1
+---@field serendipity? boolean with order 2: quads of 8 nodes; default false
+---@field threads? integer default: all cores
+
+---@class lacuna.QuadsWriteOptions
+---@field version? 4.1|2.2 of a .msh
+---@field binary? boolean
+---@field groups? "one"|"all" of a .msh: quads in one of their groups, or in all
+---@field gmsh_options? boolean a file beside a .msh that says how Gmsh shows it
+
+--- One of translate, rotate and mirror.
+---@class lacuna.CopyOptions
+---@field translate? lacuna.Vector
+---@field rotate? { [1]: lacuna.Vector, [2]: lacuna.Vector, [3]: number } point, direction and angle [degrees]
+---@field mirror? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal of the plane
+---@field name? string region of the copy; of several regions the start of their names; default: as the mesh
+
+--- Translate or rotate, and count.
+---@class lacuna.PatternOptions
+---@field translate? lacuna.Vector from each copy to the next
+---@field rotate? { [1]: lacuna.Vector, [2]: lacuna.Vector, [3]: number } point, direction and angle [degrees]
+---@field count integer copies, the mesh itself included
+---@field numbered? boolean regions are name_1, name_2 and so on; default false: copies are one region
+
 ---@class lacuna.MatchOptions
 ---@field vertices? { [1]: integer, [2]: integer }[] tags: source, target
 ---@field loops? { [1]: integer, [2]: integer }[] numbers: source, target
@@ -320,6 +350,10 @@ function Model:add_face(face) end
 ---@param roles? lacuna.Roles
 ---@return lacuna.Volume
 function Model:open_volume(roles) end
+--- Quads on faces, without layers.
+---@param options? lacuna.QuadsOptions
+---@return lacuna.QuadMesh
+function Model:quads(options) end
 --- Faces, free edges, gaps and cavities, in words.
 ---@return string
 function Model:describe() end
@@ -482,6 +516,14 @@ function Mesh:quality() end
 --- Groups of quads and cells, as files have them.
 ---@return { name: string, dim: integer, cells: integer }[]
 function Mesh:groups() end
+--- A copy, moved as a whole; a mirrored one is turned over, so that its cells stay positive.
+---@param options lacuna.CopyOptions
+---@return lacuna.Mesh
+function Mesh:copy(options) end
+--- The mesh and copies of it, each moved against the one before, as one mesh.
+---@param options lacuna.PatternOptions
+---@return lacuna.AssemblyMesh
+function Mesh:pattern(options) end
 --- Coordinates of a node.
 ---@param i integer
 ---@return number x
@@ -522,6 +564,50 @@ function Mesh:view(path, options) end
 function Mesh:picture(path, options) end
 
 --- Several volumes to be meshed as one.
+--- Quads on faces, without layers.
+---@class lacuna.QuadMesh
+---@field nodes integer
+---@field quads integer
+---@field triangles integer that faces came with
+---@field hexes integer 0
+---@field layers integer 0
+---@field order 1|2
+---@field regions string[] names of faces
+---@field report lacuna.Report
+local QuadMesh = {}
+--- Of the corners, in their planes; areas of the quads and of the faces.
+---@return { min_scaled_jacobian: number, mean_scaled_jacobian: number, area: number, face_area: number, quads: integer, triangles: integer }
+function QuadMesh:quality() end
+---@return { name: string, dim: integer, cells: integer }[]
+function QuadMesh:groups() end
+---@param i integer
+---@return number x
+---@return number y
+---@return number z
+function QuadMesh:node(i) end
+---@param i integer
+---@return integer ... four numbers of nodes
+function QuadMesh:quad(i) end
+--- The quads as faces that keep them, to be swept.
+---@return lacuna.Model
+function QuadMesh:model() end
+--- Of every node x, y, z.
+---@return lacuna.Buffer
+function QuadMesh:coordinates() end
+--- Of every cell the numbers of its nodes, from 1.
+---@param kind? "quad"|"triangle" default "quad"
+---@return lacuna.Buffer
+function QuadMesh:cells(kind) end
+---@param path string .msh, .vtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo or .e
+---@param options? lacuna.QuadsWriteOptions
+function QuadMesh:write(path, options) end
+---@param path string .html
+---@param options? lacuna.PageOptions
+function QuadMesh:view(path, options) end
+---@param path string .png
+---@param options? lacuna.FacePictureOptions
+function QuadMesh:picture(path, options) end
+
 ---@class lacuna.Assembly
 local Assembly = {}
 --- Options for all volumes; `[volume] = options` lays those of one over them.
@@ -582,6 +668,14 @@ function AssemblyMesh:quality() end
 --- Groups of quads and cells, as files have them; each volume's cells are one.
 ---@return { name: string, dim: integer, cells: integer }[]
 function AssemblyMesh:groups() end
+--- A copy, moved as a whole; a mirrored one is turned over, so that its cells stay positive.
+---@param options lacuna.CopyOptions
+---@return lacuna.AssemblyMesh
+function AssemblyMesh:copy(options) end
+--- The mesh and copies of it, each moved against the one before, as one mesh.
+---@param options lacuna.PatternOptions
+---@return lacuna.AssemblyMesh
+function AssemblyMesh:pattern(options) end
 --- Coordinates of a node.
 ---@param i integer
 ---@return number x

@@ -17,7 +17,7 @@ STUB = HERE.parent / "lua" / "lacuna.d.lua"
 WIDTH = 110
 # Classes whose objects stay in the interpreter, and what they have beyond Lua.
 OBJECTS = {"Model": "Shown", "Face": "AnyFace", "Volume": "Shown", "Mesh": "AnyMesh", "Assembly": "Object",
-           "AssemblyMesh": "AnyMesh", "Quality": "Object"}
+           "AssemblyMesh": "AnyMesh", "QuadMesh": "AnyMesh", "Quality": "Object"}
 SLOW = {"Model", "Quality"}  # some of their fields are worked out when they are asked for
 # Not for Python: the command line, the errors of pcall, what numpy does.
 LEFT_OUT = {"params", "Error", "Buffer", "Report", "AssemblyReport", "Synthetic"}

@@ -96,5 +96,8 @@ recipe("both_sides", { picture("mesh", "both_sides", { colour = "region", view =
 recipe("boundary_layers", { picture("mesh", "boundary_layers", { view = { 0.3, -0.8, 1.2 } }) })
 recipe("bracket", { picture("mesh", "bracket", { colour = "region" }) })
 recipe("crossing_bores", { picture("mesh", "crossing_bores") })
+recipe("pipe_bend", { picture("mesh", "pipe_bend", { view = { 0.7, -1, 0.6 } }) })
+recipe("twisted_rod", { picture("mesh", "twisted_rod") })
+recipe("cell_stack", { picture("mesh", "cell_stack", { colour = "region", view = low }) })
 recipe("foam", { picture("mesh", "foam",
     { cut = { point = { 0, 45, 0 }, normal = { 0, -1, 0 } }, view = low }) })

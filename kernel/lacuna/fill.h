@@ -79,4 +79,47 @@ struct Member {
 /// @throw  as `sweep::sweep_assembly()` and `closure::close()`.
 Filled sweep(std::span<const Member> members, const RunContext& context = {});
 
+/// A copy of a mesh, rotated, translated or mirrored. Cells of a mirrored mesh stay positive: their quads are
+/// turned over. In an assembly, nodes of a copy move by rounding onto those of other members.
+/// @param by    keeps all lengths.
+/// @param name  region of the copy, or of several regions the start of their names; empty: as they are.
+/// @pre  the mesh stores its nodes.
+/// @throw InvalidInput "fill.copy_mixed"  the mesh has tetrahedra.
+FilledVolume moved(FilledVolume mesh, const Eigen::Affine3d& by, const std::string& name = {});
+FilledParts moved(FilledParts mesh, const Eigen::Affine3d& by, const std::string& name = {});
+
+struct PatternOptions {
+    int count = 2;         ///< copies, the mesh itself included, >= 1
+    bool numbered = false; ///< regions are named `name_1`, `name_2` …; else copies are one region
+};
+
+/// A mesh and copies of it, each moved by `step` against the one before, as one mesh.
+///
+/// Faces that coincide become one, with common nodes, and are in no group. The groups of copies are joined.
+/// Copies are compared with the first mesh alone, since two copies lie as that and a third.
+/// @throw InvalidInput "fill.pattern_count"; "fill.copy_mixed"; as `sweep::sweep_assembly()`: copies that
+///        overlap, or share a face in part. NotSweepable "assembly.not_shared"  faces coincide and their
+///        quads differ; "assembly.hanging_node". Cancelled
+/// @note  24 bytes per node, and the quads of the source for each copy.
+FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const PatternOptions& options = {},
+                    const RunContext& context = {});
+
+/// Quads on faces, without layers.
+struct FilledShell {
+    io::Deck deck; ///< quads of 4, 8 or 9 nodes and kept triangles; a region for each face or name of faces
+    double min_scaled_jacobian = 1, mean_scaled_jacobian = 1; ///< of the quads' corners, in their planes
+    double area = 0, face_area = 0; ///< of the quads, and of the faces' facets [model length²]
+    std::vector<std::string> report;
+};
+
+/// Mesh faces of a model with quads that conform along common edges. Given quads are kept.
+/// @param options  those of the source's quads: size, curvature, gap, quads, order, second_order
+/// @throw InvalidInput  as `sweep::check()`; "fill.no_faces"  there are no faces. NotSweepable  as
+///        `surface::mesh_source()`; "sweep.folded_quads"  names the face and the place. Cancelled
+FilledShell quads(const topology::Model& model, const std::vector<FaceId>& faces,
+                  const sweep::SweepOptions& options = {}, const RunContext& context = {});
+
+/// The quads as a model, one face for each region, that keeps them: to be shown, or swept.
+topology::Model model_of(const FilledShell& shell, const RunContext& context = {});
+
 } // namespace lacuna::fill

@@ -266,13 +266,13 @@ int cell_count(lua_State* L)
 
 int mesh_to_string(lua_State* L)
 {
-    const auto& state = check<AssemblyMeshState>(L, 1);
+    const auto& state = hold<AssemblyMeshState>(L, 1);
     const auto count = [&](mesh::CellShape shape) {
         return static_cast<lua_Integer>(fill::cell_count(state, shape));
     };
+    const auto regions = static_cast<lua_Integer>(push_regions(L, state).size());
     lua_pushfstring(L, "Mesh of %I hexes, %I nodes, %I regions", count(mesh::CellShape::hex8),
-                    static_cast<lua_Integer>(state.swept.nodes),
-                    static_cast<lua_Integer>(state.regions.size() + state.tets.size()));
+                    static_cast<lua_Integer>(state.swept.nodes), regions);
     if (state.tets.empty()) return 1;
     lua_pushfstring(L, ", %I pyramids, %I tetrahedra", count(mesh::CellShape::pyramid5),
                     count(mesh::CellShape::tet4));

@@ -198,6 +198,37 @@ int assembly_field(lua_State* L)
     return 1;
 }
 
+int quads_coordinates(lua_State* L)
+{
+    lua_settop(L, 1);
+    const auto& mesh = hold<QuadMeshState>(L, 1);
+    auto& box = new_box<BufferState>(L);
+    guard(L, [&] { box = std::make_shared<BufferState>(of_points(mesh.deck.points)); });
+    return 1;
+}
+
+const Word<std::size_t> kKindsOfQuads[] = {{"quad", 4}, {"triangle", 3}};
+
+/// buffer = quad_mesh:cells(["quad" | "triangle"]): node numbers from 1
+int quads_cells(lua_State* L)
+{
+    lua_settop(L, 2);
+    const auto& mesh = hold<QuadMeshState>(L, 1);
+    const std::size_t corners = lua_isnil(L, 2) ? 4 : read_word(L, 2, {"cells", nullptr}, kKindsOfQuads);
+    auto& box = new_box<BufferState>(L);
+    guard(L, [&] {
+        std::vector<Index> nodes;
+        std::size_t columns = corners;
+        for (const io::DeckBlock& block : mesh.deck.blocks) {
+            if (static_cast<std::size_t>(io::shape_info(block.shape).corners) != corners) continue;
+            columns = static_cast<std::size_t>(io::shape_info(block.shape).nodes);
+            for (const Index node : block.nodes) nodes.push_back(node + 1);
+        }
+        box = std::make_shared<BufferState>(of_wholes(std::move(nodes), columns));
+    });
+    return 1;
+}
+
 void push_at(lua_State* L, const BufferState& buffer, std::size_t at)
 {
     if (buffer.is_real())
@@ -274,6 +305,8 @@ const luaL_Reg kBufferMeta[] = {{"__len", length}, {"__tostring", to_string}, {n
 const Field kBufferFields[] = {{"rows", length}, {"columns", columns}, {"type", type}, {nullptr, nullptr}};
 const luaL_Reg kBufferMeshMethods[] = {
     {"coordinates", coordinates}, {"cells", cells}, {"field", field}, {nullptr, nullptr}};
+const luaL_Reg kBufferQuadsMethods[] = {
+    {"coordinates", quads_coordinates}, {"cells", quads_cells}, {nullptr, nullptr}};
 const luaL_Reg kBufferAssemblyMethods[] = {{"coordinates", assembly_coordinates},
                                            {"cells", assembly_cells},
                                            {"field", assembly_field},
@@ -287,6 +320,7 @@ void bind_buffer(lua_State* L)
     add_methods(L, kClassName<BufferState>, kBufferMethods);
     add_methods(L, kClassName<MeshState>, kBufferMeshMethods);
     add_methods(L, kClassName<AssemblyMeshState>, kBufferAssemblyMethods);
+    add_methods(L, kClassName<QuadMeshState>, kBufferQuadsMethods);
 }
 
 } // namespace lacuna::lua

@@ -406,7 +406,7 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
                  const Crew* crew, const RunContext& context)
 {
     if (!state.tets.empty() || !state.interfaces.empty()) return write_mixed(state, path, arguments, context);
-    if (state.swept.number.empty())
+    if (std::ranges::any_of(state.swept.parts, [](const sweep::Swept& part) { return bool(part.layers); }))
         return team::write_parts(state.swept, path,
                                  {.binary = arguments.msh.binary,
                                   .version = arguments.msh.version,
@@ -436,6 +436,35 @@ int write_assembly(lua_State* L)
     const Host& lent = host(L);
     guard(L, [&] {
         write_pieces(state, path, arguments, lent.crew, context);
+        write_options_beside(lent, path, arguments);
+    });
+    return 0;
+}
+
+/// Of quads without layers.
+const Option<WriteArguments> kQuadsWriteOptions[] = {
+    {"version", read_version},
+    {"binary", read_binary},
+    {"groups", read_groups},
+    {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
+};
+
+/// quad_mesh:write(path [, options])
+int write_quads(lua_State* L)
+{
+    lua_settop(L, 3);
+    const auto& state = hold<QuadMeshState>(L, 1);
+    const io::OutputPath& path = push_output_path(L, 2, "write");
+    auto& arguments = temporary<WriteArguments>(L);
+    read_options(L, 3, "write", kQuadsWriteOptions, arguments);
+    RunContext& context = push_context(L);
+    const Host& lent = host(L);
+    guard(L, [&] {
+        const io::Format& format = format_of(path.text(), arguments);
+        if (format.deck == io::DeckFormat::vtu && is_pieces(format))
+            throw InvalidInput(Message("io.no_such_element", "write: quads are written as one file")
+                                   .remedy("write a .vtu file"));
+        io::write_deck(state.deck, format, path, context, arguments.msh);
         write_options_beside(lent, path, arguments);
     });
     return 0;
@@ -647,6 +676,8 @@ void bind_io(lua_State* L)
     add_methods(L, kClassName<MeshState>, kIoMeshMethods);
     const luaL_Reg assembly[] = {{"write", write_assembly}, {nullptr, nullptr}};
     add_methods(L, kClassName<AssemblyMeshState>, assembly);
+    const luaL_Reg quads[] = {{"write", write_quads}, {nullptr, nullptr}};
+    add_methods(L, kClassName<QuadMeshState>, quads);
     add_methods(L, kClassName<VolumeState>, kIoVolumeMethods);
 }
 

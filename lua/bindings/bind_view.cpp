@@ -83,6 +83,12 @@ void write_page(const MeshState& state, const io::OutputPath& path, const view::
     view::write_page(regions_of(state), path, options, context);
 }
 
+void write_page(const QuadMeshState& state, const io::OutputPath& path, const view::PageOptions& options,
+                const RunContext& context)
+{
+    view::write_page(fill::model_of(state, context), path, options, context);
+}
+
 /// x:view(path [, options])
 template <class State>
 int view_page(lua_State* L)
@@ -198,6 +204,12 @@ void draw(const MeshState& state, const io::OutputPath& path, const view::Pictur
     view::write_picture(regions_of(state), path, options, context);
 }
 
+void draw(const QuadMeshState& state, const io::OutputPath& path, const view::PictureOptions& options,
+          const RunContext& context)
+{
+    view::write_picture(fill::model_of(state, context), path, options, context);
+}
+
 /// x:picture(path [, options])
 template <class State, const auto& Table>
 int picture(lua_State* L)
@@ -285,6 +297,9 @@ const luaL_Reg kViewMeshMethods[] = {
 const luaL_Reg kViewAssemblyMethods[] = {{"view", view_page<AssemblyMeshState>},
                                          {"picture", picture<AssemblyMeshState, kPictureOptions>},
                                          {nullptr, nullptr}};
+const luaL_Reg kViewQuadsMethods[] = {{"view", view_page<QuadMeshState>},
+                                      {"picture", picture<QuadMeshState, kFacePictureOptions>},
+                                      {nullptr, nullptr}};
 const luaL_Reg kViewFunctions[] = {{"view", view}, {nullptr, nullptr}};
 
 } // namespace
@@ -296,6 +311,7 @@ void bind_view(lua_State* L)
     add_methods(L, kClassName<VolumeState>, kViewVolumeMethods);
     add_methods(L, kClassName<MeshState>, kViewMeshMethods);
     add_methods(L, kClassName<AssemblyMeshState>, kViewAssemblyMethods);
+    add_methods(L, kClassName<QuadMeshState>, kViewQuadsMethods);
 }
 
 } // namespace lacuna::lua

@@ -90,6 +90,11 @@ struct AssemblyMeshState : fill::FilledParts {
     StageSeconds seconds; ///< of the sweep
 };
 
+/// Quads on faces.
+struct QuadMeshState : fill::FilledShell {
+    StageSeconds seconds;
+};
+
 /// Push the mesh of a sweep as a Mesh or an AssemblyMesh.
 void push_filled(lua_State* L, fill::Filled& filled, const StageSeconds& seconds);
 
@@ -117,6 +122,8 @@ template <>
 inline constexpr const char* kClassName<AssemblyState> = "Assembly";
 template <>
 inline constexpr const char* kClassName<AssemblyMeshState> = "AssemblyMesh";
+template <>
+inline constexpr const char* kClassName<QuadMeshState> = "QuadMesh";
 template <>
 inline constexpr const char* kClassName<FaceHandle> = "Face";
 template <>
@@ -217,9 +224,11 @@ void bind_sweep(lua_State* L);
 void bind_assembly(lua_State* L);
 void bind_assembly_sweep(lua_State* L);
 void bind_mesh(lua_State* L);
+void bind_quads(lua_State* L);
 void bind_quality(lua_State* L);
 void bind_io(lua_State* L);
 void bind_cad(lua_State* L);
+void bind_copies(lua_State* L);
 void bind_view(lua_State* L);
 
 } // namespace lacuna::lua

@@ -18,9 +18,9 @@ void bind_convert(lua_State* L);
 namespace {
 
 void (*const kBinders[])(lua_State*) = {
-    bind_topology, bind_open_volume, bind_matching,       bind_closure, bind_mesh,
-    bind_sweep,    bind_assembly,    bind_assembly_sweep, bind_quality, bind_io,
-    bind_cad,      bind_buffer,      bind_convert,        bind_view,
+    bind_topology, bind_open_volume, bind_matching,       bind_closure, bind_mesh, bind_quads,
+    bind_sweep,    bind_assembly,    bind_assembly_sweep, bind_quality, bind_io,   bind_cad,
+    bind_buffer,   bind_convert,     bind_view,           bind_copies,
 };
 
 // --- what the embedded Lua sources get besides the module ---------------------------------------------

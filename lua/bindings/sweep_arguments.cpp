@@ -76,7 +76,8 @@ void read_field(lua_State* L, int index, const Where& where, surface::SizeField&
     }
 }
 
-void read_size(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+template <class Arguments>
+void read_size(lua_State* L, int index, const Where& where, Arguments& arguments)
 {
     read_field(L, index, where, arguments.size, arguments.size_function);
 }
@@ -277,13 +278,15 @@ const Word<sweep::Fallback> kFallbacks[] = {
     {"mixed", sweep::Fallback::mixed},
 };
 
-void read_order(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+template <class Arguments>
+void read_order(lua_State* L, int index, const Where& where, Arguments& arguments)
 {
     arguments.order = read_whole(L, index, where, 1);
     if (arguments.order > 2) fail_value(L, where, "1 or 2", index);
 }
 
-void read_curvature(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+template <class Arguments>
+void read_curvature(lua_State* L, int index, const Where& where, Arguments& arguments)
 {
     arguments.curvature = read_whole(L, index, where, 0);
     arguments.volume_share = 0; // who names the sides for a turn gets those
@@ -333,6 +336,22 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"threads", count<&SweepArguments::threads>},
 };
 
+void read_quads_faces(lua_State* L, int index, const Where& where, QuadsArguments& arguments)
+{
+    read_faces(L, index, where, *arguments.model, arguments.faces.emplace());
+}
+
+const Option<QuadsArguments> kQuadsOptions[] = {
+    {"faces", read_quads_faces},
+    {"size", read_size},
+    {"curvature", read_curvature},
+    {"gap", count<&QuadsArguments::gap>},
+    {"quads", word<&QuadsArguments::quads, kQuads>},
+    {"order", read_order},
+    {"serendipity", boolean<&QuadsArguments::second_order, &sweep::SecondOrderOptions::serendipity>},
+    {"threads", count<&QuadsArguments::threads>},
+};
+
 /// Leave the function of an option on the stack, if it is one, for the field to call.
 void push_field(lua_State* L, int index, const char* option, int function, surface::SizeField& field)
 {
@@ -343,6 +362,19 @@ void push_field(lua_State* L, int index, const char* option, int function, surfa
 }
 
 } // namespace
+
+QuadsArguments& push_quads_arguments(lua_State* L, int index, const Box<ModelState>& model)
+{
+    auto& arguments = temporary<QuadsArguments>(L);
+    arguments.model = &model;
+    read_options(L, index, "quads", kQuadsOptions, arguments);
+    push_field(L, index, "size", arguments.size_function, arguments.size);
+    guard(L, [&] {
+        arguments.quad_mesher = cad::recombine;
+        if (!arguments.faces) arguments.faces = topology::all_faces(model->model);
+    });
+    return arguments;
+}
 
 SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, const VolumeState& volume)
 {

@@ -22,4 +22,13 @@ struct SweepArguments : sweep::SweepOptions {
 /// @param volume  that selectors choose the faces of; it outlives what is returned.
 SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, const VolumeState& volume);
 
+/// Options of model:quads.
+struct QuadsArguments : SweepArguments {
+    const Box<ModelState>* model = nullptr; ///< held by the call
+    std::optional<std::vector<FaceId>> faces;
+};
+
+/// Read the options of model:quads at `index`, nil or a table, as a temporary.
+QuadsArguments& push_quads_arguments(lua_State* L, int index, const Box<ModelState>& model);
+
 } // namespace lacuna::lua

@@ -7,7 +7,7 @@ from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, lo
 __all__ = [
         "ModelInfo", "FaceInfo", "Cavity", "Classification", "Match", "Closure", "FreeEdge", "LeftOut",
         "Fidelity", "FaceFidelity", "AssemblyFidelity", "WorstCell", "MetricSummary", "Model", "Face",
-        "Volume", "Mesh", "Assembly", "AssemblyMesh", "Quality", "load", "model", "assembly",
+        "Volume", "Mesh", "Assembly", "AssemblyMesh", "QuadMesh", "Quality", "load", "model", "assembly",
         "split_interface", "check", "convert", "view",
 ]
 
@@ -312,6 +312,21 @@ class Model(Shown):
         scale: float | Callable[[float], float]; of the target, or at heights from 0 to 1
         """
         return self._method("open_volume", options_of(roles, keywords))
+
+    def quads(self, options=None, /, **keywords):
+        """Quads on faces, without layers.
+
+        faces: Face | int | str | dict | list[Face | int | str | dict]; default: all
+        size: float | Callable[[float, float, float], float]; edge length; default: the rims' spacing
+        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
+        gap: int; quads asked for across a narrow place; default: none, 3 where there is no size
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
+            face was meshed
+        order: 1 | 2; quads of 4, or of 9 nodes with middle nodes on curves and surfaces; default 1
+        serendipity: bool; with order 2: quads of 8 nodes; default False
+        threads: int; default: all cores
+        """
+        return self._method("quads", options_of(options, keywords))
 
     def describe(self):
         """Faces, free edges, gaps and cavities, in words."""
@@ -684,6 +699,26 @@ class Mesh(AnyMesh):
         """Groups of quads and cells, as files have them."""
         return self._method("groups")
 
+    def copy(self, options=None, /, **keywords):
+        """A copy, moved as a whole; a mirrored one is turned over, so that its cells stay positive.
+
+        translate: (x, y, z)
+        rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
+        mirror: list[(x, y, z)]; point and normal of the plane
+        name: str; region of the copy; of several regions the start of their names; default: as the mesh
+        """
+        return self._method("copy", options_of(options, keywords))
+
+    def pattern(self, count, **keywords):
+        """The mesh and copies of it, each moved against the one before, as one mesh.
+
+        translate: (x, y, z); from each copy to the next
+        rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
+        count: int; copies, the mesh itself included
+        numbered: bool; regions are name_1, name_2 and so on; default False: copies are one region
+        """
+        return self._method("pattern", options_of(None, keywords, count=count))
+
     def node(self, i):
         """Coordinates of a node."""
         return self._method("node", i)
@@ -770,8 +805,6 @@ class Mesh(AnyMesh):
 
 
 class Assembly(Object):
-    """Several volumes to be meshed as one."""
-
     __slots__ = ()
 
     def sweep(self, options=None, /, **keywords):
@@ -938,6 +971,26 @@ class AssemblyMesh(AnyMesh):
         """Groups of quads and cells, as files have them; each volume's cells are one."""
         return self._method("groups")
 
+    def copy(self, options=None, /, **keywords):
+        """A copy, moved as a whole; a mirrored one is turned over, so that its cells stay positive.
+
+        translate: (x, y, z)
+        rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
+        mirror: list[(x, y, z)]; point and normal of the plane
+        name: str; region of the copy; of several regions the start of their names; default: as the mesh
+        """
+        return self._method("copy", options_of(options, keywords))
+
+    def pattern(self, count, **keywords):
+        """The mesh and copies of it, each moved against the one before, as one mesh.
+
+        translate: (x, y, z); from each copy to the next
+        rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
+        count: int; copies, the mesh itself included
+        numbered: bool; regions are name_1, name_2 and so on; default False: copies are one region
+        """
+        return self._method("pattern", options_of(None, keywords, count=count))
+
     def node(self, i):
         """Coordinates of a node."""
         return self._method("node", i)
@@ -1024,6 +1077,104 @@ class AssemblyMesh(AnyMesh):
         edges: bool; sides of cells; default True
         legend: bool; a title, and what the colours mean; default True
         title: str; default the name of the mesh and its counts
+        """
+        self._method("picture", path, options_of(options, keywords))
+
+
+class QuadMesh(AnyMesh):
+    """Several volumes to be meshed as one. Quads on faces, without layers."""
+
+    __slots__ = ()
+
+    @property
+    def nodes(self):
+        return self._field("nodes")
+
+    @property
+    def quads(self):
+        return self._field("quads")
+
+    @property
+    def triangles(self):
+        """that faces came with"""
+        return self._field("triangles")
+
+    @property
+    def hexes(self):
+        """0"""
+        return self._field("hexes")
+
+    @property
+    def layers(self):
+        """0"""
+        return self._field("layers")
+
+    @property
+    def order(self):
+        return self._field("order")
+
+    @property
+    def regions(self):
+        """names of faces"""
+        return self._field("regions")
+
+    @property
+    def report(self):
+        return self._field("report")
+
+    def quality(self):
+        """Of the corners, in their planes; areas of the quads and of the faces."""
+        return self._method("quality")
+
+    def groups(self):
+        return self._method("groups")
+
+    def node(self, i):
+        return self._method("node", i)
+
+    def quad(self, i):
+        """Returns ... four numbers of nodes"""
+        return self._method("quad", i)
+
+    def model(self):
+        """The quads as faces that keep them, to be swept."""
+        return self._method("model")
+
+    def coordinates(self):
+        """Of every node x, y, z."""
+        return self._array("coordinates")
+
+    def cells(self, kind=None):
+        """Of every cell the numbers of its nodes, from 1.
+
+        kind: default "quad"
+        """
+        return self._array("cells", kind)
+
+    def write(self, path, options=None, /, **keywords):
+        """path: .msh, .vtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo or .e
+        version: float; of a .msh
+        binary: bool
+        groups: "one" | "all"; of a .msh: quads in one of their groups, or in all
+        gmsh_options: bool; a file beside a .msh that says how Gmsh shows it
+        """
+        self._method("write", path, options_of(options, keywords))
+
+    def view(self, path, options=None, /, **keywords):
+        """path: .html
+        title: str; default: what the input is called
+        """
+        self._method("view", path, options_of(options, keywords))
+
+    def picture(self, path, options=None, /, **keywords):
+        """path: .png
+        width: int; default 1200 [pixels]
+        height: int; default 900 [pixels]
+        facets: bool; sides of the facets are drawn; default False
+        legend: bool; a title, and what the colours mean; default True
+        title: str; default what is shown, counted
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
+            the eye; default "iso"
         """
         self._method("picture", path, options_of(options, keywords))
 
@@ -1173,7 +1324,7 @@ classes.update(ModelInfo=ModelInfo, FaceInfo=FaceInfo, Cavity=Cavity, Classifica
                Match=Match, Closure=Closure, FreeEdge=FreeEdge, LeftOut=LeftOut, Fidelity=Fidelity,
                FaceFidelity=FaceFidelity, AssemblyFidelity=AssemblyFidelity, WorstCell=WorstCell,
                MetricSummary=MetricSummary, Model=Model, Face=Face, Volume=Volume, Mesh=Mesh,
-               Assembly=Assembly, AssemblyMesh=AssemblyMesh, Quality=Quality)
+               Assembly=Assembly, AssemblyMesh=AssemblyMesh, QuadMesh=QuadMesh, Quality=Quality)
 
 for made in classes.values():
     made.__module__ = "lacuna"

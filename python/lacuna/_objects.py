@@ -11,7 +11,7 @@ from ._wire import Answer, Report, Request, Table
 classes = {}  # by the name that they have in Lua
 _VTK_WEDGE = [0, 2, 1, 3, 5, 4]  # VTK has the triangles of a wedge the other way round
 _VTK_TYPES = {("hex", 8): 12, ("hex", 20): 25, ("hex", 27): 29, ("wedge", 6): 13, ("pyramid", 5): 14,
-              ("tet", 4): 10}
+              ("tet", 4): 10, ("quad", 4): 9, ("quad", 8): 23, ("quad", 9): 28, ("triangle", 3): 5}
 
 
 class Object:
@@ -248,14 +248,17 @@ class Shown(Object):
 
 
 class AnyMesh(Shown):
-    """What Mesh and AssemblyMesh share beyond Lua."""
+    """What Mesh, AssemblyMesh and QuadMesh share beyond Lua."""
 
     __slots__ = ()
 
     def _blocks(self):
         """Of every kind of cell that occurs: its word, VTK's type, and the nodes of all cells from 0, as VTK
         has them."""
-        counts = {"hex": self.hexes, "wedge": self.wedges, "pyramid": self.pyramids, "tet": self.tets}
+        if isinstance(self, classes["QuadMesh"]):
+            counts = {"quad": self.quads, "triangle": self.triangles}
+        else:
+            counts = {"hex": self.hexes, "wedge": self.wedges, "pyramid": self.pyramids, "tet": self.tets}
         for kind in counts:
             if counts[kind]:
                 cells = self._array("cells", kind)

@@ -97,7 +97,10 @@ inline std::string difference(Recipe& recipe, const fill::Filled& filled)
     if (!mesh) return "no mesh of a recipe";
     if (own == nullptr) return "a mesh of one volume";
     if (mesh->regions != own->regions || mesh->materials != own->materials) return "regions";
-    if (mesh->swept.number != own->swept.number) return "numbers of nodes";
+    for (std::size_t p = 0; p < own->regions.size(); ++p)
+        if (mesh->swept.numbering[p].first() != own->swept.numbering[p].first() ||
+            mesh->swept.numbering[p].known() != own->swept.numbering[p].known())
+            return "numbers of nodes";
     if (fill::report(*mesh) != fill::report(*own)) return "report";
     if (mesh->left_out.size() != own->left_out.size()) return "what is left out";
     for (std::size_t p = 0; p < own->regions.size(); ++p) {

@@ -230,7 +230,7 @@ for _, ending in ipairs { ".msh", ".inp", ".vtu" } do
   three:write(params.scratch .. "/fixed" .. ending)
   check.equal(lacuna.check(params.scratch .. "/fixed" .. ending).hexes, three.hexes, ending)
 end
-check.fails(function() lacuna.assembly { first }:sweep { size = 1 } end, "volume to sweep")
+check.equal(lacuna.assembly({ first }):sweep().nodes, first.nodes)
 check.fails(function() lacuna.assembly { first, first } end, "array already")
 check.fails(function() lacuna.assembly { first, layer(1, "first") }:sweep { size = 1 } end, "first")
 check.fails(function() lacuna.assembly { first, 7 } end, "AssemblyMesh")

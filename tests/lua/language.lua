@@ -285,7 +285,8 @@ check.fails(function() cube(names):face(added[1]) end, "another model")
 
 -- The language server's stub names every function there is, and no other.
 local stub <close> = assert(io.open(arg[0]:match("^(.*/)") .. "../../lua/lacuna.d.lua"))
-local stubbed = { Model = {}, Volume = {}, Mesh = {}, Assembly = {}, AssemblyMesh = {}, Buffer = {},
+local stubbed = { Model = {}, Volume = {}, Mesh = {}, Assembly = {}, AssemblyMesh = {}, QuadMesh = {},
+  Buffer = {},
   lacuna = {}, synthetic = {} }
 for line in stub:lines() do
   local owner, name = line:match("^function ([%w]+)[.:]([%w_]+)%(")
@@ -298,6 +299,7 @@ local real = {
   Model = debug.getmetatable(model).methods, Volume = debug.getmetatable(void).methods,
   Mesh = debug.getmetatable(mesh).methods, Assembly = debug.getmetatable(assembly).methods,
   AssemblyMesh = debug.getmetatable(assembly:sweep { layers = 2, size = 1 }).methods, lacuna = lacuna,
+  QuadMesh = debug.getmetatable(prism:quads { size = 1 }).methods,
   Buffer = debug.getmetatable(mesh:cells()).methods, synthetic = lacuna.synthetic,
 }
 for owner, functions in pairs(real) do

@@ -40,6 +40,7 @@ local function volume()
 end
 local mesh = volume():sweep { layers = 1, size = 1 }
 local both = lacuna.assembly({ volume() }):sweep { layers = 1, size = 1 }
+local quads = prism():quads { size = 1 }
 local calls = {
   { "LoadOptions", function(o) lacuna.load("nowhere.step", o) end },
   { "ModelOptions", lacuna.model },
@@ -63,6 +64,12 @@ local calls = {
   { "FacePictureOptions", function(o) volume():picture("x.png", o) end },
   { "PictureOptions", function(o) mesh:picture("x.png", o) end },
   { "PictureOptions", function(o) both:picture("x.png", o) end },
+  { "QuadsOptions", function(o) prism():quads(o) end },
+  { "QuadsWriteOptions", function(o) quads:write("x.msh", o) end },
+  { "PageOptions", function(o) quads:view("x.html", o) end },
+  { "FacePictureOptions", function(o) quads:picture("x.png", o) end },
+  { "CopyOptions", function(o) mesh:copy(o) end },
+  { "PatternOptions", function(o) mesh:pattern(o) end },
 }
 local reference = read(folder .. "../../docs/reference.md")
 for _, call in ipairs(calls) do
@@ -103,7 +110,7 @@ local function names(set)
 end
 
 local objects = { Model = prism(), Face = prism():faces()[1], Volume = volume(), Mesh = mesh,
-  Assembly = lacuna.assembly { volume() }, AssemblyMesh = both, Buffer = mesh:cells() }
+  Assembly = lacuna.assembly { volume() }, AssemblyMesh = both, QuadMesh = quads, Buffer = mesh:cells() }
 for name, object in pairs(objects) do
   check.equal(names(debug.getmetatable(object).fields), names(fields_of(name)), "fields of " .. name)
 end

@@ -92,6 +92,23 @@ class Values(unittest.TestCase):
         self.assertIsNone(part.info().faces[0].half_angle)
         self.assertEqual(type(void).__module__, "lacuna")
 
+    def test_quads_copies_and_patterns(self):
+        shell = lacuna.synthetic.prism(sides=4).quads(faces=["source", "wall_1"], size=0.5)
+        self.assertIsInstance(shell, lacuna.QuadMesh)
+        self.assertEqual((shell.hexes, shell.layers, shell.cells().shape), (0, 0, (shell.quads, 4)))
+        self.assertEqual(shell.coordinates().shape, (shell.nodes, 3))
+        self.assertGreater(shell.quality().min_scaled_jacobian, 0.5)
+        void = shell.model().open_volume(source="source", along={"vector": (0, 0, -1)})
+        mesh = void.sweep(layers=2)
+        self.assertEqual(void.class_, "0")
+        row = mesh.pattern(translate=(0, 0, 1), count=3)
+        self.assertEqual(row.hexes, 3 * mesh.hexes)
+        half = mesh.copy(mirror=((0, 0, 0), (0, 0, 1)), name="upper")
+        both = lacuna.assembly([mesh, half]).sweep()
+        self.assertLess(both.nodes, 2 * mesh.nodes)
+        with self.assertRaisesRegex(lacuna.Error, "assembly.overlap"):
+            mesh.pattern(translate=(0, 0, 0.3), count=2)
+
     def test_a_generator_is_a_list(self):
         part = lacuna.synthetic.prism(sides=6, drop=["wall_1"])
         for walls in ((face for face in part.faces() if face.name.startswith("wall")),

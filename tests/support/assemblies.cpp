@@ -91,10 +91,10 @@ void check_assembly(const sweep::SweptAssembly& whole, double volume, double sha
         check_valid(mesh);
         sum += whole.parts[p].fidelity.volume;
         for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-            nodes[static_cast<std::size_t>(whole.number[p][n])] = mesh.nodes[n];
+            nodes[static_cast<std::size_t>(whole.numbering[p].of(static_cast<Index>(n)))] = mesh.nodes[n];
         for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
             Hex hex = mesh.hex(c);
-            for (Index& n : hex) n = whole.number[p][static_cast<std::size_t>(n)];
+            for (Index& n : hex) n = whole.numbering[p].of(n);
             hexes.push_back(hex);
         }
     }
@@ -113,7 +113,7 @@ std::size_t inner_quads(const sweep::SweptAssembly& whole)
     for (std::size_t p = 0; p < whole.parts.size(); ++p) {
         for (std::size_t i = 0; i < whole.parts[p].mesh.skin_count(); ++i) {
             Quad quad = mesh::skin_quad(whole.parts[p].mesh, i).nodes;
-            for (Index& n : quad) n = whole.number[p][static_cast<std::size_t>(n)];
+            for (Index& n : quad) n = whole.numbering[p].of(n);
             std::sort(quad.begin(), quad.end());
             if (++uses[quad] == 2) ++count;
         }

@@ -138,10 +138,10 @@ void check_middles(const SweptAssembly& whole, bool full)
     std::vector<std::set<Index>> skin(whole.parts.size());
     for (std::size_t p = 0; p < whole.parts.size(); ++p) {
         const mesh::HexMesh& mesh = whole.parts[p].mesh;
-        REQUIRE(whole.number[p].size() == mesh.node_count());
+        REQUIRE(whole.numbering[p].fresh() + whole.numbering[p].known().size() == mesh.node_count());
         for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
             for (const Index n : mesh::skin_nodes(mesh, i))
-                skin[p].insert(whole.number[p][static_cast<std::size_t>(n)]);
+                skin[p].insert(whole.numbering[p].of(n));
         }
     }
     for (const sweep::SharedFace& face : whole.shared) {
@@ -154,7 +154,7 @@ void check_middles(const SweptAssembly& whole, bool full)
             ++quads;
             const mesh::CellNodes all = mesh::skin_nodes(mesh, i);
             CHECK(all.count == (full ? 9 : 8));
-            for (const Index n : all.all()) nodes.insert(whole.number[face.a][static_cast<std::size_t>(n)]);
+            for (const Index n : all.all()) nodes.insert(whole.numbering[face.a].of(n));
         }
         CHECK(quads > 0);
         for (const Index n : nodes) CHECK(skin[face.b].contains(n));

@@ -249,7 +249,8 @@ private:
         ++plan_.fitted;
         if (const auto* swept = dynamic_cast<const geometry::SweptSurface*>(face.surface.get())) {
             made.kind = SolidFace::patches;
-            made.surfaces = swept_patches(*swept, motion_precision_);
+            // Of curved edges that precision takes 16,000 poles, and Open CASCADE minutes.
+            made.surfaces = swept_patches(*swept, swept->has_kinks() ? motion_precision_ : precision_);
             return made;
         }
         const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())

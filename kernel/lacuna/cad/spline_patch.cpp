@@ -10,9 +10,9 @@ namespace lacuna::cad {
 
 namespace {
 
-/// Most intervals between the interpolated points of a spline. A full circle is
-/// then met to 3e-10 of its radius.
-constexpr std::size_t kMostSides = 256;
+/// Most intervals between the interpolated points of a spline. A circle is met to 3e-10 of its radius by 256;
+/// five turns of a helix enclose their volume to 2e-7 by 512.
+constexpr std::size_t kMostSides = 512;
 /// Number of lines in each direction along which a surface is probed.
 constexpr std::size_t kProbes = 5;
 
@@ -28,7 +28,22 @@ std::vector<double> evenly(std::size_t sides)
 Eigen::MatrixXd poles_through(const SplineAxisData& axis, const Eigen::MatrixXd& values)
 {
     const std::vector<double> at = evenly(static_cast<std::size_t>(values.rows()) - 1);
-    Eigen::MatrixXd poles = geometry::solve_lu(basis_rows(axis, at), values);
+    // Rows of B-splines have a few weights beside their diagonal, and need no pivots (de Boor).
+    Eigen::MatrixXd rows = basis_rows(axis, at), poles = values;
+    const Eigen::Index n = rows.rows(), band = axis.degree + 2;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Eigen::Index width = std::min(band, n - i);
+        for (Eigen::Index r = i + 1; r < i + width; ++r) {
+            const double factor = rows(r, i) / rows(i, i);
+            rows.row(r).segment(i, width) -= factor * rows.row(i).segment(i, width);
+            poles.row(r) -= factor * poles.row(i);
+        }
+    }
+    for (Eigen::Index i = n - 1; i >= 0; --i) {
+        const Eigen::Index width = std::min(band, n - i) - 1;
+        poles.row(i) -= rows.row(i).segment(i + 1, width) * poles.middleRows(i + 1, width);
+        poles.row(i) /= rows(i, i);
+    }
     poles.row(0) = values.row(0); // exactly, as other splines share these corners
     poles.bottomRows(1) = values.bottomRows(1);
     return poles;

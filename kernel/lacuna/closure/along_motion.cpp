@@ -304,8 +304,36 @@ std::vector<Vec3> unit_offsets(const Model& model)
     return offsets;
 }
 
+/// Between the corners of facets the thickness is linear: report where a function is off that by more than a
+/// hundredth, a choice, of its largest value.
+void note_coarse_facets(const Model& model, const std::function<double(const Vec3&)>& thickness,
+                        const std::vector<double>& at, const RunContext& context)
+{
+    constexpr double kShare = 0.01;
+    double largest = 0, most = 0, taken = 0, wanted = 0;
+    Vec3 worst = Vec3::Zero();
+    for (const double value : at) largest = std::max(largest, std::abs(value));
+    for (const Face& face : model.faces) {
+        for (const Triangle& t : face.triangles) {
+            const Vec3 middle = (model.at(t[0]) + model.at(t[1]) + model.at(t[2])) / 3;
+            const double linear = (at[index(t[0])] + at[index(t[1])] + at[index(t[2])]) / 3;
+            const double value = thickness(middle);
+            if (!(std::abs(value - linear) > most)) continue;
+            most = std::abs(value - linear);
+            taken = linear, wanted = value, worst = middle;
+        }
+    }
+    if (most > kShare * largest)
+        log_line(context,
+                 formatted("note: along: the thickness is linear between the corners of the source's "
+                           "facets: at {} it is {:.3g}, where the function is {:.3g}; "
+                           "model:quads{{ size = ... }}:model() has finer facets",
+                           place_with_digits(worst, 4), taken, wanted));
+}
+
 /// Thickness of each point of the source's facets.
-std::vector<double> thickness_at(const Model& model, const std::function<double(const Vec3&)>& thickness)
+std::vector<double> thickness_at(const Model& model, const std::function<double(const Vec3&)>& thickness,
+                                 const RunContext& context)
 {
     std::vector<double> at(model.points.size(), 0);
     if (!thickness) return at;
@@ -316,6 +344,7 @@ std::vector<double> thickness_at(const Model& model, const std::function<double(
                 throw InvalidInput("closure.along_thickness", "along: the thickness at {} is no number",
                                    place_with_digits(model.at(p), 4));
         }
+    note_coarse_facets(model, thickness, at, context);
     return at;
 }
 
@@ -335,11 +364,12 @@ void shift_points(Model& model, const std::vector<Vec3>& by)
     model = std::move(builder).finish();
 }
 
-geometry::Motion motion_along_normals(OpenVolume& source, const Along::Normals& normals)
+geometry::Motion motion_along_normals(OpenVolume& source, const Along::Normals& normals,
+                                      const RunContext& context)
 {
     const std::vector<Vec3> offsets = unit_offsets(source.model);
-    const std::vector<double> inside = thickness_at(source.model, normals.inside),
-                              outside = thickness_at(source.model, normals.outside);
+    const std::vector<double> inside = thickness_at(source.model, normals.inside, context),
+                              outside = thickness_at(source.model, normals.outside, context);
     std::optional<RoundShape> round;
     if (source.model.faces.size() == 1) round = round_shape(source.model, FaceId(0));
     std::vector<Vec3> reach(offsets.size()), back(offsets.size());
@@ -403,6 +433,7 @@ struct MotionMaker {
     SweptSource& swept;
     geometry::Distortion by;
     Vec3 centre;
+    const RunContext& context;
 
     geometry::Motion operator()(const Along::Vector& along) const
     {
@@ -446,7 +477,7 @@ struct MotionMaker {
     geometry::Motion operator()(const Along::Normals& along) const
     {
         refuse_distortion("normals");
-        return motion_along_normals(swept.source, along);
+        return motion_along_normals(swept.source, along, context);
     }
     geometry::Motion operator()(const Along::ToFace& along) const
     {
@@ -497,7 +528,7 @@ SweptSource swept_source(const Model& model, OpenVolume source, const Along& alo
     divide_closed_edges(source.model);
     SweptSource swept{std::move(source), nullptr};
     MotionMaker maker{model, swept, distortion_of(along),
-                      centroid_of(swept.source.model, all_faces(swept.source.model))};
+                      centroid_of(swept.source.model, all_faces(swept.source.model)), context};
     swept.motion = std::make_shared<const geometry::Motion>(std::visit(maker, along.course));
     return swept;
 }

@@ -167,7 +167,7 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
                                     "{} of the source has no wall, and the tops of the given walls do not "
                                     "determine the missing target there",
                                     entity_of(model, use.edge))
-                                .remedy("name the wall, or the target"));
+                                .remedy("name the wall, or the target; 'along' sweeps a source alone"));
         }
         if (open.size() > wanted && is_hole_of_walls(volume, rim))
             add_face(volume, closure, {reversed(rim)}, Role::wall, tools);

@@ -142,17 +142,18 @@ WholeCells whole_cells(const FilledParts& mesh_of_all)
     std::size_t columns = 0;
     for (std::size_t p = 0; p < swept.parts.size(); ++p) {
         const mesh::HexMesh& mesh = swept.parts[p].mesh;
-        const std::vector<Index>& number = swept.number[p];
-        for (std::size_t n = 0; n < number.size(); ++n) whole.nodes[index(number[n])] = mesh.node(n);
+        const mesh::NodeNumbers& number = swept.numbering[p];
+        for (std::size_t n = 0; n < mesh.node_count(); ++n)
+            whole.nodes[index(number.of(static_cast<Index>(n)))] = mesh.node(n);
         const mesh::CellKinds kinds(mesh);
         for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
             Hex hex = mesh.hex(kinds.cell(c));
-            for (Index& n : hex) n = number[index(n)];
+            for (Index& n : hex) n = number.of(n);
             whole.hexes.push_back(hex);
             whole.column.push_back(static_cast<Index>(columns + kinds.cell(c) % mesh.quads.size()));
             if (mesh.order() == 1) continue;
             mesh::CellNodes cell = mesh::cell_nodes(mesh, kinds.cell(c));
-            for (std::size_t n = 0; n < cell.count; ++n) cell.node[n] = number[index(cell.node[n])];
+            for (std::size_t n = 0; n < cell.count; ++n) cell.node[n] = number.of(cell.node[n]);
             whole.curved.push_back(cell);
         }
         columns += mesh.quads.size();
@@ -192,16 +193,15 @@ quality::Quality measure(const WholeCells& cells, const RunContext& context)
 
 Vec3 node(const FilledParts& mesh, std::size_t node)
 {
-    const auto place_in = [&](const std::vector<Index>& number) {
-        const auto at = std::ranges::find(number, static_cast<Index>(node));
-        return at == number.end() ? std::nullopt
-                                  : std::optional(static_cast<std::size_t>(at - number.begin()));
-    };
-    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p)
-        if (const auto own = place_in(mesh.swept.number[p])) return mesh.swept.parts[p].mesh.node(*own);
-    std::size_t t = 0;
-    while (!place_in(mesh.tets[t].number)) ++t;
-    return mesh.tets[t].mesh.nodes[*place_in(mesh.tets[t].number)];
+    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
+        const mesh::NodeNumbers& number = mesh.swept.numbering[p];
+        const std::size_t fresh = node - index(number.first()); // of the part that has it first
+        if (fresh < number.fresh()) return mesh.swept.parts[p].mesh.node(number.fresh_node(fresh));
+    }
+    for (const FilledTets& tets : mesh.tets)
+        if (const auto at = std::ranges::find(tets.number, static_cast<Index>(node)); at != tets.number.end())
+            return tets.mesh.nodes[static_cast<std::size_t>(at - tets.number.begin())];
+    return Vec3::Zero(); // excluded by the precondition
 }
 
 namespace {
@@ -219,10 +219,11 @@ std::pair<std::size_t, std::size_t> cells_of(const mesh::TetPart& mesh, mesh::Ce
 }
 
 /// The corners of a cell, by their numbers in the whole mesh.
-mesh::CellNodes corners_of(const Hex& hex, const std::vector<Index>& number)
+template <class Number>
+mesh::CellNodes corners_of(const Hex& hex, const Number& number)
 {
     mesh::CellNodes corners = mesh::distinct_corners(hex);
-    for (std::size_t k = 0; k < corners.count; ++k) corners.node[k] = number[index(corners.node[k])];
+    for (std::size_t k = 0; k < corners.count; ++k) corners.node[k] = number(corners.node[k]);
     return corners;
 }
 
@@ -242,14 +243,16 @@ mesh::CellNodes cell(const FilledParts& mesh, mesh::CellShape shape, std::size_t
         const mesh::HexMesh& part = mesh.swept.parts[p].mesh;
         const auto [first, count] = cells_of(part, shape);
         if (number < count)
-            return corners_of(part.hex(mesh::CellKinds(part).cell(first + number)), mesh.swept.number[p]);
+            return corners_of(part.hex(mesh::CellKinds(part).cell(first + number)),
+                              [&](Index n) { return mesh.swept.numbering[p].of(n); });
         number -= count;
     }
     std::size_t t = 0;
     for (; number >= cells_of(mesh.tets[t].mesh, shape).second; ++t)
         number -= cells_of(mesh.tets[t].mesh, shape).second;
     const auto first = cells_of(mesh.tets[t].mesh, shape).first;
-    return corners_of(mesh.tets[t].mesh.cells[first + number], mesh.tets[t].number);
+    return corners_of(mesh.tets[t].mesh.cells[first + number],
+                      [&](Index n) { return mesh.tets[t].number[index(n)]; });
 }
 
 } // namespace lacuna::fill

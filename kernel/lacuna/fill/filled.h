@@ -25,6 +25,7 @@ struct FilledVolume {
     sweep::Swept swept;
     std::string material; ///< material of the volume
     std::string unit{};   ///< as `Volume::unit`
+    bool copied = false;  ///< made by moved(): in an assembly, nodes move by rounding onto other members'
 };
 
 /// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
@@ -56,6 +57,7 @@ struct FilledParts {
     std::vector<FilledTets> tets;
     std::vector<SplitInterface> interfaces{}; ///< from `split_interface()`
     std::string unit{};                       ///< as `Volume::unit`
+    bool copied = false; ///< as of `FilledVolume`
 };
 
 /// A mesh, and the volumes with the roles that they were swept with.
@@ -63,6 +65,9 @@ struct Filled {
     std::vector<Volume> volumes;
     std::variant<FilledVolume, FilledParts> mesh;
 };
+
+/// The same mesh as one of a single part.
+FilledParts as_parts(const FilledVolume& mesh);
 
 /// The sweeps that produced a mesh: a single one, or one for each part.
 std::span<const sweep::Swept> parts(const FilledVolume& mesh);

@@ -45,8 +45,13 @@ class Splitter {
 public:
     Splitter(FilledParts& mesh, const InterfaceFaces& faces) : mesh_(mesh), faces_(faces)
     {
-        for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p)
-            parts_.push_back(skin_of(mesh.swept.parts[p].mesh, mesh.regions[p], mesh.swept.number[p]));
+        for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
+            std::vector<Index>& number = numbers_.emplace_back();
+            for (std::size_t n = 0; n < mesh.swept.parts[p].mesh.node_count(); ++n)
+                number.push_back(mesh.swept.numbering[p].of(static_cast<Index>(n)));
+        }
+        for (std::size_t p = 0; p < numbers_.size(); ++p)
+            parts_.push_back(skin_of(mesh.swept.parts[p].mesh, mesh.regions[p], numbers_[p]));
         for (FilledTets& tets : mesh.tets) parts_.push_back(skin_of(tets.mesh, tets.region, tets.number));
     }
 
@@ -58,7 +63,7 @@ public:
         add_cells(context);
         // Numbers of nodes are listed one by one where new ones do not follow those before them.
         for (std::size_t p = 0; p < mesh_.swept.parts.size(); ++p) {
-            const std::vector<Index>& number = mesh_.swept.number[p];
+            const std::vector<Index>& number = numbers_[p];
             std::vector<std::pair<Index, Index>> known;
             for (std::size_t n = 0; n < number.size(); ++n)
                 known.emplace_back(static_cast<Index>(n), number[n]);
@@ -205,6 +210,7 @@ private:
                                                mesh_.interfaces.back().cells.size(), faces_.element));
     }
 
+    std::vector<std::vector<Index>> numbers_{}; ///< of the nodes of the swept parts in the whole mesh
     FilledParts& mesh_;
     const InterfaceFaces& faces_;
     std::vector<PartSkin> parts_;
@@ -226,8 +232,8 @@ FilledParts split_interface(FilledParts mesh, const InterfaceFaces& faces, const
     if (!mesh.interfaces.empty())
         throw InvalidInput(Message("fill.interface_split", "split_interface: the mesh was split before")
                                .remedy("name all faces in one call"));
-    if (mesh.swept.number.empty() ||
-        std::ranges::any_of(mesh.swept.parts, [](const sweep::Swept& part) { return part.mesh.order() > 1; }))
+    if (std::ranges::any_of(mesh.swept.parts,
+                            [](const sweep::Swept& part) { return part.layers || part.mesh.order() > 1; }))
         throw InvalidInput(Message("fill.interface_order",
                                    "split_interface: {} has eight nodes, and the mesh is of "
                                    "order 2",

@@ -2,6 +2,8 @@
 #include <lacuna/fill/detail/kept_mesh.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/healing/shared/weld.h>
 
 #include <algorithm>
 #include <utility>
@@ -25,31 +27,59 @@ void remove_name(mesh::HexMesh& mesh, const std::string& name)
 }
 
 std::unique_ptr<KeptMesh> keep(const sweep::Swept& swept, const std::string& name,
-                               const std::string& material, const RunContext& context)
+                               const std::string& material, bool copied)
 {
     auto kept = std::make_unique<KeptMesh>();
     kept->swept = swept;
     kept->region = name;
     kept->material = material;
+    kept->copied = copied;
     remove_name(kept->swept.mesh, name);
-    kept->skin = io::skin_of(kept->swept.mesh, context);
-    kept->swept.faces = kept->skin.face;
     kept->swept.report.emplace_back(formatted("kept as it came: {} cells", swept.mesh.cell_count()));
     return kept;
 }
 
+/// Move nodes of copies onto those that rounding separates from them.
+void settle(std::span<KeptMesh* const> meshes, const RunContext& context)
+{
+    if (std::ranges::none_of(meshes, &KeptMesh::copied)) return;
+    std::vector<Vec3> points;
+    std::vector<std::pair<KeptMesh*, Index>> nodes;
+    for (const bool copied : {false, true}) { // given nodes, which stay, come first
+        for (KeptMesh* const kept : meshes) {
+            const mesh::HexMesh& mesh = kept->swept.mesh;
+            if (kept->copied != copied) continue;
+            std::vector<bool> seen(mesh.node_count(), false);
+            for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
+                for (const Index n : mesh::skin_nodes(mesh, i)) {
+                    if (seen[index(n)]) continue;
+                    seen[index(n)] = true;
+                    points.push_back(mesh.node(index(n)));
+                    nodes.emplace_back(kept, n);
+                }
+            }
+        }
+    }
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : points) box.extend(p);
+    const std::vector<Index> same = healing::weld(points, kSamePlace * box.diagonal().norm(), context);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (nodes[i].first->copied)
+            place(nodes[i].first->swept.mesh, nodes[i].second) = points[index(same[i])];
+}
+
 } // namespace
 
-std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh, const RunContext& context)
+std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh)
 {
     const std::vector<std::string>& groups = mesh.swept.mesh.volume_groups;
     const bool named = !groups.empty() && groups.front() != "volume";
-    auto kept = keep(mesh.swept, named ? groups.front() : "", mesh.material, context);
+    auto kept = keep(mesh.swept, named ? groups.front() : "", mesh.material, mesh.copied);
     kept->unit = mesh.unit;
     return kept;
 }
 
-std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunContext& context)
+std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh)
 {
     if (!mesh.tets.empty())
         throw InvalidInput(
@@ -62,7 +92,7 @@ std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunCo
     std::vector<std::unique_ptr<KeptMesh>> all;
     for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
         const std::string& group = mesh.swept.parts[p].mesh.volume_groups.front();
-        KeptMesh& kept = *all.emplace_back(keep(mesh.swept.parts[p], group, mesh.materials[p], context));
+        KeptMesh& kept = *all.emplace_back(keep(mesh.swept.parts[p], group, mesh.materials[p], mesh.copied));
         kept.region = mesh.regions[p];
         kept.unit = mesh.unit;
         if (group != "volume") kept.whole = group;
@@ -71,6 +101,15 @@ std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunCo
         kept.region += formatted("_{}", p + 1);
     }
     return all;
+}
+
+void add_skins(std::span<KeptMesh* const> meshes, const RunContext& context)
+{
+    settle(meshes, context);
+    for (KeptMesh* const kept : meshes) {
+        kept->skin = io::skin_of(kept->swept.mesh, context);
+        kept->swept.faces = kept->skin.face;
+    }
 }
 
 } // namespace lacuna::fill

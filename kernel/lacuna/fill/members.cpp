@@ -448,9 +448,9 @@ Filled sweep(std::span<const Member> members, const RunContext& context)
     std::vector<sweep::LeftOut> left_out;
     for (std::size_t m = 0; m < members.size(); ++m) {
         const Member& member = members[m];
-        if (member.mesh != nullptr) parts.push_back({nullptr, {}, {}, keep(*member.mesh, context)});
+        if (member.mesh != nullptr) parts.push_back({nullptr, {}, {}, keep(*member.mesh)});
         if (member.parts != nullptr)
-            for (std::unique_ptr<KeptMesh>& kept : keep(*member.parts, context))
+            for (std::unique_ptr<KeptMesh>& kept : keep(*member.parts))
                 parts.push_back({nullptr, {}, {}, std::move(kept)});
         if (member.volume == nullptr) continue;
         const std::string& own = member.volume->name;
@@ -459,6 +459,10 @@ Filled sweep(std::span<const Member> members, const RunContext& context)
         if (!do_or_leave_out(left_out, name, member, add))
             parts.push_back({&member, name, *member.volume, nullptr, true});
     }
+    std::vector<KeptMesh*> kept;
+    for (const Part& part : parts)
+        if (part.kept) kept.push_back(part.kept.get());
+    add_skins(kept, context);
     const auto asked = std::ranges::find_if(members, [](const Member& member) {
         return member.volume != nullptr && member.options.fallback != sweep::Fallback::mixed;
     });

@@ -199,16 +199,16 @@ void number_nodes(FilledParts& mesh)
     };
     std::map<Vec3, Index, decltype(by_place)> known(by_place);
     std::set<Quad> sides; // of the skins so far
-    const auto is_known = [&](Quad side, const std::vector<Index>& number) {
-        for (Index& n : side) n = number[index(n)];
+    const auto is_known = [&](Quad side, const auto& number) {
+        for (Index& n : side) n = number(n);
         return !sides.insert(face_key(side)).second;
     };
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
         const mesh::HexMesh& part = mesh.swept.parts[p].mesh;
-        const std::vector<Index>& number = mesh.swept.number[p];
+        const auto number = [&](Index n) { return mesh.swept.numbering[p].of(n); };
         for (std::size_t i = 0; i < part.skin_count(); ++i) {
             const Quad side = skin_quad(part, i).nodes;
-            for (const Index n : side) known.emplace(part.nodes[index(n)], number[index(n)]);
+            for (const Index n : side) known.emplace(part.nodes[index(n)], number(n));
             is_known(side, number);
         }
     }
@@ -222,8 +222,9 @@ void number_nodes(FilledParts& mesh)
             if (own == next) ++mesh.swept.nodes;
             tets.number.push_back(own);
         }
-        const auto shared = std::ranges::count_if(
-            tets.mesh.skin, [&](const Quad& side) { return is_known(side, tets.number); });
+        const auto number = [&](Index n) { return tets.number[index(n)]; };
+        const auto shared = std::ranges::count_if(tets.mesh.skin,
+                                                  [&](const Quad& side) { return is_known(side, number); });
         if (static_cast<std::size_t>(shared) != tets.shared)
             throw NotSweepable("fill.not_shared",
                                "{}: {} of its sides are those of its neighbours, where {} should be",

@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_order.h>
@@ -169,11 +170,6 @@ private:
     void check_members() const
     {
         if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs at least one volume");
-        if (std::ranges::all_of(members_,
-                                [](const AssemblyMember& m) { return m.fixed != nullptr && !m.unswept; }))
-            throw InvalidInput(
-                "assembly.all_fixed",
-                "all members of the assembly have given meshes; add at least one volume to sweep");
         for (std::size_t m = 0; m < members_.size(); ++m) {
             if (members_[m].region == "volume" && members_.size() > 1)
                 throw InvalidInput(
@@ -640,11 +636,13 @@ private:
                                                    a.size() == 1 ? "quad" : "quads"));
                 continue;
             }
-            throw NotSweepable(
-                "assembly.not_shared",
-                "{} of {} and {} of {} are one face, but their meshes on it differ: {} quads and {}{}",
-                face_a, region_a, face_b, region_b, found(a.size()), needed(b.size()),
-                part.not_kept.empty() ? "" : "; " + part.not_kept.front());
+            throw NotSweepable("assembly.not_shared",
+                               "{} of {} and {} of {} are one face, round {}, but their meshes on it differ: "
+                               "{} quads and {}{}",
+                               face_a, region_a, face_b, region_b,
+                               place_with_digits(face_centroid(members_[m].volume->model, own), 4),
+                               found(a.size()), needed(b.size()),
+                               part.not_kept.empty() ? "" : "; " + part.not_kept.front());
         }
     }
 

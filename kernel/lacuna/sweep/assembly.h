@@ -96,8 +96,6 @@ struct SweptAssembly {
     std::vector<SharedFace> beside;
     /// Of each part's nodes, the number in the whole mesh, from 0. Parts follow each other; a node that an
     /// earlier part has keeps its number.
-    std::vector<std::vector<Index>> number;
-    /// The same numbers in compact form; used alone if parts do not hold their nodes.
     std::vector<mesh::NodeNumbers> numbering;
     std::size_t nodes = 0;             ///< number of nodes of the whole mesh
     std::vector<SharedFace> shared;    ///< faces with common quads; `a` and `b` index `parts`
@@ -115,7 +113,7 @@ struct SweptAssembly {
 /// member are in a group of its name, cells of all members in `volume`. Groups of roles are prefixed by the
 /// member's name, `fluid:source`; groups of a face's name exist with and without the prefix. A single volume
 /// has the groups of `sweep()`.
-/// Members with the option `layered` may become parts that do not hold their nodes; then `number` is empty.
+/// Members with the option `layered` may become parts that do not hold their nodes.
 /// Fixed members become parts unchanged and first: their neighbours keep their quads on shared faces.
 /// A member that cannot be meshed this way is meshed with wedges or left out, as its `fallback` says, and the
 /// assembly is then computed again without it. With `Fallback::mixed` it is then one that is not swept.
@@ -127,8 +125,7 @@ struct SweptAssembly {
 ///         "assembly.hanging_node"  a node of one mesh within a side of another's.
 /// Partially shared faces are split along each other's rims first; the faces of `shared` and of the parts
 /// then belong to the split volumes, whose first faces are the members' own.
-/// @throw InvalidInput  as `shared_faces()` and `sweep()`; "assembly.all_fixed"  no member is to be swept;
-///         "assembly.part_of_face" where a face that is
+/// @throw InvalidInput  as `shared_faces()` and `sweep()`; "assembly.part_of_face" where a face that is
 ///         shared in part keeps its quads, or cannot be split.
 /// @post  conformal: every quad of a shared face belongs to both volumes, no node of one lies inside a side
 ///        or a quad of another, and each volume is proved as in `sweep()`, its shape against its own sealed

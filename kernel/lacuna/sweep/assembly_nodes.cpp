@@ -87,9 +87,6 @@ void number_nodes(SweptAssembly& assembly)
     std::ranges::sort(same);
     Index next = 0;
     auto twin = same.begin();
-    const bool held = std::ranges::none_of(assembly.parts,
-                                           [](const Swept& part) { return bool(part.layers); });
-    assembly.number.resize(held ? assembly.parts.size() : 0);
     assembly.numbering.clear();
     for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
         const mesh::HexMesh& mesh = assembly.parts[p].mesh;
@@ -101,10 +98,6 @@ void number_nodes(SweptAssembly& assembly)
         }
         assembly.numbering.emplace_back(next, std::move(known), nodes);
         next += static_cast<Index>(assembly.numbering.back().fresh());
-        if (!held) continue;
-        assembly.number[p].resize(nodes);
-        for (std::size_t n = 0; n < nodes; ++n)
-            assembly.number[p][n] = assembly.numbering[p].of(static_cast<Index>(n));
     }
     assembly.nodes = index(next);
 }

@@ -88,7 +88,7 @@ ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, c
 {
     constexpr double kMost = std::numeric_limits<Index>::max();
     double quads = std::max(1., sides_over(volume, Role::source, size.shape.at, 2, options));
-    if (options.curvature > SweepOptions{}.curvature)
+    if (options.curvature > SweepOptions{}.curvature && !volume.faces(Role::wall).empty())
         quads += quads_by_turns(links.of(volume, context), volume.model, size.shape.at, options.curvature);
     double layers = std::max(options.layers.count, static_cast<int>(options.layers.heights.size()));
     const double asked = std::max(1., layers);

@@ -195,10 +195,13 @@ void write_page(const topology::OpenVolume& volume, const io::OutputPath& path, 
 {
     const std::vector<EdgeId> free = topology::free_edges(volume);
     std::vector<std::string> facts{formatted("{} faces", volume.model.faces.size())};
+    const bool source_alone = volume.faces(topology::Role::source).size() == volume.model.faces.size();
     if (free.empty())
         facts.emplace_back("sealed");
     else
-        facts.push_back(formatted("class {}", topology::to_string(topology::classify(volume).value)));
+        facts.push_back(
+            formatted("class {}", topology::to_string(source_alone ? topology::VolumeClass::zero
+                                                                   : topology::classify(volume).value)));
     closure::ModelFacts found;
     found.faces = topology::face_facts(volume.model);
     for (std::size_t f = 0; f < volume.model.faces.size(); ++f)

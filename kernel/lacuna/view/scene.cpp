@@ -162,6 +162,17 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
                            found(from), found(to), needed(most));
 }
 
+/// Of each part the number of its region: parts of one name, such as copies, are one.
+template <class Regions>
+std::vector<std::size_t> numbers_by_name(const Regions& regions)
+{
+    std::map<std::string, std::size_t> known;
+    std::vector<std::size_t> numbers;
+    for (const auto& region : regions)
+        numbers.push_back(known.try_emplace(region.name, known.size()).first->second);
+    return numbers;
+}
+
 std::string title_of(std::size_t regions, std::size_t cells)
 {
     return formatted("{}, {}", counted(regions, "region"), counted(cells, "cell"));
@@ -171,7 +182,7 @@ std::string title_of(std::span<const Region> regions)
 {
     std::size_t cells = 0;
     for (const Region& region : regions) cells += region.mesh->cell_count();
-    if (regions.size() > 1) return title_of(regions.size(), cells);
+    if (regions.size() > 1) return title_of(std::ranges::max(numbers_by_name(regions)) + 1, cells);
     const auto layers = static_cast<std::size_t>(regions.front().mesh->layers);
     return formatted("{}: {}, {}", regions.front().name, counted(cells, "cell"), counted(layers, "layer"));
 }
@@ -197,8 +208,10 @@ Legend legend_of(const Regions& regions, const std::string& title, const std::ve
         legend.quantity = "layer, from the source";
         return legend;
     case ColourBy::region:
-        for (std::size_t r = 0; r < regions.size(); ++r)
-            legend.keys.push_back({kind_colour(r), regions[r].name});
+        for (std::size_t r = 0; const std::size_t number : numbers_by_name(regions)) {
+            if (number == legend.keys.size()) legend.keys.push_back({kind_colour(number), regions[r].name});
+            ++r;
+        }
         return legend;
     case ColourBy::origin:
         for (const Colours& own : colours)
@@ -230,13 +243,14 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
     std::vector<Colours> colours;
     double least = 1;
     int layers = 1;
+    const std::vector<std::size_t> numbers = numbers_by_name(regions);
     for (const Region& region : regions) {
         Colours& own = colours.emplace_back();
         own.by = options.colour;
-        own.region = colours.size() - 1;
+        own.region = numbers[colours.size() - 1];
         own.patches = shown_patches(*region.mesh);
-        if (colours.size() > 1)
-            own.first_patch = colours[own.region - 1].first_patch + colours[own.region - 1].patches.size();
+        if (const std::size_t last = colours.size() - 1; last > 0)
+            own.first_patch = colours[last - 1].first_patch + colours[last - 1].patches.size();
         layers = std::max(layers, region.mesh->layers);
         if (options.colour != ColourBy::quality) continue;
         own.quality = quality::metric_values(*region.mesh, quality::Metric::scaled_jacobian, context);

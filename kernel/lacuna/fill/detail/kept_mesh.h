@@ -6,26 +6,38 @@
 #include <lacuna/io/shared/mesh_skin.h>
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace lacuna::fill {
 
+/// The place of a node.
+inline Vec3& place(mesh::HexMesh& mesh, Index node)
+{
+    const std::size_t n = index(node), corners = mesh.nodes.size();
+    return n < corners ? mesh.nodes[n] : mesh.middles.nodes[n - corners];
+}
+
 /// A finished mesh that joins an assembly unchanged.
 struct KeptMesh {
-    io::MeshSkin skin;
+    io::MeshSkin skin;  ///< made by add_skins()
     sweep::Swept swept; ///< its `faces` are those of the skin
     std::string region; ///< empty: the mesh has no name
     std::string material;
     std::string unit;
     std::string whole;   ///< volume that this mesh is a piece of; empty: the mesh is no piece
+    bool copied = false; ///< as of `FilledVolume`
     std::string turn_of; ///< for a piece of a full turn: region of the whole turn
 };
 
-/// @throw InvalidInput  as `io::skin_of()`.
-std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh, const RunContext& context);
+std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh);
 /// As above for each part, in the order of the parts.
 /// @throw InvalidInput "fill.mixed_member"  the mesh has tetrahedra.
-std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh, const RunContext& context);
+std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh);
+
+/// Move nodes of copies onto those of other meshes from which rounding separates them; make the skins.
+/// @throw InvalidInput  as `io::skin_of()`.
+void add_skins(std::span<KeptMesh* const> meshes, const RunContext& context);
 
 } // namespace lacuna::fill

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/fill.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/progress.h>
+#include <lacuna/fill/detail/kept_mesh.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/healing/shared/weld.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace lacuna::fill {
+
+namespace {
+
+/// Move a swept mesh. In a mirrored one the quads are turned over, so that cells stay positive.
+void move(sweep::Swept& swept, const Eigen::Affine3d& by)
+{
+    mesh::HexMesh& mesh = swept.mesh;
+    for (Vec3& p : mesh.nodes) p = by * p;
+    for (Vec3& p : mesh.middles.nodes) p = by * p;
+    for (quality::WorstCell& worst : swept.quality.worst) worst.centre = by * worst.centre;
+    for (sweep::FaceFidelity& face : swept.fidelity.faces) {
+        face.place = by * face.place;
+        face.found_at = by * face.found_at;
+    }
+    if (by.linear().determinant() > 0) return;
+    for (Quad& quad : mesh.quads) quad = mesh::turned_over(quad);
+    for (Segment& side : mesh.rim) std::swap(side[0], side[1]);
+    for (Quad& sides : mesh.middles.side_of) std::ranges::reverse(sides);
+}
+
+/// A part of a mesh, and one of its nodes or of the sides of its skin.
+struct OfPart {
+    std::size_t part;
+    Index number;
+};
+
+/// The part that has a node of the whole mesh first, and the node there.
+OfPart owner(std::span<const mesh::NodeNumbers> numbering, Index node)
+{
+    const auto after = std::ranges::upper_bound(numbering, node, {}, &mesh::NodeNumbers::first);
+    const mesh::NodeNumbers& numbers = *std::prev(after);
+    return {static_cast<std::size_t>(std::prev(after) - numbering.begin()),
+            static_cast<Index>(numbers.fresh_node(index(node - numbers.first())))};
+}
+
+/// The skins of all parts together.
+struct Skin {
+    std::vector<OfPart> nodes, sides;
+    std::vector<Vec3> places;  ///< of the nodes
+    std::vector<Quad> corners; ///< of the sides
+    std::vector<Triangle> facets;
+
+    explicit Skin(const FilledParts& mesh)
+    {
+        for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
+            const mesh::HexMesh& part = mesh.swept.parts[p].mesh;
+            std::vector<Index> number(part.node_count(), -1);
+            for (std::size_t i = 0; i < part.skin_count(); ++i) {
+                for (const Index n : mesh::skin_nodes(part, i)) {
+                    if (number[index(n)] >= 0) continue;
+                    number[index(n)] = static_cast<Index>(nodes.size());
+                    nodes.push_back({p, n});
+                    places.push_back(part.node(index(n)));
+                }
+                Quad quad = mesh::skin_quad(part, i).nodes;
+                for (Index& n : quad) n = number[index(n)];
+                sides.push_back({p, static_cast<Index>(i)});
+                corners.push_back(quad);
+                facets.push_back({quad[0], quad[1], quad[2]});
+                if (quad[2] != quad[3]) facets.push_back({quad[0], quad[2], quad[3]});
+            }
+        }
+    }
+};
+
+/// What a mesh and a copy of it have in common.
+struct InCommon {
+    std::vector<std::pair<OfPart, OfPart>> nodes; ///< of the copy, and of the mesh
+    std::vector<OfPart> of_copy, of_mesh;         ///< sides of the skins
+};
+
+/// Volumes must not overlap. @param number  of the copy, for messages.
+void check_volumes(const FilledParts& mesh, const FilledParts& copy, int number, const RunContext& context)
+{
+    std::array<FilledParts, 2> pair{mesh, copy};
+    for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
+        std::string& region = pair[0].regions[p];
+        if (region == "volume") region = "the mesh"; // which is the name of all cells in an assembly
+        pair[1].regions[p] = formatted("copy {} of {}", number, region);
+        for (FilledParts& one : pair) one.swept.parts[p].mesh.volume_groups = {"volume"};
+    }
+    RunContext quiet = context;
+    quiet.log = nullptr; // of a face that is shared in part it says that it is near
+    const std::array<Member, 2> members{Member{nullptr, nullptr, &pair[0]}, {nullptr, nullptr, &pair[1]}};
+    sweep(members, quiet);
+}
+
+/// Nodes and sides that a copy shares with the mesh: those in the same places.
+/// @throw NotSweepable  a node of one lies on the skin of the other, which has none there.
+InCommon in_common(const Skin& skin, const Eigen::Affine3d& by, double diagonal, const RunContext& context)
+{
+    const std::size_t count = skin.nodes.size();
+    std::vector<Vec3> points = skin.places;
+    for (const Vec3& p : skin.places) points.push_back(by * p);
+    const std::vector<Index> same = healing::weld(points, kSamePlace * diagonal, context);
+    InCommon found;
+    std::vector<Index> twin(count, -1); // of the copy's nodes
+    std::vector<char> shared(count, 0); // of the mesh's
+    for (std::size_t i = 0; i < count; ++i) {
+        if (index(same[count + i]) >= count) continue;
+        twin[i] = same[count + i];
+        shared[index(twin[i])] = 1;
+        found.nodes.emplace_back(skin.nodes[i], skin.nodes[index(twin[i])]);
+    }
+    std::map<Quad, std::size_t> sides;
+    const auto key = [&](Quad quad, const auto& node) {
+        for (Index& n : quad) n = node(n);
+        std::ranges::sort(quad);
+        return quad;
+    };
+    for (std::size_t s = 0; s < skin.sides.size(); ++s)
+        sides.emplace(key(skin.corners[s], [&](Index n) { return same[index(n)]; }), s);
+    for (std::size_t s = 0; s < skin.sides.size(); ++s) {
+        const auto other = sides.find(key(skin.corners[s], [&](Index n) { return twin[index(n)]; }));
+        if (other == sides.end()) continue;
+        found.of_copy.push_back(skin.sides[s]);
+        found.of_mesh.push_back(skin.sides[other->second]);
+    }
+    // Places of the one skin that are on the other without a node there: both ways by one tree.
+    const geometry::FacetTree tree(skin.places, skin.facets, context);
+    const auto check = [&](const Vec3& place, const Vec3& shown) {
+        if ((tree.closest(place).point - place).norm() > kFileAccuracy * diagonal) return;
+        throw NotSweepable(Message("assembly.not_shared",
+                                   "copies touch at {}, where one has a node and the other has none",
+                                   place_with_digits(shown, 4))
+                               .remedy("give the faces that come together the same quads"));
+    };
+    const Eigen::Affine3d back = by.inverse();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (twin[i] < 0) check(points[count + i], points[count + i]);
+        if (shared[index(same[i])] == 0) check(back * points[i], points[i]);
+    }
+    return found;
+}
+
+/// Take sides of the skin out of all groups: a patch as a whole, or a part of it as a patch of its own.
+void make_inner(std::vector<sweep::Swept>& parts, std::size_t first, std::span<const OfPart> sides)
+{
+    std::map<std::pair<std::size_t, Index>, std::vector<Index*>> of_patch;
+    for (const OfPart& side : sides) {
+        mesh::HexMesh& mesh = parts[first + side.part].mesh;
+        const std::size_t i = index(side.number), quads = mesh.quads.size();
+        Index& patch = i < quads       ? mesh.source_patch[i]
+                       : i < 2 * quads ? mesh.target_patch[i - quads]
+                                       : mesh.wall_patch[i - 2 * quads];
+        of_patch[{first + side.part, patch}].push_back(&patch);
+    }
+    for (const auto& [place, patches] : of_patch) {
+        sweep::Swept& part = parts[place.first];
+        std::size_t all = 0;
+        for (const auto* list : {&part.mesh.source_patch, &part.mesh.target_patch, &part.mesh.wall_patch})
+            all += static_cast<std::size_t>(std::ranges::count(*list, place.second));
+        if (all == patches.size()) {
+            part.mesh.patches[index(place.second)].groups.clear();
+            continue;
+        }
+        for (Index* const patch : patches) *patch = static_cast<Index>(part.mesh.patches.size());
+        const int tag = std::ranges::max(part.mesh.patches, {}, &mesh::SkinPatch::tag).tag + 1;
+        part.mesh.patches.push_back({tag, {}, 0});
+        part.faces.emplace_back();
+    }
+}
+
+Eigen::AlignedBox3d box_of(const FilledParts& mesh)
+{
+    Eigen::AlignedBox3d box;
+    for (const sweep::Swept& part : mesh.swept.parts)
+        for (const Vec3& p : part.mesh.nodes) box.extend(p);
+    const Vec3 slack = Vec3::Constant(kFileAccuracy * box.diagonal().norm());
+    return {box.min() - slack, box.max() + slack};
+}
+
+} // namespace
+
+FilledParts as_parts(const FilledVolume& mesh)
+{
+    FilledParts parts;
+    parts.swept.parts = {mesh.swept};
+    parts.swept.nodes = mesh.swept.mesh.node_count();
+    parts.swept.numbering.emplace_back(0, std::vector<std::pair<Index, Index>>(), parts.swept.nodes);
+    parts.regions = {mesh.swept.mesh.volume_groups.front()};
+    parts.materials = {mesh.material};
+    parts.copied = mesh.copied;
+    return parts;
+}
+
+FilledVolume moved(FilledVolume mesh, const Eigen::Affine3d& by, const std::string& name)
+{
+    move(mesh.swept, by);
+    if (!name.empty()) mesh.swept.mesh.volume_groups.front() = name;
+    mesh.copied = true;
+    return mesh;
+}
+
+FilledParts moved(FilledParts mesh, const Eigen::Affine3d& by, const std::string& name)
+{
+    if (!mesh.tets.empty())
+        throw InvalidInput(Message("fill.copy_mixed", "a mesh with tetrahedra cannot be copied")
+                               .remedy("copy it in a solver, or mesh it without fallback = \"mixed\""));
+    for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
+        move(mesh.swept.parts[p], by);
+        if (name.empty()) continue;
+        std::string& group = mesh.swept.parts[p].mesh.volume_groups.front();
+        if (group == mesh.regions[p]) group = name + "_" + group;
+        mesh.regions[p] = name + "_" + mesh.regions[p];
+    }
+    mesh.swept.near_misses.clear();
+    mesh.copied = true;
+    return mesh;
+}
+
+FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const PatternOptions& options,
+                    const RunContext& context)
+{
+    if (options.count < 1)
+        throw InvalidInput("fill.pattern_count", "a pattern has {} copy or more, but {} are asked for",
+                           needed(1), found(options.count));
+    const std::size_t parts = mesh.regions.size();
+    const auto count = static_cast<std::size_t>(options.count);
+    report_progress(context, "copies");
+    const Eigen::AlignedBox3d box = box_of(mesh);
+    std::vector<Eigen::Affine3d> moves{Eigen::Affine3d::Identity()};
+    std::vector<InCommon> common(count); // by how many copies further it is
+    std::optional<Skin> skin;
+    for (std::size_t k = 1; k < count; ++k) {
+        check_cancelled(context);
+        moves.push_back(step * moves.back());
+        if (!box.intersects(box.transformed(moves[k]))) continue;
+        if (!skin) skin.emplace(mesh);
+        check_volumes(mesh, moved(mesh, moves[k]), static_cast<int>(k), context);
+        common[k] = in_common(*skin, moves[k], box.diagonal().norm(), context);
+    }
+    FilledParts all = moved(mesh, moves[0]);
+    sweep::SweptAssembly& whole = all.swept;
+    whole.shared.clear();
+    whole.parts.resize(count * parts);
+    whole.numbering.clear();
+    Index next = 0;
+    std::size_t joined = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        check_cancelled(context);
+        std::vector<std::vector<std::pair<Index, Index>>> known(parts);
+        for (std::size_t p = 0; p < parts; ++p) {
+            sweep::Swept& part = whole.parts[k * parts + p];
+            if (k > 0) {
+                part = mesh.swept.parts[p];
+                part.report.clear();
+                move(part, moves[k]);
+                all.regions.push_back(mesh.regions[p]);
+                all.materials.push_back(mesh.materials[p]);
+            }
+            if (!options.numbered) continue;
+            std::string& region = all.regions[k * parts + p];
+            region = formatted("{}_{}", mesh.regions[p], k + 1);
+            part.mesh.volume_groups.insert(part.mesh.volume_groups.begin(), region);
+        }
+        for (std::size_t d = 1; d <= k; ++d) {
+            for (const auto& [own, there] : common[d].nodes) {
+                const std::size_t before = (k - d) * parts + there.part;
+                known[own.part].emplace_back(own.number, whole.numbering[before].of(there.number));
+                Vec3& place_there = place(whole.parts[k * parts + own.part].mesh, own.number);
+                place_there = whole.parts[before].mesh.node(index(there.number));
+            }
+            make_inner(whole.parts, k * parts, common[d].of_copy);
+            make_inner(whole.parts, (k - d) * parts, common[d].of_mesh);
+        }
+        for (std::size_t p = 0; p < parts; ++p) {
+            for (const auto& [own, number] : mesh.swept.numbering[p].known()) {
+                const OfPart first = owner(mesh.swept.numbering, number);
+                known[p].emplace_back(own, whole.numbering[k * parts + first.part].of(first.number));
+            }
+            std::ranges::sort(known[p]);
+            const auto again = std::ranges::unique(known[p], {}, &std::pair<Index, Index>::first);
+            known[p].erase(again.begin(), again.end());
+            joined += k > 0 ? known[p].size() - mesh.swept.numbering[p].known().size() : 0;
+            whole.numbering.emplace_back(next, std::move(known[p]), mesh.swept.parts[p].mesh.node_count());
+            next += static_cast<Index>(whole.numbering.back().fresh());
+        }
+    }
+    whole.nodes = index(next);
+    whole.report.push_back(formatted("pattern: {} copies, {} nodes joined", count, joined));
+    return all;
+}
+
+} // namespace lacuna::fill

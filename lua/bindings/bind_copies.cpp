@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// mesh:copy and mesh:pattern.
+#include "bindings/classes.h"
+#include "bindings/names.h"
+#include "bindings/options.h"
+#include "bindings/sweep_to.h"
+
+#include <optional>
+
+namespace lacuna::lua {
+
+namespace {
+
+struct CopyArguments {
+    /// Lua aligns its memory less than Eigen would.
+    std::optional<Eigen::Transform<double, 3, Eigen::Affine, Eigen::DontAlign>> by;
+    const char* key = nullptr; ///< the option that gives it
+    fill::PatternOptions pattern;
+    bool has_count = false;
+    std::string name;
+};
+
+void set_motion(lua_State* L, const Where& where, CopyArguments& arguments, const Eigen::Affine3d& by)
+{
+    if (arguments.key != nullptr)
+        fail_option(L, where, "is one motion, and '%s' is another; give one of them", arguments.key);
+    arguments.key = where.key;
+    arguments.by.emplace(by);
+}
+
+void read_translate(lua_State* L, int index, const Where& where, CopyArguments& arguments)
+{
+    set_motion(L, where, arguments, Eigen::Affine3d(Eigen::Translation3d(read_vector(L, index, where))));
+}
+
+/// A point and a direction, the first two of the elements at `index`.
+std::pair<Vec3, Vec3> read_point_and_direction(lua_State* L, int index, const Where& where, std::size_t count,
+                                               const char* expected)
+{
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != count)
+        fail_value(L, where, expected, index);
+    std::pair<Vec3, Vec3> read;
+    lua_rawgeti(L, index, 1);
+    read.first = read_vector(L, lua_gettop(L), where);
+    lua_rawgeti(L, index, 2);
+    read.second = read_vector(L, lua_gettop(L), where);
+    if (!(read.second.stableNorm() > 0)) fail_option(L, where, "has a direction of no length");
+    read.second.stableNormalize();
+    return read;
+}
+
+void read_rotate(lua_State* L, int index, const Where& where, CopyArguments& arguments)
+{
+    const auto [point, axis] = read_point_and_direction(L, index, where, 3,
+                                                        "{ point, direction, angle in degrees }");
+    lua_rawgeti(L, index, 3);
+    constexpr double kDegree = 3.14159265358979323846 / 180;
+    const double angle = read_number(L, lua_gettop(L), where) * kDegree;
+    set_motion(L, where, arguments,
+               Eigen::Translation3d(point) * Eigen::AngleAxisd(angle, axis) * Eigen::Translation3d(-point));
+}
+
+void read_mirror(lua_State* L, int index, const Where& where, CopyArguments& arguments)
+{
+    const auto [point, normal] = read_point_and_direction(L, index, where, 2, "{ point, normal }");
+    Eigen::Affine3d by = Eigen::Affine3d::Identity();
+    by.linear() -= 2 * normal * normal.transpose();
+    by.translation() = 2 * normal.dot(point) * normal;
+    set_motion(L, where, arguments, by);
+}
+
+void read_count(lua_State* L, int index, const Where& where, CopyArguments& arguments)
+{
+    arguments.pattern.count = read_whole(L, index, where, 1);
+    arguments.has_count = true;
+}
+
+void read_copy_name(lua_State* L, int index, const Where& where, CopyArguments& arguments)
+{
+    const char* const name = read_plain_name(L, index, where);
+    guard(L, [&] { arguments.name = name; });
+}
+
+const Option<CopyArguments> kCopyOptions[] = {{"translate", read_translate},
+                                              {"rotate", read_rotate},
+                                              {"mirror", read_mirror},
+                                              {"name", read_copy_name}};
+const Option<CopyArguments> kPatternOptions[] = {
+    {"translate", read_translate},
+    {"rotate", read_rotate},
+    {"count", read_count},
+    {"numbered", boolean<&CopyArguments::pattern, &fill::PatternOptions::numbered>}};
+
+template <std::size_t N>
+CopyArguments& push_arguments(lua_State* L, const char* call, const Option<CopyArguments> (&table)[N],
+                              const char* motions)
+{
+    lua_settop(L, 2);
+    auto& arguments = temporary<CopyArguments>(L);
+    read_options(L, 2, call, table, arguments);
+    if (!arguments.by) fail(L, "%s: give %s", call, motions);
+    return arguments;
+}
+
+/// mesh = mesh:copy { translate = | rotate = | mirror = [, name =] }
+template <class State>
+int copy(lua_State* L)
+{
+    const auto& arguments = push_arguments(L, "copy", kCopyOptions, "'translate', 'rotate' or 'mirror'");
+    const State& state = hold<State>(L, 1);
+    return push_swept(L, {}, "copy", nullptr, push_context(L), [&] {
+        return fill::Filled{{}, fill::moved(state, Eigen::Affine3d(*arguments.by), arguments.name)};
+    });
+}
+
+const fill::FilledParts& parts_of(const AssemblyMeshState& state, fill::FilledParts&) { return state; }
+const fill::FilledParts& parts_of(const MeshState& state, fill::FilledParts& parts)
+{
+    return parts = fill::as_parts(state);
+}
+
+/// mesh = mesh:pattern { translate = | rotate = , count = [, numbered =] }
+template <class State>
+int pattern(lua_State* L)
+{
+    const auto& arguments = push_arguments(L, "pattern", kPatternOptions, "'translate' or 'rotate'");
+    if (!arguments.has_count) fail(L, "pattern: give 'count', the number of copies with the mesh itself");
+    const State& state = hold<State>(L, 1);
+    RunContext& context = push_context(L);
+    return push_swept(L, {}, "pattern", nullptr, context, [&] {
+        fill::FilledParts parts;
+        return fill::Filled{{},
+                            fill::pattern(parts_of(state, parts), Eigen::Affine3d(*arguments.by),
+                                          arguments.pattern, context)};
+    });
+}
+
+template <class State>
+void add_copies(lua_State* L)
+{
+    const luaL_Reg methods[] = {{"copy", copy<State>}, {"pattern", pattern<State>}, {nullptr, nullptr}};
+    add_methods(L, kClassName<State>, methods);
+}
+
+} // namespace
+
+void bind_copies(lua_State* L)
+{
+    add_copies<MeshState>(L);
+    add_copies<AssemblyMeshState>(L);
+}
+
+} // namespace lacuna::lua
