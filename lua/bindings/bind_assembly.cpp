@@ -264,6 +264,13 @@ int cell_count(lua_State* L)
     return give(L, fill::cell_count(check<AssemblyMeshState>(L, 1), Shape));
 }
 
+int order(lua_State* L)
+{
+    const auto& state = check<AssemblyMeshState>(L, 1);
+    if (!state.swept.parts.empty()) return mesh_order<AssemblyMeshState>(L);
+    return give(L, state.tets.front().mesh.order());
+}
+
 int mesh_to_string(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);
@@ -294,7 +301,7 @@ const Field kAssemblyMeshFields[] = {
     {"wedges", cell_count<mesh::CellShape::wedge6>},
     {"pyramids", cell_count<mesh::CellShape::pyramid5>},
     {"tets", cell_count<mesh::CellShape::tet4>},
-    {"order", mesh_order<AssemblyMeshState>},
+    {"order", order},
     {"nodes", mesh_nodes},
     {"hexes", cell_count<mesh::CellShape::hex8>},
     {"layers", mesh_layers},

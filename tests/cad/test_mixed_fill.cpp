@@ -166,13 +166,17 @@ TEST_CASE("tetrahedra are refused by name: no mesher, no CAD process, a mesher t
 TEST_CASE("a fill with tetrahedra stops within half a second, whichever stage it is in")
 {
     const topology::Model model = pyramid();
-    CHECK(test::heeds_cancel(
-        [&](const RunContext& context) { (void)fill::fill(model, mixed(0.02), context); }));
+    fill::Request request = mixed(0.015);
+    for (const int order : {1, 2}) {
+        request.sweep.options.order = order;
+        CHECK(test::heeds_cancel(
+            [&](const RunContext& context) { (void)fill::fill(model, request, context); }));
+    }
     for (const int wait : {20, 150, 600}) {
         CAPTURE(wait);
         const auto stopped = test::stops_within(
             std::chrono::milliseconds(wait),
-            [&](const RunContext& context) { (void)fill::fill(model, mixed(0.015), context); });
+            [&](const RunContext& context) { (void)fill::fill(model, request, context); });
         REQUIRE(stopped);
         CHECK(*stopped < 0.5);
     }

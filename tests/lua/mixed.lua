@@ -3,7 +3,7 @@
 local lacuna = require "lacuna"
 local folder = arg[0]:match("^(.*/)") or "./"
 local check = dofile(folder .. "check.lua")
-local params = lacuna.params { scratch = "." }
+local params = lacuna.params { scratch = ".", lacuna = "lacuna" }
 
 local function path(name) return params.scratch .. "/" .. name end
 
@@ -168,7 +168,6 @@ do
   check.fails(function() volume:sweep_to(path("a.msh"), {}) end, 'or try sweep with fallback = "mixed"')
   local roles = { source = "f1", target = "f2", walls = { "f3", "f4" } }
   check.fails(function() solid(corner):open_volume(roles) end, "topology.ends_share_edge", "mixed")
-  check.fails(function() volume:sweep { fallback = "mixed", order = 2 } end, "fill.tets_order", "order = 1")
   for _, object in ipairs { volume, lacuna.assembly { volume } } do
     check.fails(function() object:sweep_to(path("a.msh"), { fallback = "mixed" }) end, "use sweep and write")
   end
@@ -181,14 +180,54 @@ do
   check.equal(mesh.order, 1)
   check.equal(#mesh.regions, 1)
   check.equal(mesh:groups()[#mesh:groups()].cells, mesh.tets)
-  local bytes = {}
-  for n, threads in ipairs { 1, 4 } do
-    local file = path("threads_" .. threads .. ".msh")
-    volume:sweep { fallback = "mixed", size = 0.2, threads = threads }:write(file)
-    local opened <close> = assert(io.open(file, "rb"))
-    bytes[n] = opened:read("a")
+  for order = 1, 2 do
+    local bytes = {}
+    for n, threads in ipairs { 1, 4 } do
+      local file = path("threads_" .. threads .. ".msh")
+      volume:sweep { fallback = "mixed", size = 0.2, threads = threads, order = order }:write(file)
+      local opened <close> = assert(io.open(file, "rb"))
+      bytes[n] = opened:read("a")
+    end
+    check.that(bytes[1] == bytes[2], "other bytes with four threads")
   end
-  check.that(bytes[1] == bytes[2], "other bytes with four threads")
+  -- A tetrahedron of order 2 has ten nodes; no side is numbered twice.
+  local second = volume:sweep { fallback = "mixed", size = 0.2, order = 2 }
+  check_mesh(second, 1.5 * math.sin(2 * math.pi / 9))
+  check.equal(second.order, 2)
+  check.equal(second.tets, mesh.tets)
+  local sides, count = {}, 0
+  for i = 1, mesh.tets do
+    local corners = { mesh:tet(i) }
+    for a = 1, 3 do
+      for b = a + 1, 4 do
+        local key = math.min(corners[a], corners[b]) .. " " .. math.max(corners[a], corners[b])
+        if not sides[key] then count = count + 1 end
+        sides[key] = true
+      end
+    end
+  end
+  check.equal(second.nodes, mesh.nodes + count)
+  near(second:quality().min_scaled_jacobian, mesh:quality().min_scaled_jacobian, "least scaled Jacobian")
+end
+
+-- Of order 2 the skin follows round faces, here of a slice of a ball.
+do
+  local file = path("slice.geo")
+  check.write(file, 'SetFactory("OpenCASCADE");\nSphere(1) = {0, 0, 0, 1, -Pi/2, Pi/2, Pi/3};\n')
+  local exact, slice = 2 * math.pi / 9, lacuna.load(file):open_volume {}
+  local off, distance = {}, {}
+  for order = 1, 2 do
+    local mesh = slice:sweep { size = 0.4, fallback = "mixed", order = order }
+    local quality = mesh:quality()
+    check.equal(quality.certified, true)
+    check.that(mesh.tets > 0, "no tetrahedra")
+    check.that(quality.min_scaled_jacobian > 0.05, "least " .. quality.min_scaled_jacobian)
+    off[order] = math.abs(quality.volume / exact - 1)
+    distance[order] = mesh.fidelity.max_distance
+    near(mesh.fidelity.volume, quality.volume, "volume of the mesh")
+  end
+  check.that(off[2] < off[1] / 10, ("volume off by %g, and by %g of order 2"):format(off[1], off[2]))
+  check.that(distance[2] < distance[1] / 3, ("skin off by %g, and by %g"):format(distance[1], distance[2]))
 end
 
 -- Two solids in one volume are refused, with what to do.
@@ -262,6 +301,32 @@ do
     -- A region of several shapes is one region: its cells have no faces between them.
     local has_regions = ending ~= "vtk" and ending ~= "vtu"
     check.equal(#lacuna.load(file):faces(), has_regions and 10 or 5, ending)
+  end
+  -- Of order 2 likewise, with hexahedra of 27 nodes beside pyramids of 14, or of 20 beside 13.
+  for _, serendipity in ipairs { false, true } do
+    local second = assembly:sweep { size = 0.25, fallback = "mixed", order = 2, serendipity = serendipity }
+    check_mesh(second, 1 + 0.8 / 3)
+    check.equal(second.pyramids, 16)
+    local formats = serendipity and { "msh", "vtk", "vtu", "inp", "bdf", "unv", "exo" } or
+      { "msh", "vtk", "vtu", "exo" }
+    for _, ending in ipairs(formats) do
+      local file = path("second." .. ending)
+      second:write(file)
+      local quality = lacuna.check(file)
+      check.equal(quality.certified, true)
+      check.equal(quality.hexes, 64)
+      check.equal(quality.pyramids, 16)
+      check.equal(quality.tets, second.tets)
+      check.that(math.abs(quality.volume - (1 + 0.8 / 3)) < 1e-6, ending .. ": volume " .. quality.volume)
+      local copy = path("copy.vtu")
+      check.that(os.execute(("'%s' convert '%s' '%s'"):format(params.lacuna, file, copy)), ending)
+      check.equal(lacuna.check(copy).pyramids, 16)
+    end
+    if not serendipity then
+      check.fails(function() second:write(path("second.inp")) end, "io.no_such_element", "serendipity")
+    end
+    second:picture(path("second.png"), { cut = { point = { 0.5, 0.5, 0.5 }, normal = { 0, 1, 0 } } })
+    second:view(path("second.html"))
   end
   check.fails(function() mesh:write(path("parts.msh"), { partitions = 2 }) end, "lua.mixed_write")
   check.fails(function() mesh:write(path("parts.msh"), { partitions = 1 }) end, "lua.mixed_write")

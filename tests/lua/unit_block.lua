@@ -98,6 +98,20 @@ return function(check, scratch, N)
     return false
   end
 
+  -- Nodes whose displacement is given by an equation, so that none is prescribed there.
+  local function dependent_nodes(text)
+    local nodes, inside, count = {}, false, nil
+    for line in text:gmatch("[^\n]+") do
+      if line:sub(1, 1) == "*" then
+        if line:sub(2, 2) ~= "*" then inside = line == "*EQUATION" end
+      elseif inside then
+        if count then nodes[tonumber(line:match("%d+"))] = true end
+        count = tonumber(line)
+      end
+    end
+    return nodes
+  end
+
   -- Have the deck solved under an affine displacement of its outside, which is the same stress in every cell.
   -- Its step prints the stresses. outer(node, place) tells what lies outside, that of the block by default.
   -- Returns the number of places they were compared at.
@@ -105,9 +119,10 @@ return function(check, scratch, N)
     outer = outer or on_block
     local name = "solve_" .. class
     local base = scratch .. "/" .. name
-    local lines = { "*STATIC\n*BOUNDARY" }
+    local lines, dependent = { "*STATIC\n*BOUNDARY" }, dependent_nodes(text)
     for tag, at in pairs(nodes) do
-      for axis, u in ipairs(outer(tag, at) and { affine(table.unpack(at)) } or {}) do
+      local prescribed = outer(tag, at) and not dependent[tag]
+      for axis, u in ipairs(prescribed and { affine(table.unpack(at)) } or {}) do
         lines[#lines + 1] = ("%d, %d, %d, %.12e"):format(tag, axis, axis, u)
       end
     end

@@ -49,6 +49,7 @@ struct Shape {
     std::function<std::vector<double>(const Vec3&)> values;
     /// The point for three numbers of [0, 1), not at the apex.
     std::function<Vec3(const Vec3&)> inside;
+    bool has_centre = false; ///< of the base, the last node
 };
 
 std::vector<double> tet_values(const Vec3& p)
@@ -90,8 +91,25 @@ std::vector<double> pyramid_values(const Vec3& p)
     return n;
 }
 
+/// The same with a node in the centre of the base, whose bubble is taken from the others.
+std::vector<double> full_pyramid_values(const Vec3& p)
+{
+    const double x = p.x(), y = p.y(), t = 1 - p.z(), centre = (t * t - x * x) * (t * t - y * y) / (t * t);
+    std::vector<double> n = pyramid_values(p);
+    for (std::size_t k = 0; k < 4; ++k) {
+        n[k] += centre / 4;
+        n[5 + k] -= centre / 2;
+    }
+    n.push_back(centre);
+    return n;
+}
+
 std::vector<Shape> shapes()
 {
+    const auto in_pyramid = [](const Vec3& p) -> Vec3 {
+        return {(2 * p.x() - 1) * (1 - p.z()), (2 * p.y() - 1) * (1 - p.z()), p.z()};
+    };
+    const std::vector<Segment> of_pyramid{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
     return {{kTet,
              even_tet(),
              {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
@@ -106,13 +124,8 @@ std::vector<Shape> shapes()
              [](const Vec3& p) -> Vec3 {
                  return {p.x() * (1 - p.y()), p.y(), p.z()};
              }},
-            {kPyramid,
-             even_pyramid(),
-             {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
-             pyramid_values,
-             [](const Vec3& p) -> Vec3 {
-                 return {(2 * p.x() - 1) * (1 - p.z()), (2 * p.y() - 1) * (1 - p.z()), p.z()};
-             }}};
+            {kPyramid, even_pyramid(), of_pyramid, pyramid_values, in_pyramid},
+            {kPyramid, even_pyramid(), of_pyramid, full_pyramid_values, in_pyramid, true}};
 }
 
 /// The Jacobian of a shape at a point, by differences that are exact up to rounding for its polynomials.
@@ -130,7 +143,7 @@ double jacobian(const Shape& shape, const std::vector<Vec3>& nodes, const Vec3& 
     return d.determinant();
 }
 
-/// The cell with twenty nodes, as `measure_cells()` takes it.
+/// The cell with twenty nodes or 21, as `measure_cells()` takes it.
 quality::Quality measured_second(const Shape& shape, const std::vector<Vec3>& nodes)
 {
     mesh::CellNodes cell;
@@ -144,6 +157,7 @@ quality::Quality measured_second(const Shape& shape, const std::vector<Vec3>& no
                                          : static_cast<Index>(shape.corners.size()) +
                                                static_cast<Index>(edge - shape.edges.begin());
     }
+    if (shape.has_centre) cell.node[cell.count++] = static_cast<Index>(nodes.size()) - 1;
     return quality::measure_cells(nodes, std::vector<mesh::CellNodes>{cell});
 }
 
@@ -154,6 +168,10 @@ std::vector<Vec3> with_middles(const Shape& shape, double bend, std::mt19937& ra
     for (const auto& [a, b] : shape.edges)
         nodes.push_back((nodes[index(a)] + nodes[index(b)]) / 2 +
                         bend * Vec3(move(random), move(random), move(random)));
+    if (!shape.has_centre) return nodes;
+    Vec3 centre = bend * Vec3(move(random), move(random), move(random));
+    for (std::size_t k = 0; k < 4; ++k) centre += nodes[5 + k] / 2 - nodes[k] / 4;
+    nodes.push_back(centre);
     return nodes;
 }
 

@@ -67,7 +67,7 @@ mesh::TetMesh mixed_cells(int n, unsigned seed)
     return made;
 }
 
-io::Deck mixed_deck(int n, int order, double bend, bool pyramids)
+io::Deck mixed_deck(int n, int order, double bend)
 {
     const mesh::TetMesh cells = mixed_cells(n);
     io::Deck deck;
@@ -91,7 +91,6 @@ io::Deck mixed_deck(int n, int order, double bend, bool pyramids)
         const mesh::CellNodes nodes = mesh::distinct_corners(cell);
         std::vector<Index> own(nodes.begin(), nodes.end());
         const int corners = static_cast<int>(own.size());
-        if (corners == 5 && !pyramids) continue;
         io::DeckShape shape = *mesh::find_shape(3, corners, corners);
         if (order == 2) {
             const auto sides = mesh::side_corners(shape);

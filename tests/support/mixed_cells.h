@@ -14,7 +14,6 @@ mesh::TetMesh mixed_cells(int n, unsigned seed = 1);
 /// The same as a deck of one region, with tags that leave gaps.
 /// @param order   1 or 2
 /// @param bend    how far middle nodes are moved from the middles of their edges.
-/// @param pyramids  false: without them
-io::Deck mixed_deck(int n, int order, double bend = 0, bool pyramids = true);
+io::Deck mixed_deck(int n, int order, double bend = 0);
 
 } // namespace lacuna::test

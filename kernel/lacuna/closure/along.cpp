@@ -383,11 +383,13 @@ Closed close_along(const SweptSource& swept, const CloseOptions& options, const 
                                    "close: '{}' shapes what is missing, and 'along' determines all of it",
                                    unused)
                                .remedy("leave it out"));
+    refuse_edges_on_axis(swept);
     return AlongCloser(swept, context).run();
 }
 
 std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& context)
 {
+    refuse_edges_on_axis(swept);
     constexpr double kHalf = 0.5;
     SweptSource half{swept.source, geometry::part_of_motion(swept.motion, 0, kHalf), false, swept.sets};
     StepPiece first{.volume = close_along(half, {}, context).volume, .turn_to = kHalf};

@@ -208,23 +208,68 @@ Vec3 unit(const Vec3& direction, const char* name)
     return direction.stableNormalized();
 }
 
-/// Refuse a source that touches its axis, where cells would have no width.
-void check_axis(const Model& model, const Vec3& point, const Vec3& axis)
+/// Whether a point lies on an axis.
+bool is_on(const Model& model, Index point, const Vec3& origin, const Vec3& axis)
 {
-    const auto on_axis = [&](VertexId vertex) {
-        return (model.at(model[vertex].point) - point).cross(axis).norm() <= model.tolerance;
-    };
-    const auto refuse = [](const NamedEntity& what) {
-        throw InvalidInput(
-            Message("closure.along_axis", "{} lies on the axis, where cells would have no width", what)
-                .remedy(
-                    "leave a strip next to the axis out of the source, and fill the core with a volume of "
-                    "its own"));
-    };
+    return (model.at(point) - origin).cross(axis).norm() <= model.tolerance;
+}
+
+/// An edge of a source that lies on an axis.
+std::optional<EdgeId> edge_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
+{
     for (std::size_t e = 0; e < model.edges.size(); ++e)
-        if (on_axis(model.edges[e].from) && on_axis(model.edges[e].to)) refuse(entity_of(model, EdgeId(e)));
-    for (std::size_t v = 0; v < model.vertices.size(); ++v)
-        if (on_axis(VertexId(v))) refuse(entity_of(model, VertexId(v)));
+        if (std::ranges::all_of(model.edges[e].points,
+                                [&](Index at) { return is_on(model, at, point, axis); }))
+            return EdgeId(e);
+    return std::nullopt;
+}
+
+/// Refuse a source that touches its axis, where cells would have no width.
+/// @param wedges  whether it can be swept with wedges
+void check_axis(const Model& model, const Vec3& point, const Vec3& axis, bool wedges = false)
+{
+    if (const auto edge = edge_on_axis(model, point, axis))
+        throw InvalidInput(
+            Message("closure.along_axis", "{} lies on the axis, where hexahedra would have no width",
+                    entity_of(model, *edge))
+                .remedy(
+                    "{}leave a strip next to the axis out of the source, and fill the core with a volume of "
+                    "its own",
+                    wedges ? "sweep the volume by itself with wedges = true, or " : ""));
+    for (std::size_t v = 0; v < model.vertices.size(); ++v) {
+        if (!is_on(model, model.vertices[v].point, point, axis)) continue;
+        throw InvalidInput(
+            Message("closure.along_axis", "{} lies on the axis, where a cell would have no width",
+                    entity_of(model, VertexId(v)))
+                .remedy("leave the place next to the axis out of the source, and fill the core "
+                        "with a volume of its own"));
+    }
+}
+
+/// Whether edges of a source lie on the axis of its turn.
+/// @throw InvalidInput  it touches the axis elsewhere.
+bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
+{
+    if (!edge_on_axis(model, point, axis)) {
+        check_axis(model, point, axis);
+        return false;
+    }
+    std::vector<char> ends(model.points.size(), 0);
+    const auto on = [&](Index at) { return is_on(model, at, point, axis); };
+    for (const Edge& edge : model.edges)
+        if (std::ranges::all_of(edge.points, on))
+            for (const Index at : edge.points) ends[index(at)] = 1;
+    for (std::size_t v = 0; v < model.vertices.size(); ++v) {
+        const Index at = model.vertices[v].point;
+        if (!on(at) || ends[index(at)] != 0) continue;
+        throw InvalidInput(
+            Message("closure.along_axis",
+                    "{} lies on the axis apart from the edges there, where a cell would have no "
+                    "width",
+                    entity_of(model, VertexId(v)))
+                .remedy("leave it out of the source"));
+    }
+    return true;
 }
 
 /// Direction in which a turn moves a place.
@@ -448,7 +493,10 @@ struct MotionMaker {
         if (!(std::abs(along.angle) > 0) || std::abs(along.angle) > kWhole)
             throw InvalidInput("closure.along_angle", "along: 'angle' is {} degrees, and a turn has up to {}",
                                found(along.angle), needed(kWhole));
-        check_axis(swept.source.model, along.point, axis);
+        if (by.twist || by.scale)
+            check_axis(swept.source.model, along.point, axis);
+        else if (has_edges_on_axis(swept.source.model, along.point, axis))
+            swept.on_axis = Along::Axis{along.point, axis, along.angle};
         swept.full_turn = std::abs(along.angle) == kWhole;
         if (swept.full_turn && (by.twist || by.scale))
             throw InvalidInput(Message("closure.along_full_turn",
@@ -520,6 +568,11 @@ void check_source(const OpenVolume& source)
 }
 
 } // namespace
+
+void refuse_edges_on_axis(const SweptSource& swept)
+{
+    if (swept.on_axis) check_axis(swept.source.model, swept.on_axis->point, swept.on_axis->direction, true);
+}
 
 SweptSource swept_source(const Model& model, OpenVolume source, const Along& along, const RunContext& context)
 {

@@ -160,11 +160,16 @@ WholeCells whole_cells(const FilledParts& mesh_of_all)
     }
     for (const FilledTets& tets : mesh_of_all.tets) {
         for (std::size_t n = 0; n < tets.number.size(); ++n)
-            whole.nodes[index(tets.number[n])] = tets.mesh.nodes[n];
-        for (Hex hex : tets.mesh.cells) {
+            whole.nodes[index(tets.number[n])] = tets.mesh.node(n);
+        for (std::size_t c = 0; c < tets.mesh.cells.size(); ++c) {
+            Hex hex = tets.mesh.cells[c];
             for (Index& n : hex) n = tets.number[index(n)];
             whole.hexes.push_back(hex);
             whole.column.push_back(static_cast<Index>(columns++));
+            if (tets.mesh.order() == 1) continue;
+            mesh::CellNodes cell = merged_nodes(tets.mesh, c);
+            for (std::size_t n = 0; n < cell.count; ++n) cell.node[n] = tets.number[index(cell.node[n])];
+            whole.curved.push_back(cell);
         }
     }
     return whole;
@@ -200,7 +205,7 @@ Vec3 node(const FilledParts& mesh, std::size_t node)
     }
     for (const FilledTets& tets : mesh.tets)
         if (const auto at = std::ranges::find(tets.number, static_cast<Index>(node)); at != tets.number.end())
-            return tets.mesh.nodes[static_cast<std::size_t>(at - tets.number.begin())];
+            return tets.mesh.node(static_cast<std::size_t>(at - tets.number.begin()));
     return Vec3::Zero(); // excluded by the precondition
 }
 

@@ -103,7 +103,7 @@ struct WholeCells {
     std::vector<Vec3> nodes;
     /// Corners; for wedges see `mesh::is_wedge()`, for pyramids and tetrahedra `mesh::has_apex()`.
     std::vector<Hex> hexes;
-    std::vector<mesh::CellNodes> curved; ///< at order 2: all nodes of each cell
+    std::vector<mesh::CellNodes> curved; ///< at order 2: all nodes, as `mesh::merged_nodes()`
     std::vector<Index> column;           ///< column that each cell belongs to, numbered over all parts
 };
 WholeCells whole_cells(const FilledParts& mesh);

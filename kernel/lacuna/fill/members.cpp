@@ -222,6 +222,7 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
     member.alone = alone;
     if (volume.level > 0) member.options.layers = {};
     share_layers(volume, member.options.layers);
+    keep_given_middles(volume, member.options.second_order);
     return member;
 }
 
@@ -334,6 +335,16 @@ void choose_sweeps(Prepared& ready, const RunContext& context)
 void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunContext& context)
 {
     const sweep::SweptAssembly& swept = mesh.swept;
+    sweep::SharedMiddles middles;
+    const auto require_shared = [&](const std::string& region, bool agree) {
+        if (!agree)
+            throw NotSweepable("assembly.not_shared",
+                               "{}: middle nodes on common sides are not where its neighbours have theirs",
+                               region);
+    };
+    for (std::size_t p = 0; p < swept.parts.size() && !swept.unswept.empty(); ++p)
+        if (const mesh::HexMesh& part = swept.parts[p].mesh; part.order() > 1)
+            require_shared(mesh.regions[p], middles.add(part, [](Index) { return true; }));
     for (const sweep::Unswept& one : swept.unswept) {
         const sweep::AssemblyMember& member = ready.members[one.member];
         const Part& part = *ready.parts[one.member];
@@ -344,7 +355,8 @@ void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunCo
                     one.why                ? *one.why
                     : part.volume.no_roles ? *part.volume.no_roles
                                            : Message("closure.no_ends", "it has no ends to sweep between"),
-                    {}};
+                    {},
+                    middles};
         for (const sweep::SharedFace& face : swept.beside) {
             if (face.a != one.member && face.b != one.member) continue;
             const bool first = face.a == one.member;
@@ -359,7 +371,10 @@ void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunCo
                     cells_on(mesh.tets[static_cast<std::size_t>(t - swept.unswept.begin())], there, own));
             }
         }
-        mesh.tets.push_back(fill_with_tets(what, part.asked->options, context));
+        sweep::SweepOptions options = part.asked->options;
+        options.second_order = member.options.second_order;
+        mesh.tets.push_back(fill_with_tets(what, options, context));
+        if (options.order > 1) require_shared(member.region, middles.add(mesh.tets.back().mesh));
         mesh.materials.push_back(part.volume.material);
     }
     if (!mesh.tets.empty()) number_nodes(mesh);

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill.h>
 
+#include <lacuna/closure/shared/along.h>
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/partition.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/members.h>
 #include <lacuna/io/shared/deck_middles.h>
 #include <lacuna/surface/shared/default_size.h>
+#include <lacuna/sweep/shared/turn_at_axis.h>
 
 #include <algorithm>
 #include <array>
@@ -43,8 +46,11 @@ struct GivenMiddles {
     }
 };
 
+} // namespace
+
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options)
 {
+    if (volume.decks.empty()) return;
     const GivenMiddles given{volume.decks, kSamePlace * volume.volume.model.diagonal, volume.scale};
     options.given = [given](std::span<const Vec3> from, std::span<const Vec3> to) {
         return given.find(from.size(), [&](const io::Deck& deck) {
@@ -57,6 +63,8 @@ void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options
         });
     };
 }
+
+namespace {
 
 // --- one sweep of a volume --------------------------------------------------------------------------------
 
@@ -78,7 +86,7 @@ void report_closure(const Volume& volume, std::vector<std::string>& report, cons
 Filled sweep_whole(const Volume& volume, sweep::SweepOptions options, const RunContext& context)
 {
     Volume sealed = close_to_sweep(volume, volume.name.empty() ? "the volume" : volume.name, context);
-    if (!sealed.decks.empty()) keep_given_middles(sealed, options.second_order);
+    keep_given_middles(sealed, options.second_order);
     FilledVolume mesh{sweep::sweep(sealed.volume, options, context), sealed.material, sealed.unit};
     report_closure(sealed, mesh.swept.report, context);
     if (!sealed.name.empty()) mesh.swept.mesh.volume_groups = {sealed.name};
@@ -94,6 +102,52 @@ Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request
     options.layered = options.layered && request.layered_parts;
     if (!options.layered) options.crew = nullptr;
     Filled filled{{}, sweep_pieces(volume, cut_into_pieces(volume, context), options, context)};
+    filled.volumes.push_back(volume);
+    return filled;
+}
+
+// --- a source with edges on its axis ----------------------------------------------------------------------
+
+/// Turn a source with edges on its axis: it is meshed as the end of a plate, and its quads are turned.
+Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const RunContext& context)
+{
+    sweep::SweepOptions options = request.options;
+    options.wedges = true;
+    sweep::check(options, context);
+    options.fallback = sweep::Fallback::none;
+    options.layered = false;
+    options.crew = nullptr;
+    const closure::SweptSource& along = *volume.along;
+    const topology::Model& source = along.source.model;
+    Vec3 normal = Vec3::Zero();
+    for (const FaceId face : topology::all_faces(source)) normal += topology::face_area_vector(source, face);
+    if (!(normal.norm() > 0))
+        throw InvalidInput(Message("closure.along_direction", "the source has no mean normal")
+                               .remedy("use a source in a plane through its axis"));
+    constexpr double kThickness = 0.1; // of the model; it does not matter, as it has one layer
+    closure::SweptSource plate{along.source, nullptr, false, along.sets};
+    plate.motion = std::make_shared<const geometry::Motion>(
+        geometry::translation(kThickness * source.diagonal * normal.normalized()));
+    sweep::SweepOptions flat = options;
+    flat.layers = {};
+    flat.layers.count = 1;
+    flat.wedges = false;
+    flat.min_scaled_jacobian = 0;
+    const topology::OpenVolume sealed = closure::close_along(plate, {}, context).volume;
+    sweep::Swept base = sweep::sweep(sealed, flat, context);
+    if (!volume.name.empty()) base.mesh.volume_groups = {volume.name};
+    const closure::Along::Axis& axis = *along.on_axis;
+    FilledParts mesh{sweep::turn_at_axis({axis.point, axis.direction, axis.angle * kDegree, along.full_turn},
+                                         sealed, base, options, context),
+                     {},
+                     {},
+                     {},
+                     {}};
+    const std::string name = volume.name.empty() ? "volume" : volume.name;
+    for (const sweep::Swept& part : mesh.swept.parts) // wedges have layers along the axis
+        mesh.regions.push_back(part.mesh.hex_count() > 0 ? name : name + "_axis");
+    mesh.materials.assign(mesh.swept.parts.size(), volume.material);
+    Filled filled{{}, std::move(mesh)};
     filled.volumes.push_back(volume);
     return filled;
 }
@@ -279,14 +333,18 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
 
 Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& options)
 {
-    if (options.fallback == sweep::Fallback::mixed || !options.tet_mesher || options.order > 1) return why;
+    if (options.fallback == sweep::Fallback::mixed || !options.tet_mesher) return why;
     return why.remedy("{}try {}fallback = \"mixed\"", why.remedy().empty() ? "" : why.remedy() + ", or ",
                       options.layered ? "sweep with " : "");
 }
 
 Filled sweep(const Volume& volume, const SweepRequest& request, const RunContext& context)
 {
-    return sweep_or_name_tets(request.options, [&] { return sweep_or_fill(volume, request, context); });
+    const sweep::SweepOptions& options = request.options;
+    if (volume.along && volume.along->on_axis &&
+        (options.wedges || options.fallback == sweep::Fallback::wedges))
+        return turn_at_axis(volume, request, context);
+    return sweep_or_name_tets(options, [&] { return sweep_or_fill(volume, request, context); });
 }
 
 Filled fill(const topology::Model& model, const Request& request, const RunContext& context)

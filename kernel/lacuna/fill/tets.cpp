@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/core/shared/same_corners.h>
+#include <lacuna/fill/detail/tet_middles.h>
 #include <lacuna/quality/shared/prove_cells.h>
 #include <lacuna/surface/shared/default_size.h>
 #include <lacuna/sweep/shared/face_patches.h>
@@ -114,7 +115,7 @@ void take_cells(const ToFill& what, const surface::SkinMesh& skin, mesh::TetMesh
 }
 
 /// @throw NotSweepable  the cells are no valid mesh, or their skin is another than the one to be filled
-void prove(FilledTets& tets, const sweep::SweepOptions& options, const RunContext& context)
+void prove(FilledTets& tets, const RunContext& context)
 {
     quality::CellsProof proved = quality::prove_cells(tets.mesh.nodes, tets.mesh.cells, context);
     quality::require(proved);
@@ -127,6 +128,10 @@ void prove(FilledTets& tets, const sweep::SweepOptions& options, const RunContex
         throw NotSweepable("fill.skin_differs", "{}: the cells that fill the skin have another skin",
                            tets.region);
     tets.quality = std::move(proved.quality);
+}
+
+void require_quality(const FilledTets& tets, const sweep::SweepOptions& options)
+{
     if (tets.quality.min_scaled_jacobian < options.min_scaled_jacobian)
         throw NotSweepable(Message("quality.below_limit",
                                    "{}: the smallest scaled Jacobian is {:.3g}, below the limit of {:.3g}",
@@ -163,10 +168,6 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
     if (!options.tet_mesher)
         throw InvalidInput(Message("fill.no_tets", "{}: this host has no mesher for tetrahedra", what.region)
                                .remedy("set SweepOptions::tet_mesher, to cad::fill_skin for example"));
-    if (options.order > 1)
-        throw InvalidInput(
-            Message("fill.tets_order", "{}: tetrahedra and pyramids are of order 1 only", what.region)
-                .remedy("use order = 1, or leave out the fallback"));
     FilledTets tets;
     tets.region = what.region;
     tets.report.push_back(formatted("fallback: filled with tetrahedra, because {}", what.why.text()));
@@ -181,16 +182,74 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
     report_progress(context, "tetrahedra");
     mesh::TetMesh made = options.tet_mesher(skin.skin, context);
     take_cells(what, skin, std::move(made), tets);
-    prove(tets, options, context);
+    prove(tets, context);
+    std::string order_2;
+    if (options.order > 1) {
+        report_progress(context, "order 2");
+        ElevatedTets elevated = elevate(volume.model, tets.mesh, tets.faces, what.middles,
+                                        options.second_order, tets.region, context);
+        tets.quality = std::move(elevated.quality);
+        order_2 = std::move(elevated.report);
+    }
+    require_quality(tets, options);
     report_progress(context, "shape of the skin");
     tets.fidelity = sweep::compare(volume, tets.mesh, tets.faces, tets.quality.volume,
                                    {options.max_deviation}, context);
     tets.report.push_back(formatted("cells: {} tetrahedra, {} pyramids",
                                     tets.mesh.cells.size() - tets.mesh.pyramids, tets.mesh.pyramids));
+    if (!order_2.empty()) tets.report.push_back(std::move(order_2));
     tets.report.push_back(sweep::in_words(tets.fidelity));
     require_shape(tets.fidelity, options, tets, context);
     return tets;
 }
+
+namespace {
+
+/// Numbers of the middle nodes of skins, by the numbers of the corners of their sides and quads.
+class MiddleNumbers {
+public:
+    /// Add those of a mesh. @param number  of each of its nodes
+    template <class Mesh>
+    void add(const Mesh& mesh, const std::vector<Index>& number)
+    {
+        each(mesh, number, [&](const auto& corners, Index node) {
+            numbers(corners).emplace(corners, number[index(node)]);
+        });
+    }
+
+    /// The known number of each middle node of a mesh, after its corners; -1: none.
+    [[nodiscard]] std::vector<Index> find(const mesh::TetPart& mesh, const std::vector<Index>& number)
+    {
+        std::vector<Index> found(mesh.middles.nodes.size(), -1);
+        each(mesh, number, [&](const auto& corners, Index node) {
+            if (const auto at = numbers(corners).find(corners); at != numbers(corners).end())
+                found[index(node) - mesh.nodes.size()] = at->second;
+        });
+        return found;
+    }
+
+private:
+    template <class Mesh, class Take>
+    static void each(const Mesh& mesh, const std::vector<Index>& number, const Take& take)
+    {
+        for (std::size_t i = 0; mesh.order() > 1 && i < mesh.skin_count(); ++i) {
+            const mesh::CellNodes nodes = skin_nodes(mesh, i);
+            Quad corners = skin_quad(mesh, i).nodes;
+            const std::size_t count = mesh::corner_count(corners);
+            for (Index& n : corners) n = number[index(n)];
+            for (std::size_t k = 0; k < count; ++k)
+                take(rising(Segment{corners[k], corners[(k + 1) % count]}), nodes.node[count + k]);
+            if (nodes.count == 9) take(rising(corners), nodes.node[8]);
+        }
+    }
+    std::map<Segment, Index>& numbers(const Segment&) { return sides_; }
+    std::map<Quad, Index>& numbers(const Quad&) { return quads_; }
+
+    std::map<Segment, Index> sides_;
+    std::map<Quad, Index> quads_;
+};
+
+} // namespace
 
 void number_nodes(FilledParts& mesh)
 {
@@ -199,18 +258,22 @@ void number_nodes(FilledParts& mesh)
     };
     std::map<Vec3, Index, decltype(by_place)> known(by_place);
     std::set<Quad> sides; // of the skins so far
-    const auto is_known = [&](Quad side, const auto& number) {
-        for (Index& n : side) n = number(n);
+    MiddleNumbers middles;
+    const auto is_known = [&](Quad side, const std::vector<Index>& number) {
+        for (Index& n : side) n = number[index(n)];
         return !sides.insert(face_key(side)).second;
     };
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
         const mesh::HexMesh& part = mesh.swept.parts[p].mesh;
-        const auto number = [&](Index n) { return mesh.swept.numbering[p].of(n); };
+        std::vector<Index> number;
+        for (std::size_t n = 0; n < part.node_count(); ++n)
+            number.push_back(mesh.swept.numbering[p].of(static_cast<Index>(n)));
         for (std::size_t i = 0; i < part.skin_count(); ++i) {
             const Quad side = skin_quad(part, i).nodes;
-            for (const Index n : side) known.emplace(part.nodes[index(n)], number(n));
+            for (const Index n : side) known.emplace(part.nodes[index(n)], number[index(n)]);
             is_known(side, number);
         }
+        middles.add(part, number);
     }
     for (FilledTets& tets : mesh.tets) {
         std::vector<char> on_skin(tets.mesh.nodes.size(), 0);
@@ -222,9 +285,13 @@ void number_nodes(FilledParts& mesh)
             if (own == next) ++mesh.swept.nodes;
             tets.number.push_back(own);
         }
-        const auto number = [&](Index n) { return tets.number[index(n)]; };
-        const auto shared = std::ranges::count_if(tets.mesh.skin,
-                                                  [&](const Quad& side) { return is_known(side, number); });
+        for (Index own : middles.find(tets.mesh, tets.number)) {
+            if (own < 0) own = static_cast<Index>(mesh.swept.nodes++);
+            tets.number.push_back(own);
+        }
+        middles.add(tets.mesh, tets.number);
+        const auto shared = std::ranges::count_if(
+            tets.mesh.skin, [&](const Quad& side) { return is_known(side, tets.number); });
         if (static_cast<std::size_t>(shared) != tets.shared)
             throw NotSweepable("fill.not_shared",
                                "{}: {} of its sides are those of its neighbours, where {} should be",

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/message.h>
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/format_table.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
+#include <optional>
+#include <set>
 
 // Writes a flat deck: nodes, elements by type and region, elements kept as text, sets, cards. CalculiX reads
 // at most 20 characters of a number.
@@ -90,11 +96,13 @@ public:
             cards = cards_of(*view_->kept);
         }
         find_bricks_and_shells();
+        find_equations();
         add_nodes();
         choose_sets();
         choose_names();
         for (std::size_t b = 0; b < view_->blocks.size(); ++b) add_elements(b);
         file_.add(cards.elements);
+        if (!equations_.empty()) file_.add(equations_);
         for (std::size_t s = 0; s < view_->sets.size(); ++s)
             if (!by_elements_[s]) add_set(s);
         file_.add(cards.others);
@@ -121,13 +129,18 @@ private:
     /// The word for the elements of a block.
     [[nodiscard]] std::string_view type_of(const MeshView::Block& block) const
     {
-        const bool own = is_abaqus_element(block.type, block.shape) ||
-                         is_merged_brick(block.shape, is_abaqus_element(block.type, DeckShape::hex8));
+        const bool own = is_abaqus_element(block.type, block.shape) || is_brick(block.shape, block.type);
         return own ? std::string_view(block.type) : words_of(block.shape).abaqus;
+    }
+    /// Whether a shape is written as a brick with merged corners under a word.
+    static bool is_brick(DeckShape shape, std::string_view type)
+    {
+        const std::optional<DeckShape> brick = merged_brick(shape);
+        return brick && is_abaqus_element(type, *brick);
     }
     [[nodiscard]] bool is_brick(const MeshView::Block& block) const
     {
-        return is_merged_brick(block.shape, is_abaqus_element(type_of(block), DeckShape::hex8));
+        return is_brick(block.shape, type_of(block));
     }
     /// Collect the numbers of pyramids that are written as bricks, because their sides are those of a brick,
     /// and of shells, whose edges are E1, E2, …; those of elements in a plane are S1, S2, …
@@ -142,6 +155,112 @@ private:
         }
         std::ranges::sort(bricks_);
         std::ranges::sort(shells_);
+    }
+
+    /// Have the displacement be linear along the sides of the bases of pyramids of order 2. A side that bends
+    /// gets that of the affine map of its ends, the apex and another corner, so that rigid motions stay free.
+    void find_equations()
+    {
+        const auto is_wanted = [&](const MeshView::Block& block) {
+            return block.shape == DeckShape::pyramid13 && is_brick(block);
+        };
+        if (std::ranges::none_of(view_->blocks, is_wanted)) return;
+        std::vector<Vec3> points;
+        view_->each_point(0, view_->points, [&](std::span<const Vec3> some) {
+            points.insert(points.end(), some.begin(), some.end());
+        });
+        std::set<DeckTag> known = dependent_nodes();
+        for (const MeshView::Block& block : view_->blocks) {
+            if (!is_wanted(block)) continue;
+            block.each_cell(0, block.count, [&](std::size_t, std::span<const Index> nodes) {
+                for (std::size_t k = 0; k < 4; ++k)
+                    add_equation(points, nodes[5 + k],
+                                 {nodes[k], nodes[(k + 1) % 4], nodes[(k + 2) % 4], nodes[4]}, known);
+            });
+        }
+        if (equations_.empty()) return;
+        equations_ = "** Middle nodes of the bases of pyramids, which are bricks with a repeated apex\n"
+                     "*EQUATION\n" +
+                     equations_;
+        if (!same_) leave_out_of_sets(known);
+    }
+
+    /// The nodes that depend on others by equations of the deck.
+    [[nodiscard]] std::set<DeckTag> dependent_nodes() const
+    {
+        std::set<DeckTag> nodes;
+        if (!same_) return nodes;
+        for (const AbaqusCard& card : abaqus_cards(view_->kept->cards)) {
+            if (card.keyword.name != "EQUATION") continue;
+            DeckTag fields_left = 0; // of the terms of an equation
+            bool first = false;
+            each_data_line(card, [&](std::string_view line) {
+                while (!line.empty()) {
+                    const std::string_view field = trimmed(next_field(line));
+                    const auto number = parse_integer<DeckTag>(field);
+                    if (fields_left == 0) {
+                        fields_left = 3 * number.value_or(0);
+                        first = true;
+                    } else if (!field.empty()) {
+                        if (first && number) nodes.insert(*number);
+                        first = false;
+                        --fields_left;
+                    }
+                }
+            });
+        }
+        return nodes;
+    }
+
+    /// @param corners  of a pyramid, first those at the ends of the side
+    void add_equation(const std::vector<Vec3>& points, Index middle, const std::array<Index, 4>& corners,
+                      std::set<DeckTag>& known)
+    {
+        const auto place = [&](std::size_t k) { return points[index(corners[k])]; };
+        const DeckTag own = view_->point_tags[index(middle)];
+        if (!known.insert(own).second) return;
+        Eigen::Matrix3d edges;
+        for (std::size_t k = 1; k < 4; ++k) edges.col(static_cast<int>(k) - 1) = place(k) - place(0);
+        const Vec3 bend = points[index(middle)] - (place(0) + place(1)) / 2;
+        Vec3 shares(0.5, 0, 0); // of the corners after the first
+        if (bend.norm() > kFileAccuracy * (place(1) - place(0)).norm()) shares += edges.inverse() * bend;
+        const bool straight = shares[1] == 0 && shares[2] == 0;
+        for (int axis = 1; axis <= 3; ++axis) {
+            equations_ += formatted("{}\n{}, {}, 1.", straight ? 3 : 5, own, axis);
+            for (std::size_t k = 0; k < (straight ? 2u : 4u); ++k) {
+                const double share = k == 0 ? 1 - shares.sum() : shares[static_cast<int>(k) - 1];
+                char text[kWidth + 1];
+                const char* const end = put_real(static_cast<char*>(text), -share, kWidth);
+                equations_ += formatted("{}{}, {}, {}", k == 3 ? ",\n" : ", ",
+                                        view_->point_tags[index(corners[k])], axis,
+                                        std::string_view(text, end));
+            }
+            equations_ += '\n';
+        }
+    }
+
+    /// Take nodes that depend on others out of the sets of nodes: CalculiX refuses boundary conditions there.
+    void leave_out_of_sets(const std::set<DeckTag>& nodes)
+    {
+        MeshView own = *view_;
+        for (MeshView::Set& set : own.sets) {
+            if (set.kind != mesh::SetKind::nodes) continue;
+            Ranges kept;
+            set.members.each_range(0, set.count, [&](std::size_t first, std::size_t last) {
+                for (auto out = nodes.lower_bound(static_cast<DeckTag>(first));
+                     out != nodes.end() && static_cast<std::size_t>(*out) < last; ++out) {
+                    kept.add(first, static_cast<std::size_t>(*out));
+                    first = static_cast<std::size_t>(*out) + 1;
+                }
+                kept.add(first, last);
+            });
+            set.count = kept.count();
+            set.members = mesh::Numbers(std::move(kept));
+        }
+        view_ = std::make_shared<const MeshView>(std::move(own));
+        file_.notes.push_back(formatted("{} middle nodes of the bases of pyramids follow their corners by "
+                                        "equations, and are in no set of nodes",
+                                        nodes.size()));
     }
 
     /// Whether a set of elements has exactly the elements of a region.
@@ -226,17 +345,19 @@ private:
         mesh::each_run(block.regions, 0, block.count, [&](std::size_t first, std::size_t last, Index region) {
             of_region[region].add(first, last);
         });
-        const auto nodes = static_cast<std::size_t>(is_brick(block) ? 8 : shape_info(block.shape).nodes);
+        const bool brick = is_brick(block);
+        const auto nodes = static_cast<std::size_t>(
+            shape_info(brick ? *merged_brick(block.shape) : block.shape).nodes);
         for (auto& [region, elements] : of_region) {
             const std::size_t count = elements.count();
             file_.sections.push_back(
                 {head_of(type, region), count, (nodes + 1) * kNumberBytes + 4,
-                 [view = view_, b, nodes, all = std::move(elements)](std::size_t begin, std::size_t end,
-                                                                     char* out) {
+                 [view = view_, b, nodes, brick, all = std::move(elements)](std::size_t begin,
+                                                                            std::size_t end, char* out) {
                      all.each(begin, end, [&](std::size_t first, std::size_t last) {
                          each_cell(view->blocks[b], first, last,
                                    [&](std::size_t, DeckTag tag, std::span<const Index> own_nodes) {
-                                       out = put_element(*view, tag, own_nodes, nodes, out);
+                                       out = put_element(*view, tag, own_nodes, nodes, brick, out);
                                    });
                      });
                      return out;
@@ -252,15 +373,15 @@ private:
         return head + "\n";
     }
 
-    /// @param count  nodes to write; the last one is repeated.
+    /// @param count  nodes to write. @param brick  a pyramid is written as a brick with merged corners
     static char* put_element(const MeshView& view, DeckTag tag, std::span<const Index> nodes,
-                             std::size_t count, char* out)
+                             std::size_t count, bool brick, char* out)
     {
         out = put_text(out, tag);
         for (std::size_t k = 0; k < count; ++k) {
             *out++ = ',';
             *out++ = (k + 1) % kPerLine == 0 ? '\n' : ' ';
-            out = put_text(out, view.point_tags[index(nodes[std::min(k, nodes.size() - 1)])]);
+            out = put_text(out, view.point_tags[index(nodes[brick ? kMergedBrick[k] : k])]);
         }
         *out++ = '\n';
         return out;
@@ -306,6 +427,7 @@ private:
     bool same_; ///< same format: names and text stay
     DeckFile file_;
     std::vector<DeckTag> bricks_, shells_; ///< see `find_bricks_and_shells()`
+    std::string equations_;                ///< see `find_equations()`; the card, empty: none
     std::vector<bool> by_elements_;        ///< sets
     std::vector<bool> makes_set_;          ///< regions
     std::vector<Index> set_of_region_;     ///< set that each region creates; -1: none

@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/large_pages.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/triangulate.h>
+#include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/mesh/tet_mesh.h>
 
 #include <algorithm>
@@ -22,22 +23,27 @@ bool fan_fills(const std::vector<Vec3>& at, const Vec3& normal)
     return true;
 }
 
-/// Make pyramids of the bricks that `is_merged_brick()` describes. Their sides have the numbers of a pyramid.
+/// Make pyramids of the bricks that `merged_brick()` describes. Their sides have the numbers of a pyramid.
 void take_out_pyramids(Deck& deck)
 {
     std::vector<DeckTag> found;
     std::vector<DeckBlock> pyramids;
     for (DeckBlock& block : deck.blocks) {
-        if (block.shape != DeckShape::hex8) continue;
+        if (block.shape != DeckShape::hex8 && block.shape != DeckShape::hex20) continue;
         const auto is_pyramid = [&](std::size_t e) {
+            const std::span<const Index> nodes = block.element(e);
             Hex hex;
-            std::ranges::copy(block.element(e), hex.begin());
+            std::copy_n(nodes.begin(), hex.size(), hex.begin());
+            for (std::size_t n = 12; n < 16 && nodes.size() == 20; ++n)
+                if (nodes[n] != hex[4]) return false;
             return mesh::is_pyramid(hex);
         };
-        DeckBlock own{.shape = DeckShape::pyramid5, .type = block.type};
+        const bool second = block.shape == DeckShape::hex20;
+        DeckBlock own{.shape = second ? DeckShape::pyramid13 : DeckShape::pyramid5, .type = block.type};
         for (std::size_t e = 0; e < block.count(); ++e) {
             if (!is_pyramid(e)) continue;
-            own.nodes.insert(own.nodes.end(), block.element(e).begin(), block.element(e).begin() + 5);
+            for (std::size_t n = 0; n < block.element(e).size(); ++n) // each of its nodes once
+                if (n < 5 || kMergedBrick[n] > 4) own.nodes.push_back(block.element(e)[n]);
             own.tags.push_back(block.tags[e]);
             own.regions.push_back(block.regions[e]);
         }

@@ -119,26 +119,7 @@ std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3
 
 mesh::CellNodes solid_nodes(const DeckBlock& block, std::size_t element)
 {
-    const std::span<const Index> own = block.element(element);
-    const DeckShapeInfo& info = shape_info(block.shape);
-    mesh::CellNodes nodes;
-    if (info.corners == 8) {
-        nodes.count = own.size();
-        std::ranges::copy(own, nodes.node.begin());
-        return nodes;
-    }
-    const Hex at = mesh::merged_corners(info.corners);
-    for (const Index corner : at) nodes.node[nodes.count++] = own[index(corner)];
-    if (info.nodes == info.corners) return nodes;
-    const auto sides = side_corners(block.shape);
-    for (const auto& [from, to] : mesh::kHexEdges) {
-        const int a = at[index(from)], b = at[index(to)];
-        const auto side = std::ranges::find_if(
-            sides, [&](const auto& of) { return of == std::pair(a, b) || of == std::pair(b, a); });
-        const auto middle = static_cast<std::size_t>(info.corners + (side - sides.begin()));
-        nodes.node[nodes.count++] = own[side == sides.end() ? index(a) : middle];
-    }
-    return nodes;
+    return mesh::merged_nodes(block.shape, block.element(element));
 }
 
 std::vector<Vec3> middles_between(const Deck& deck, std::span<const Vec3> from, std::span<const Vec3> to,
@@ -158,8 +139,9 @@ std::vector<Vec3> centres_of(const Deck& deck, std::span<const std::array<Vec3, 
 namespace {
 
 /// Join the middle nodes of quads common to both; all quads must have one in both, or none.
-void join_centres(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
-                  double tolerance, double scale, std::vector<Index>& points)
+template <class Mesh>
+void join_centres(const Deck& deck, const Mesh& mesh, const std::vector<bool>& matched, double tolerance,
+                  double scale, std::vector<Index>& points)
 {
     std::vector<Quad> quads;
     std::vector<std::size_t> of;
@@ -203,15 +185,10 @@ void join_centres(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
     }
 }
 
-} // namespace
-
-NamedEntity entity_of(const mesh::SkinPatch& patch)
-{
-    return {"face", patch.face, patch.groups.empty() ? std::string() : patch.groups.front()};
-}
-
-void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
-                  double tolerance, double scale, std::vector<Index>& points)
+/// Join the middle nodes of sides common to both.
+template <class Mesh>
+void join_all(const Deck& deck, const Mesh& mesh, const std::vector<bool>& matched, double tolerance,
+              double scale, std::vector<Index>& points)
 {
     struct Side {
         std::size_t middle; ///< number of the mesh's middle node; 0: of order 1
@@ -221,11 +198,12 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
     std::vector<Side> sides;
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const mesh::CellNodes nodes = skin_nodes(mesh, i);
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Segment pair{points[index(nodes.node[k])], points[index(nodes.node[(k + 1) % 4])]};
+        const std::size_t corners = mesh::corner_count(skin_quad(mesh, i).nodes);
+        for (std::size_t k = 0; k < corners; ++k) {
+            const Segment pair{points[index(nodes.node[k])], points[index(nodes.node[(k + 1) % corners])]};
             if (pair[0] < 0 || pair[1] < 0) continue;
             pairs.push_back(pair);
-            sides.push_back({mesh.order() == 1 ? 0 : index(nodes.node[4 + k]), i});
+            sides.push_back({mesh.order() == 1 ? 0 : index(nodes.node[corners + k]), i});
         }
     }
     const std::vector<Index> found = find_middles<2>(deck, pairs);
@@ -264,32 +242,23 @@ void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector
     join_centres(deck, mesh, matched, tolerance, scale, points);
 }
 
-void join_middles(const Deck& deck, const mesh::TetPart& mesh, const std::vector<bool>& /*matched*/,
-                  double /*tolerance*/, double /*scale*/, std::vector<Index>& points)
+} // namespace
+
+NamedEntity entity_of(const mesh::SkinPatch& patch)
 {
-    std::vector<Segment> pairs;
-    std::vector<std::size_t> of;
-    for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        const mesh::CellNodes corners = skin_nodes(mesh, i);
-        for (std::size_t k = 0; k < corners.count; ++k) {
-            const Segment pair{points[index(corners.node[k])],
-                               points[index(corners.node[(k + 1) % corners.count])]};
-            if (pair[0] < 0 || pair[1] < 0) continue;
-            pairs.push_back(pair);
-            of.push_back(i);
-        }
-    }
-    const std::vector<Index> found = find_middles<2>(deck, pairs);
-    const auto middle = std::ranges::find_if(found, [](Index node) { return node >= 0; });
-    if (middle == found.end()) return;
-    const auto s = static_cast<std::size_t>(middle - found.begin());
-    throw InvalidInput(Message("io.mixed_order",
-                               "{}: the side between {} and {} has a middle node in the deck, but "
-                               "tetrahedra and pyramids are of order 1",
-                               entity_of(mesh.patches[index(skin_quad(mesh, of[s]).patch)]),
-                               numbered("node", deck.point_tags[index(pairs[s][0])]),
-                               numbered("node", deck.point_tags[index(pairs[s][1])]))
-                           .remedy("give the deck elements of order 1"));
+    return {"face", patch.face, patch.groups.empty() ? std::string() : patch.groups.front()};
+}
+
+void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
+                  double tolerance, double scale, std::vector<Index>& points)
+{
+    join_all(deck, mesh, matched, tolerance, scale, points);
+}
+
+void join_middles(const Deck& deck, const mesh::TetPart& mesh, const std::vector<bool>& matched,
+                  double tolerance, double scale, std::vector<Index>& points)
+{
+    join_all(deck, mesh, matched, tolerance, scale, points);
 }
 
 } // namespace lacuna::io

@@ -111,20 +111,17 @@ struct TetParts {
 
     [[nodiscard]] ByShape cells() const
     {
-        return {
-            {{DeckShape::pyramid5, 0, mesh.pyramids}, {DeckShape::tet4, mesh.pyramids, mesh.cells.size()}}};
+        return {{{mesh::cell_shape(mesh, true), 0, mesh.pyramids},
+                 {mesh::cell_shape(mesh, false), mesh.pyramids, mesh.cells.size()}}};
     }
     [[nodiscard]] ByShape skin() const
     {
-        return {
-            {{DeckShape::quad4, 0, mesh.skin_quads}, {DeckShape::tri3, mesh.skin_quads, mesh.skin.size()}}};
+        return {{{mesh::skin_shape(mesh, true), 0, mesh.skin_quads},
+                 {mesh::skin_shape(mesh, false), mesh.skin_quads, mesh.skin.size()}}};
     }
     [[nodiscard]] static std::size_t cell(std::size_t i) { return i; }
     [[nodiscard]] static std::size_t side(std::size_t i) { return i; }
-    [[nodiscard]] mesh::CellNodes cell_nodes(std::size_t c) const
-    {
-        return mesh::distinct_corners(mesh.cells[c]);
-    }
+    [[nodiscard]] mesh::CellNodes cell_nodes(std::size_t c) const { return mesh::cell_nodes(mesh, c); }
     [[nodiscard]] mesh::CellNodes skin_nodes(std::size_t i) const { return mesh::skin_nodes(mesh, i); }
     [[nodiscard]] Quad skin_quad(std::size_t i) const { return mesh.skin[i]; }
     [[nodiscard]] Index patch(std::size_t i) const { return mesh.skin_patch[i]; }
@@ -149,7 +146,7 @@ struct TetParts {
             }
         return behind;
     }
-    [[nodiscard]] std::size_t nodes() const { return mesh.nodes.size(); }
+    [[nodiscard]] std::size_t nodes() const { return mesh.node_count(); }
     static void check() {}
 };
 
@@ -166,10 +163,14 @@ public:
     {
         parts_.check();
         const bool abaqus = options_.format == DeckFormat::abaqus;
-        if (parts_.cells()[0].shape == DeckShape::hex27 && !format_of(options_.format).has_hex27)
-            throw InvalidInput(Message("io.no_such_element", "{} has no hexahedron of 27 nodes",
-                                       format_of(options_.format).word)
-                                   .remedy("sweep with order = 2, serendipity = true for 20 nodes"));
+        if (const DeckShape shape = parts_.cells()[0].shape;
+            (shape == DeckShape::hex27 || shape == DeckShape::pyramid14) &&
+            !format_of(options_.format).has_hex27)
+            throw InvalidInput(Message("io.no_such_element", "{} has no hexahedron of 27 nodes{}",
+                                       format_of(options_.format).word,
+                                       shape == DeckShape::hex27 ? "" : " and no pyramid of 14")
+                                   .remedy("sweep with order = 2, serendipity = true for 20 nodes{}",
+                                           shape == DeckShape::hex27 ? "" : " and 13"));
         if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
         first_set_ = deck_.sets.size();
@@ -767,7 +768,7 @@ Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedT
     }
     for (const auto& [mesh, number] : tets) {
         add_numbers(
-            mesh.nodes.size(), [&](std::size_t n) { return mesh.nodes[n]; },
+            mesh.node_count(), [&](std::size_t n) { return mesh.node(n); },
             [&](Index n) { return number[index(n)]; });
         std::vector<Quad>& skin = skins.emplace_back(mesh.skin);
         for (Quad& side : skin)

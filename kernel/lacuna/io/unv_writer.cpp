@@ -85,7 +85,8 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
     long long descriptor = words_of(block.shape).unv;
     if (descriptor == 0) refuse_element(block, "UNV", "there is no such element");
     if (view->kept) std::from_chars(block.type.data(), block.type.data() + block.type.size(), descriptor);
-    const DeckShape shape = is_merged_brick(block.shape, true) ? DeckShape::hex8 : block.shape;
+    const std::optional<DeckShape> brick = merged_brick(block.shape);
+    const DeckShape shape = brick.value_or(block.shape);
     const auto places = node_places(NodeOrder::unv, shape);
     const auto nodes = static_cast<std::size_t>(shape_info(shape).nodes);
     const auto put = [=](std::size_t, DeckTag tag, Index region, std::span<const Index> element, char* out) {
@@ -96,7 +97,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
         out = put_column(out, static_cast<long long>(nodes));
         for (std::size_t k = 0; k < nodes; ++k) {
             if (k % kPerLine == 0) *out++ = '\n';
-            const std::size_t at = std::min(std::size_t(places[k]), element.size() - 1); // the apex repeated
+            const std::size_t at = brick ? kMergedBrick[places[k]] : places[k];
             out = put_column(out, view->point_tags[index(element[at])]);
         }
         *out++ = '\n';

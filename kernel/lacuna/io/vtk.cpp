@@ -446,18 +446,38 @@ std::vector<Section> vtk_sections(const View& view, bool binary, const std::stri
     return all;
 }
 
-void refuse_unknown(const MeshView& view)
+/// The mesh with shapes that VTK has: its pyramids have no node in the centre of the base alone.
+View vtk_view(const View& view, std::vector<std::string>& notes)
 {
-    for (const MeshView::Block& block : view.blocks)
+    auto own = std::make_shared<MeshView>(*view);
+    std::size_t pyramids = 0;
+    for (MeshView::Block& block : own->blocks) {
+        if (block.shape == DeckShape::pyramid14) {
+            pyramids += block.count;
+            block.shape = DeckShape::pyramid13;
+            block.nodes = [all = block.nodes](std::size_t begin, std::size_t end, Index* out) {
+                std::array<Index, 14> nodes;
+                for (; begin < end; ++begin) {
+                    all(begin, begin + 1, nodes.data());
+                    out = std::copy_n(nodes.begin(), 13, out);
+                }
+            };
+        }
         if (words_of(block.shape).vtk == 0) refuse_element(block, "VTK", "there is no such cell");
+    }
+    if (pyramids == 0) return view;
+    notes.push_back(formatted(
+        "VTK has no pyramid of 14 nodes: {} are written without the centre of their base", pyramids));
+    return own;
 }
 
 } // namespace
 
 DeckFile vtu_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
-    refuse_unknown(*view);
-    DeckFile file{.sections = xml_sections(*view, arrays_of(view)), .notes = {}, .sizes = Sizes::exact};
+    DeckFile file{.sections = {}, .notes = {}, .sizes = Sizes::exact};
+    const View own = vtk_view(view, file.notes);
+    file.sections = xml_sections(*own, arrays_of(own));
     std::string& head = file.sections.front().text;
     if (!options.unit.empty())
         head.insert(head.find('\n') + 1, "<!-- lengths are in " + options.unit + " -->\n");
@@ -466,10 +486,9 @@ DeckFile vtu_file(const View& view, const MeshFileOptions& options, const mesh::
 
 DeckFile vtk_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
-    refuse_unknown(*view);
-    return {.sections = vtk_sections(view, options.binary, options.unit),
-            .notes = {},
-            .sizes = options.binary ? Sizes::exact : Sizes::varying};
+    DeckFile file{.sections = {}, .notes = {}, .sizes = options.binary ? Sizes::exact : Sizes::varying};
+    file.sections = vtk_sections(vtk_view(view, file.notes), options.binary, options.unit);
+    return file;
 }
 
 void write_pieces(const View& view, const mesh::ViewParts& parts, int ghosts, const OutputPath& path,

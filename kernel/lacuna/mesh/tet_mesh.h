@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/mesh/cell_shape.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <cstddef>
@@ -42,6 +43,11 @@ constexpr CellNodes distinct_corners(const Hex& hex)
     return corners;
 }
 
+/// The nodes of a solid, given in the order of its shape, as `quality::measure_cells()` takes them: those of
+/// a hexahedron as they are, those of others as of a hexahedron of 8 or 20 nodes with merged corners,
+/// followed by the centre of a pyramid's base. Middle nodes of the faces of wedges are left out.
+CellNodes merged_nodes(CellShape shape, std::span<const Index> nodes);
+
 /// A closed surface of triangles and quads, oriented outward.
 struct ClosedSkin {
     std::vector<Vec3> points; ///< [model length]
@@ -58,9 +64,19 @@ struct TetMesh {
 /// Fills a skin; `cad::fill_skin()` does it with Gmsh.
 using TetMesher = std::function<TetMesh(const ClosedSkin&, const RunContext&)>;
 
+/// The middle nodes of pyramids and tetrahedra of order 2. Their numbers follow those of the corners.
+struct TetMiddles {
+    bool full = false;           ///< the base of a pyramid and a quad of the skin have one in their centre
+    std::vector<Vec3> nodes;     ///< [model length]
+    std::vector<Index> of_cells; ///< those of each cell, in the order of `CellShape`
+    std::vector<Index> of_skin;  ///< those of each quad and triangle of the skin, likewise
+
+    [[nodiscard]] bool empty() const { return nodes.empty(); }
+};
+
 /// Pyramids and tetrahedra that fill a volume, or a part of one, with their skin.
 struct TetPart {
-    std::vector<Vec3> nodes;       ///< [model length]
+    std::vector<Vec3> nodes;       ///< the corners [model length]
     std::vector<Hex> cells;        ///< pyramids, then tetrahedra
     std::size_t pyramids = 0;      ///< number of pyramids
     std::vector<Quad> skin;        ///< oriented outward; quads, then triangles as {a, b, c, c}
@@ -68,19 +84,27 @@ struct TetPart {
     std::vector<Index> skin_patch; ///< patch of each quad and triangle of the skin
     std::vector<SkinPatch> patches;
     std::vector<std::string> volume_groups{"volume"}; ///< the first is the name of the region
+    TetMiddles middles;                               ///< empty: of order 1
 
+    [[nodiscard]] int order() const { return middles.empty() ? 1 : 2; }
     [[nodiscard]] std::size_t cell_count() const { return cells.size(); }
     [[nodiscard]] std::size_t skin_count() const { return skin.size(); }
-    [[nodiscard]] std::size_t node_count() const { return nodes.size(); }
-    [[nodiscard]] const Vec3& node(std::size_t n) const { return nodes[n]; }
+    [[nodiscard]] std::size_t node_count() const { return nodes.size() + middles.nodes.size(); }
+    [[nodiscard]] const Vec3& node(std::size_t n) const
+    {
+        return n < nodes.size() ? nodes[n] : middles.nodes[n - nodes.size()];
+    }
 };
 
-/// A quad or triangle of the skin, as of a `HexMesh`.
+/// Shape of a cell, and of a quad or triangle of the skin.
+CellShape cell_shape(const TetPart& mesh, bool is_pyramid);
+CellShape skin_shape(const TetPart& mesh, bool is_quad);
+
+/// All nodes of a cell, in the order of its shape; and as `merged_nodes()`.
+CellNodes cell_nodes(const TetPart& mesh, std::size_t cell);
+CellNodes merged_nodes(const TetPart& mesh, std::size_t cell);
+/// A quad or triangle of the skin, and all its nodes, as of a `HexMesh`.
 inline SkinQuad skin_quad(const TetPart& mesh, std::size_t i) { return {mesh.skin[i], mesh.skin_patch[i]}; }
-inline CellNodes skin_nodes(const TetPart& mesh, std::size_t i)
-{
-    const Quad& quad = mesh.skin[i];
-    return {{quad[0], quad[1], quad[2], quad[3]}, corner_count(quad)};
-}
+CellNodes skin_nodes(const TetPart& mesh, std::size_t i);
 
 } // namespace lacuna::mesh

@@ -286,20 +286,24 @@ constexpr bool is_high(std::size_t c, std::size_t d)
     return ((d == 0 ? c + 1 : c) & (d == 2 ? 4u : 2u)) != 0;
 }
 
-/// Distances of the middle nodes from the middles of their edges.
-std::array<Vec3, 12> deviations(std::span<const Vec3, 20> nodes)
+/// Distances of the middle nodes from the middles of their edges, and of the centre of the base, if there is
+/// one, from where they and the corners put it.
+std::array<Vec3, 13> deviations(std::span<const Vec3> nodes)
 {
-    std::array<Vec3, 12> all;
+    std::array<Vec3, 13> all;
     for (std::size_t e = 0; e < 12; ++e)
         all[e] = nodes[8 + e] -
                  (nodes[index(mesh::kHexEdges[e][0])] + nodes[index(mesh::kHexEdges[e][1])]) / 2;
+    all[12].setZero();
+    if (nodes.size() > 20) all[12] = nodes[20];
+    for (std::size_t k = 0; k < 4 && nodes.size() > 20; ++k) all[12] -= nodes[8 + k] / 2 - nodes[k] / 4;
     return all;
 }
 
 /// The map of a wedge, pyramid or tetrahedron of order 2 at a point of the unit cube, relative to corner 0:
 /// linear in the corners, and for each edge from a to b its deviation times 4 a b, with the shape functions
-/// of a triangle, a square or the height.
-Vec3 collapsed_place(CellKind kind, std::span<const Vec3, 20> nodes, const std::array<Vec3, 12>& deviation,
+/// of a triangle, a square or the height; the centre of the base likewise.
+Vec3 collapsed_place(CellKind kind, std::span<const Vec3> nodes, const std::array<Vec3, 13>& deviation,
                      const std::array<double, 3>& at)
 {
     Vec3 place(0, 0, 0);
@@ -320,11 +324,13 @@ Vec3 collapsed_place(CellKind kind, std::span<const Vec3, 20> nodes, const std::
         }
         place += weight * deviation[e];
     }
-    return place;
+    double weight = 16 * (1 - at[2]) * (1 - at[2]);
+    for (const std::size_t d : {0, 1}) weight *= at[d] * (1 - at[d]);
+    return place + weight * deviation[12];
 }
 
 /// The smallest scaled Jacobian at the corners.
-double scaled_at_corners(CellKind kind, std::span<const Vec3, 20> nodes)
+double scaled_at_corners(CellKind kind, std::span<const Vec3> nodes)
 {
     const std::span<const std::uint8_t> corners = corners_of(kind);
     const Hex places = mesh::merged_corners(static_cast<int>(corners.size()));
@@ -362,9 +368,9 @@ CurvedCell judge(std::span<const Vec3, 27> places, int max_depth)
     return cell;
 }
 
-std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3, 20> places, int max_depth)
+std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3> places, int max_depth)
 {
-    const std::array<Vec3, 12> deviation = deviations(places);
+    const std::array<Vec3, 13> deviation = deviations(places);
     double size = places[0].cwiseAbs().maxCoeff(), most = 0;
     for (const Vec3& corner : places.first<8>())
         size = std::max(size, (corner - places[0]).cwiseAbs().maxCoeff());
@@ -392,6 +398,22 @@ std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3, 20> p
     return cell;
 }
 
+namespace {
+
+/// The cells without a property, ascending. Parallel.
+template <class Is>
+std::vector<std::size_t> cells_that_are_not(std::size_t count, const RunContext& context, const Is& is)
+{
+    std::vector<std::uint8_t> lacks(count, 0);
+    parallel_each(context, count, kCurvedGrain, [&](std::size_t c) { lacks[c] = is(c) ? 0 : 1; });
+    std::vector<std::size_t> cells;
+    for (std::size_t c = 0; c < count; ++c)
+        if (lacks[c] != 0) cells.push_back(c);
+    return cells;
+}
+
+} // namespace
+
 bool is_straight(std::span<const Vec3, 27> nodes)
 {
     const std::array<Vec3, 27> straight = mesh::as_hex27(nodes.first<8>());
@@ -412,18 +434,36 @@ std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell)
 
 std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunContext& context)
 {
-    const std::size_t count = mesh.hex_count();
-    std::vector<std::uint8_t> invalid(count, 0);
-    parallel_each(context, count, kCurvedGrain, [&](std::size_t c) {
+    return cells_that_are_not(mesh.hex_count(), context, [&](std::size_t c) {
         const std::array<Vec3, 27> nodes = hex27_of(mesh, c);
-        const bool fine = is_straight(nodes) ? certified_positive(std::span(nodes).first<8>())
-                                             : judge(nodes).positive;
-        invalid[c] = fine ? 0 : 1;
+        return is_straight(nodes) ? certified_positive(std::span(nodes).first<8>()) : judge(nodes).positive;
     });
-    std::vector<std::size_t> cells;
-    for (std::size_t c = 0; c < count; ++c)
-        if (invalid[c] != 0) cells.push_back(c);
-    return cells;
+}
+
+std::optional<CurvedCell> judge_listed(std::span<const Vec3> nodes, const mesh::CellNodes& cell)
+{
+    const std::span<const Index> all = cell.all();
+    if (all.size() == 8) return std::nullopt;
+    std::array<Vec3, 27> places;
+    for (std::size_t n = 0; n < 8; ++n) places[n] = nodes[index(all[n])];
+    const std::array<Vec3, 27> straight = mesh::as_hex27(std::span(places).first<8>());
+    for (std::size_t n = 8; n < all.size(); ++n) places[n] = all[n] < 0 ? straight[n] : nodes[index(all[n])];
+    Hex corners;
+    std::copy_n(all.begin(), corners.size(), corners.begin());
+    const std::span<const Vec3> given = std::span(places).first(all.size());
+    if (const CellKind kind = kind_of(corners); kind != CellKind::hex) return judge_other(kind, given);
+    if (all.size() < 27) places = mesh::as_hex27(given);
+    if (is_straight(places)) return std::nullopt;
+    return judge(places);
+}
+
+std::vector<std::size_t> invalid_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
+                                       const RunContext& context)
+{
+    return cells_that_are_not(cells.size(), context, [&](std::size_t c) {
+        const std::optional<CurvedCell> curved = judge_listed(nodes, cells[c]);
+        return !curved || curved->positive;
+    });
 }
 
 } // namespace lacuna::quality

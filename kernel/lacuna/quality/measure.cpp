@@ -183,19 +183,7 @@ Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNod
 {
     std::vector<Hex> corners(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) std::copy_n(cells[c].node.begin(), 8, corners[c].begin());
-    const auto curved = [&](std::size_t cell) -> std::optional<CurvedCell> {
-        const std::span<const Index> all = cells[cell].all();
-        if (all.size() == 8) return std::nullopt;
-        std::array<Vec3, 27> places;
-        for (std::size_t n = 0; n < 8; ++n) places[n] = nodes[index(all[n])];
-        const std::array<Vec3, 27> straight = mesh::as_hex27(std::span(places).first<8>());
-        for (std::size_t n = 8; n < all.size(); ++n)
-            places[n] = all[n] < 0 ? straight[n] : nodes[index(all[n])];
-        if (const CellKind kind = kind_of(corners[cell]); kind != CellKind::hex)
-            return judge_other(kind, std::span(places).first<20>());
-        if (all.size() < 27) places = mesh::as_hex27(std::span<const Vec3>(places).first(all.size()));
-        return judge_curved(places);
-    };
+    const auto curved = [&](std::size_t cell) { return judge_listed(nodes, cells[cell]); };
     return measure_all(ListedCells{nodes, corners, columns}, curved, context);
 }
 

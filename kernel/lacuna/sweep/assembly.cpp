@@ -12,9 +12,9 @@
 #include <lacuna/sweep/detail/carry_lines.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
-#include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
+#include <lacuna/sweep/shared/shared_middles.h>
 #include <lacuna/topology/shared/give_mesh.h>
 #include <lacuna/topology/shared/skin_groups.h>
 

@@ -623,18 +623,45 @@ Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::s
 {
     Skin skin;
     skin.points = mesh.nodes;
+    skin.points.insert(skin.points.end(), mesh.middles.nodes.begin(), mesh.middles.nodes.end());
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
-        const Quad& side = mesh.skin[i];
+    // Parts of a side of order 2 may deviate as the whole may.
+    const auto add = [&](std::size_t i, const Quad& side) {
         SkinOfFace& face = skin.faces[faces[index(mesh.skin_patch[i])].index()];
+        const Quad& whole = mesh.skin[i];
         double longest = 0;
         for (std::size_t k = 0; k < 4; ++k)
             longest = std::max(longest,
-                               (mesh.nodes[index(side[(k + 1) % 4])] - mesh.nodes[index(side[k])]).norm());
+                               (mesh.nodes[index(whole[(k + 1) % 4])] - mesh.nodes[index(whole[k])]).norm());
         face.quads.push_back(side);
         face.side.push_back(longest);
         face.item.push_back(i);
+    };
+    for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
+        if (mesh.order() == 1) {
+            add(i, mesh.skin[i]);
+            continue;
+        }
+        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
+        const std::size_t count = mesh::corner_count(mesh.skin[i]);
+        const auto corner = [&](std::size_t k) { return nodes.node[k % count]; };
+        const auto middle = [&](std::size_t k) { return nodes.node[count + k % count]; };
+        Index centre = nodes.node[8];
+        if (count == 4 && nodes.count == 8) {
+            std::array<Vec3, 4> sides, corners;
+            for (std::size_t k = 0; k < 4; ++k) {
+                sides[k] = mesh.node(index(middle(k)));
+                corners[k] = mesh.node(index(corner(k)));
+            }
+            centre = static_cast<Index>(skin.points.size());
+            skin.points.push_back(middle_of_quad(sides, corners));
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const Index before = middle(k + count - 1);
+            add(i, {corner(k), middle(k), count == 4 ? centre : before, before});
+        }
+        if (count == 3) add(i, {middle(0), middle(1), middle(2), middle(2)});
     }
     set_mean_sides(skin);
     return skin;

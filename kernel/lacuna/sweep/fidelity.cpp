@@ -115,8 +115,8 @@ Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
 
 namespace {
 
-/// Compare a skin with the sealed one. @param mesh  as of compare_face()
-Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, const Skin& skin,
+/// Compare a skin with the sealed one. @param mesh  as of compare_face(); @param order  of the cells
+Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order, const Skin& skin,
                  const std::set<FaceId>& kept, double volume_of_mesh, const FidelityOptions& options,
                  const RunContext& context)
 {
@@ -152,10 +152,8 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, const Skin
         FaceFidelity& face = compared[patch.face.index()];
         if (patch.quads.empty())
             face = left_out(model, skin, patch.face, limit_of(model, patch.face, options));
-        if (mesh != nullptr && mesh->order() > 1) { // of four quads each
-            face.quads /= 4;
-            face.side *= 2;
-        }
+        if (order > 1) face.quads /= 4; // of four quads each
+        if (order > 1 && mesh != nullptr) face.side *= 2;
         face.entity = entity_of(model, patch.face);
         face.tag = model[patch.face].tag;
         face.made_void = model[patch.face].origin == Origin::made_void;
@@ -175,15 +173,16 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh& mesh, const std:
                  const std::set<FaceId>& kept, double volume_of_mesh, const FidelityOptions& options,
                  const RunContext& context, const mesh::LayeredNodes* layers)
 {
-    return compare(volume, &mesh, skin_of({mesh, layers}, faces, volume.model.faces.size(), context), kept,
-                   volume_of_mesh, options, context);
+    return compare(volume, &mesh, mesh.order(),
+                   skin_of({mesh, layers}, faces, volume.model.faces.size(), context), kept, volume_of_mesh,
+                   options, context);
 }
 
 Fidelity compare(const OpenVolume& volume, const mesh::TetPart& mesh, const std::vector<FaceId>& faces,
                  double volume_of_mesh, const FidelityOptions& options, const RunContext& context)
 {
-    return compare(volume, nullptr, skin_of(mesh, faces, volume.model.faces.size()), {}, volume_of_mesh,
-                   options, context);
+    return compare(volume, nullptr, mesh.order(), skin_of(mesh, faces, volume.model.faces.size()), {},
+                   volume_of_mesh, options, context);
 }
 
 std::optional<Message> misfit(const Fidelity& fidelity, int layers, const FidelityOptions& options)

@@ -2,9 +2,6 @@
 #include <lacuna/sweep/detail/middle_skin.h>
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/geometry/shared/facet_tree.h>
-#include <lacuna/geometry/shared/polyline.h>
-#include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/surface/shared/projector.h>
 
 #include <algorithm>
@@ -52,89 +49,6 @@ std::vector<SkinSide> skin_sides(const mesh::HexMesh& mesh)
     return sides;
 }
 
-/// The edges of a model as curves, for finding positions on them.
-class EdgeFinder {
-public:
-    explicit EdgeFinder(const Model& model) : model_(model)
-    {
-        for (std::size_t e = 0; e < model.edges.size(); ++e) {
-            const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
-            if (uses.size() != 2) continue;
-            const FaceId a = uses[0].face, b = uses[1].face;
-            if (a != b) between_[std::minmax(a, b)].push_back(EdgeId(static_cast<Index>(e)));
-        }
-    }
-
-    struct Place {
-        EdgeId edge;
-        double fraction = 0; ///< share of its length
-    };
-    /// The position halfway between two points on the edges between two faces; empty if there is no such
-    /// edge, or if the side does not lie on it.
-    std::optional<Place> half_way(FaceId one, FaceId other, const Vec3& from, const Vec3& to)
-    {
-        const auto found = between_.find(std::minmax(one, other));
-        if (found == between_.end()) return std::nullopt;
-        const double length = (to - from).norm();
-        // One tree of all edges between the two faces finds the edge.
-        const Curve& all = curve_of(found->second);
-        const geometry::FacetTree::Hit hit = all.tree.closest((from + to) / 2);
-        if (hit.triangle < 0) return std::nullopt;
-        const EdgeId edge = all.edge[index(hit.triangle)];
-        const Curve& curve = curve_of({edge});
-        const double whole = curve.arc.back();
-        const auto [a, off_a] = position(curve, from);
-        auto [b, off_b] = position(curve, to);
-        if (!(off_a < kNear * length && off_b < kNear * length && whole > 0)) return std::nullopt;
-        const Edge& e = model_[edge];
-        const bool closed = e.points.front() == e.points.back();
-        if (closed && std::abs(b - a) > whole / 2) b += b < a ? whole : -whole;
-        double middle = (a + b) / 2;
-        if (middle < 0) middle += whole;
-        if (middle > whole) middle -= whole;
-        return Place{edge, middle / whole};
-    }
-
-private:
-    /// Nodes of an edge lie on it, and deviate from its chords by no more than their sag.
-    static constexpr double kNear = 0.1;
-
-    struct Curve {
-        geometry::FacetTree tree;
-        std::vector<EdgeId> edge; ///< for each side
-        std::vector<double> arc;  ///< of the edge's start, for each edge
-    };
-
-    Curve& curve_of(const std::vector<EdgeId>& edges)
-    {
-        const auto [at, fresh] = curves_.try_emplace(edges);
-        Curve& curve = at->second;
-        if (!fresh) return curve;
-        std::vector<Triangle> thin;
-        for (const EdgeId edge : edges) {
-            const std::vector<Index>& points = model_[edge].points;
-            for (std::size_t i = 0; i + 1 < points.size(); ++i)
-                thin.push_back({points[i], points[i + 1], points[i + 1]});
-            curve.edge.resize(thin.size(), edge);
-        }
-        curve.tree = geometry::FacetTree(model_.points, thin);
-        curve.arc = geometry::arc_lengths(surface::edge_line(model_, edges.front()));
-        return curve;
-    }
-    /// Running length of the closest point, and its distance.
-    static std::pair<double, double> position(const Curve& curve, const Vec3& point)
-    {
-        const geometry::FacetTree::Hit hit = curve.tree.closest(point);
-        const std::size_t i = index(hit.triangle);
-        const double share = 1 - hit.barycentric[0];
-        return {(1 - share) * curve.arc[i] + share * curve.arc[i + 1], std::sqrt(hit.distance2)};
-    }
-
-    const Model& model_;
-    std::map<std::pair<FaceId, FaceId>, std::vector<EdgeId>> between_;
-    std::map<std::vector<EdgeId>, Curve> curves_;
-};
-
 /// Whether the given quads of a face are those of the skin.
 bool keeps_quads(const Face& face) { return face.keeps_nodes && !face.given_quads.empty(); }
 
@@ -171,17 +85,29 @@ private:
     {
         return (corners_[side.from] + corners_[side.to]) / 2;
     }
-    [[nodiscard]] double length(const SkinSide& side) const
+    /// The sides whose middles are not placed yet.
+    template <class Wanted>
+    [[nodiscard]] std::vector<const SkinSide*> open_sides(const Wanted& wanted) const
     {
-        return (corners_[side.to] - corners_[side.from]).norm();
+        std::vector<const SkinSide*> open;
+        for (const SkinSide& side : sides_)
+            if (skin_.state(side.place) == Middle::open && wanted(side)) open.push_back(&side);
+        return open;
     }
-    /// If a position differs from the straight side's midpoint by rounding only, the side is exactly
-    /// straight.
-    void settle(const SkinSide& side, const Vec3& at)
+    /// Place sides on geometry. @param find  `middles_on_edges` or `middles_on_faces`
+    template <class Find>
+    void place_on(const std::vector<const SkinSide*>& sides, const Find& find)
     {
-        const Vec3 between = straight(side);
-        middle(side) = (at - between).norm() < kRoundoff * length(side) ? between : at;
-        skin_.set(side.place, Middle::settled);
+        std::vector<SideOfSkin> asked;
+        for (const SkinSide* side : sides)
+            asked.push_back({corners_[side->from], corners_[side->to], middle(*side), face(side->patch),
+                             face(side->other)});
+        const std::vector<std::optional<Vec3>> found = find(model_, asked, counts_, context_);
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            if (!found[i]) continue;
+            middle(*sides[i]) = *found[i];
+            skin_.set(sides[i]->place, Middle::settled);
+        }
     }
 
     void take_given()
@@ -208,22 +134,8 @@ private:
 
     void place_on_edges()
     {
-        EdgeFinder finder(model_);
-        std::map<EdgeId, std::vector<std::pair<double, const SkinSide*>>> on_edge;
-        for (const SkinSide& side : sides_) {
-            if (skin_.state(side.place) != Middle::open || face(side.patch) == face(side.other)) continue;
-            const auto found = finder.half_way(face(side.patch), face(side.other), corners_[side.from],
-                                               corners_[side.to]);
-            if (found) on_edge[found->edge].emplace_back(found->fraction, &side);
-        }
-        for (const auto& [edge, members] : on_edge) { // one call per edge: exact curves are evaluated in bulk
-            check_cancelled(context_);
-            std::vector<double> fractions;
-            for (const auto& [fraction, side] : members) fractions.push_back(fraction);
-            const std::vector<Vec3> points = surface::edge_points(model_, edge, fractions);
-            for (std::size_t i = 0; i < members.size(); ++i) settle(*members[i].second, points[i]);
-            (model_[edge].curve != nullptr ? counts_.exact : counts_.facets) += members.size();
-        }
+        const auto between = [&](const SkinSide& side) { return face(side.patch) != face(side.other); };
+        place_on(open_sides(between), middles_on_edges);
     }
 
     /// Keep the sides of a given mesh of order 1 straight.
@@ -321,42 +233,12 @@ private:
     /// @param ends  true: faces of source and target; false: walls.
     void project(bool ends)
     {
-        std::map<FaceId, std::vector<const SkinSide*>> of_face;
         const std::size_t first_on_walls = places_.upright(0, 0);
         const std::size_t target = places_.side(index(mesh_.layers), 0);
-        for (const SkinSide& side : sides_) {
-            if (skin_.state(side.place) != Middle::open) continue;
-            const bool on_end = side.place < first_on_walls || side.place >= target;
-            if (on_end != ends) continue;
-            // A side between two faces without an edge is projected onto the face that has a surface.
-            const bool other = model_[face(side.patch)].surface == nullptr &&
-                               model_[face(side.other)].surface != nullptr;
-            of_face[face(other ? side.other : side.patch)].push_back(&side);
-        }
-        for (const auto& [id, members] : of_face) project_on(id, members);
-    }
-
-    void project_on(FaceId id, const std::vector<const SkinSide*>& members)
-    {
-        const bool exact = model_[id].surface != nullptr;
-        std::vector<const SkinSide*> sides;
-        if (exact) {
-            sides = members;
-        } else {
-            const geometry::FacetTree tree(model_.points, model_[id].triangles);
-            for (const SkinSide* side : members) {
-                const Vec3 a = corners_[side->from], b = corners_[side->to];
-                const double near = kFileAccuracy * (b - a).norm();
-                const auto on = [&](const Vec3& p) { return tree.closest(p, near * near).triangle >= 0; };
-                if (on(a) && on(b)) sides.push_back(side);
-            }
-        }
-        if (sides.empty()) return;
-        std::vector<Vec3> points;
-        for (const SkinSide* side : sides) points.push_back(middle(*side));
-        surface::Projector(model_, {id}).project(points, context_);
-        for (std::size_t i = 0; i < sides.size(); ++i) settle(*sides[i], points[i]);
-        (exact ? counts_.exact : counts_.facets) += sides.size();
+        const auto wanted = [&](const SkinSide& side) {
+            return (side.place < first_on_walls || side.place >= target) == ends;
+        };
+        place_on(open_sides(wanted), middles_on_faces);
     }
 
     /// The given centres of the skin's quads; NaN where none is given.

@@ -1,34 +1,57 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/sweep/shared/shared_middles.h>
+
+#include <lacuna/mesh/second_order.h>
 #include <lacuna/sweep/detail/place_order.h>
-#include <lacuna/sweep/detail/shared_middles.h>
 #include <lacuna/sweep/detail/shared_quads.h>
 
 #include <algorithm>
 
 namespace lacuna::sweep {
 
-bool SharedMiddles::add(const mesh::HexMesh& mesh, const std::function<bool(Index)>& wanted)
+/// Add the middles of a quad or triangle of the skin. @param wanted  whether that of a side is, by its ends
+template <class Mesh, class Wanted>
+bool SharedMiddles::add_quad(const Mesh& mesh, std::size_t i, const Wanted& wanted)
 {
     bool agrees = true;
     const auto add = [&](Places& places, const Key& key, const Vec3& middle) {
         agrees = places.try_emplace(key, middle).first->second == middle && agrees;
     };
+    const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
+    const std::size_t count = mesh::corner_count(mesh::skin_quad(mesh, i).nodes);
+    std::array<Vec3, 4> corners;
+    for (std::size_t k = 0; k < count; ++k) corners[k] = mesh.nodes[index(nodes.node[k])];
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t next = (k + 1) % count;
+        if (!wanted(nodes.node[k], nodes.node[next])) continue;
+        add(sides_, key_of(corners[k], corners[next]), mesh.node(index(nodes.node[count + k])));
+    }
+    if (nodes.count == 9 && wanted(-1, -1)) add(centres_, key_of(corners), mesh.node(index(nodes.node[8])));
+    return agrees;
+}
+
+bool SharedMiddles::add(const mesh::HexMesh& mesh, const std::function<bool(Index)>& wanted)
+{
+    bool agrees = true;
     std::vector<bool> on_border(mesh.nodes.size(), false);
     for (const Segment& side : patch_borders(mesh)) {
         for (const Index n : side) on_border[index(n)] = true;
     }
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
         const bool shared = wanted(mesh::skin_quad(mesh, i).patch);
-        std::array<Vec3, 4> corners;
-        for (std::size_t k = 0; k < 4; ++k) corners[k] = mesh.nodes[index(nodes.node[k])];
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::size_t next = (k + 1) % 4;
-            if (!shared && !(on_border[index(nodes.node[k])] && on_border[index(nodes.node[next])])) continue;
-            add(sides_, key_of(corners[k], corners[next]), mesh.node(index(nodes.node[4 + k])));
-        }
-        if (shared && nodes.count == 9) add(centres_, key_of(corners), mesh.node(index(nodes.node[8])));
+        const auto is_wanted = [&](Index a, Index b) {
+            return shared || (a >= 0 && on_border[index(a)] && on_border[index(b)]);
+        };
+        agrees = add_quad(mesh, i, is_wanted) && agrees;
     }
+    return agrees;
+}
+
+bool SharedMiddles::add(const mesh::TetPart& mesh)
+{
+    bool agrees = true;
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i)
+        agrees = add_quad(mesh, i, [](Index, Index) { return true; }) && agrees;
     return agrees;
 }
 

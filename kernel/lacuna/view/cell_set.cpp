@@ -51,12 +51,9 @@ std::vector<double> quality_of(const ListedCells& region, const RunContext& cont
     std::vector<double> values = quality::metric_values(region.nodes, region.cells,
                                                         quality::Metric::scaled_jacobian, context);
     parallel_each(context, region.curved.size(), quality::kCurvedGrain, [&](std::size_t c) {
-        const std::span<const Index> own = region.curved[c].all();
-        if (own.empty()) return;
-        std::array<Vec3, 27> places;
-        for (std::size_t k = 0; k < own.size(); ++k) places[k] = region.nodes[index(own[k])];
-        const std::array<Vec3, 27> all = mesh::as_hex27(std::span(places).first(own.size()));
-        if (!quality::is_straight(all)) values[c] = quality::judge(all, 0).scaled_jacobian;
+        if (region.curved[c].count == 0) return;
+        if (const auto curved = quality::judge_listed(region.nodes, region.curved[c]))
+            values[c] = curved->scaled_jacobian;
     });
     return values;
 }
@@ -72,8 +69,8 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
     for (const io::DeckBlock& block : deck.blocks) {
         const io::DeckShapeInfo& info = io::shape_info(block.shape);
         if (info.dimension != 3) continue;
-        const bool curved = info.corners == 8 && info.nodes > 8;
-        if (info.nodes > info.corners) (curved ? found.second_order : found.straightened) = true;
+        const bool curved = info.nodes > info.corners;
+        found.second_order = found.second_order || curved;
         for (std::size_t e = 0; e < block.count(); ++e) {
             const Index region = block.regions.empty() ? -1 : block.regions[e];
             const auto [at, first] = of_region.try_emplace(region, found.regions.size());
@@ -95,8 +92,9 @@ DeckCells listed_cells(const io::Deck& deck, const RunContext& context)
             if (curved && std::find(own.begin(), own.end(), -1) == own.end()) {
                 cells.curved.resize(cells.cells.size());
                 mesh::CellNodes& nodes = cells.curved.back();
-                nodes.count = own.size();
-                for (std::size_t k = 0; k < own.size(); ++k) nodes.node[k] = numbering[at->second](own[k]);
+                nodes = mesh::merged_nodes(block.shape, own);
+                for (std::size_t k = 0; k < nodes.count; ++k)
+                    nodes.node[k] = numbering[at->second](nodes.node[k]);
             } else if (curved) {
                 found.straightened = true;
             }

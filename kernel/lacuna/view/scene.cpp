@@ -83,27 +83,28 @@ private:
 
 /// Draw a face of a cell. A face of order 2 is divided at its middle nodes: one quad between them, and a
 /// triangle at each corner.
-void add_side(std::vector<DrawnSide>& sides, const mesh::HexMesh& mesh, std::size_t cell, std::size_t face,
-              const DrawnSide& like)
+/// @param curved  all nodes of a cell of order 2, as `mesh::merged_nodes()`; a count of 0: of order 1
+/// @param place   of a node
+template <class Place>
+void add_side(std::vector<DrawnSide>& sides, const Hex& hex, const mesh::CellNodes& curved, std::size_t face,
+              const Place& place, const DrawnSide& like)
 {
-    const Hex hex = mesh.hex(cell);
     const Quad& corners = mesh::kHexFaces[face];
-    std::vector<std::size_t> kept; // the sides of a wedge have repeated corners
+    std::vector<std::size_t> kept; // merged corners are repeated
     for (std::size_t k = 0; k < 4; ++k)
         if (hex[index(corners[k])] != hex[index(corners[(k + 1) % 4])]) kept.push_back(k);
     if (kept.size() < 3) return;
-    const auto corner = [&](std::size_t k) { return mesh.nodes[index(hex[index(corners[kept[k]])])]; };
+    const auto corner = [&](std::size_t k) { return place(hex[index(corners[kept[k]])]); };
     const std::size_t n = kept.size();
     DrawnSide side = like;
     side.count = n;
-    if (mesh.order() == 1) {
+    if (curved.count == 0) {
         for (std::size_t k = 0; k < n; ++k) side.corner[k] = corner(k);
         sides.push_back(side);
         return;
     }
-    const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
     const auto middle = [&](std::size_t k) {
-        return mesh.node(index(nodes.node[index(8 + mesh::kHexFaceEdges[face][kept[k % n]])]));
+        return place(curved.node[index(8 + mesh::kHexFaceEdges[face][kept[k % n]])]);
     };
     for (std::size_t k = 0; k < n; ++k) side.corner[k] = middle(k);
     side.hidden = 15;
@@ -266,7 +267,11 @@ Scene scene_of(std::span<const Region> regions, const PictureOptions& options, c
             DrawnSide like;
             like.colour = own.of(cell, cell / mesh.quads.size(), patch);
             like.hatched = own.hatched(patch);
-            add_side(scene.sides, mesh, cell, face, like);
+            const mesh::CellNodes curved = mesh.order() > 1 ? mesh::cell_nodes(mesh, cell)
+                                                            : mesh::CellNodes();
+            add_side(
+                scene.sides, mesh.hex(cell), curved, face, [&](Index n) { return mesh.node(index(n)); },
+                like);
         });
     }
     if (!options.edges)
@@ -303,28 +308,28 @@ void add_sides(Scene& scene, const ListedCells& region, const Colours& colours, 
     std::map<Quad, Index> patch; // of the sides of the skin
     for (std::size_t i = 0; i < region.sides.size(); ++i)
         patch[face_key(region.sides[i])] = region.side_patch[i];
-    std::map<Quad, std::pair<std::size_t, Quad>> open; // cell and corners of sides used once
+    std::map<Quad, std::pair<std::size_t, std::size_t>> open; // cell and face of sides used once
     for (std::size_t c = 0; c < region.cells.size(); ++c) {
         Vec3 centre = Vec3::Zero();
         for (const Index n : region.cells[c]) centre += region.nodes[index(n)] / 8;
         if (options.cut && (centre - options.cut->point).dot(options.cut->normal) > 0) continue;
-        for (const Quad& face : mesh::kHexFaces) {
-            const std::optional<Quad> nodes = face_nodes(region.cells[c], face);
+        for (std::size_t face = 0; face < mesh::kHexFaces.size(); ++face) {
+            const std::optional<Quad> nodes = face_nodes(region.cells[c], mesh::kHexFaces[face]);
             if (!nodes) continue;
-            const auto [known, fresh] = open.try_emplace(face_key(*nodes), c, *nodes);
+            const auto [known, fresh] = open.try_emplace(face_key(*nodes), c, face);
             if (!fresh) open.erase(known);
         }
     }
     for (const auto& [key, side] : open) {
-        const auto& [cell, corners] = side;
+        const auto& [cell, face] = side;
         const auto found = patch.find(key);
         const Index own = found != patch.end() ? found->second : -1;
         DrawnSide drawn;
-        drawn.count = mesh::corner_count(corners);
-        for (std::size_t k = 0; k < drawn.count; ++k) drawn.corner[k] = region.nodes[index(corners[k])];
         drawn.colour = colours.of(cell, 0, own);
         drawn.hatched = colours.hatched(own);
-        scene.sides.push_back(drawn);
+        add_side(
+            scene.sides, region.cells[cell], region.curved.empty() ? mesh::CellNodes() : region.curved[cell],
+            face, [&](Index n) { return region.nodes[index(n)]; }, drawn);
     }
 }
 

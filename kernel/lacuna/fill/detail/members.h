@@ -27,6 +27,9 @@ auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
     }
 }
 
+/// Have the middle nodes kept that the decks of a volume have.
+void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options);
+
 /// Close a volume and check that it has a source and a target.
 /// @param region  name of the region, for messages.
 Volume close_to_sweep(const Volume& volume, const std::string& region, const RunContext& context);

@@ -5,6 +5,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/fill/filled.h>
 #include <lacuna/surface/shared/skin_triangles.h>
+#include <lacuna/sweep/shared/shared_middles.h>
 #include <lacuna/sweep/sweep.h>
 
 #include <string>
@@ -20,6 +21,7 @@ struct ToFill {
     bool alone = false;                           ///< it is the only volume, or a piece of that
     Message why;                                  ///< why it is not swept
     std::vector<surface::FixedFace> fixed;        ///< the meshes of its neighbours on shared faces
+    const sweep::SharedMiddles& middles;          ///< at order 2: of the meshes before
 };
 
 /// The cells that a mesh has on one of its faces, as seen from the neighbour.
@@ -34,10 +36,10 @@ surface::FixedFace cells_on(const FilledTets& mesh, FaceId there, FaceId own);
 ///
 /// Fixed faces, and faces that were given as meshes, keep their quads, triangles and nodes; the others are
 /// triangulated at the size. The result is proved: conforming, every cell certified, its skin on the sealed
-/// skin.
+/// skin. Middle nodes of order 2 are added to a proved mesh of order 1, as `elevate()` of `tet_middles.h`.
 /// @return  without `number`.
-/// @throw InvalidInput "fill.no_tets"  the options have no mesher for tetrahedra; "fill.tets_order"  order 2;
-///        as `surface::triangulate_skin()`. NotSweepable  as the mesher; the proof fails;
+/// @throw InvalidInput "fill.no_tets"  the options have no mesher for tetrahedra; as
+///        `surface::triangulate_skin()`. NotSweepable  as the mesher and `elevate()`; the proof fails;
 ///        "sweep.deviation"  the skin or the volume deviates. Cancelled.
 FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options, const RunContext& context);
 

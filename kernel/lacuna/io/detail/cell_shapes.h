@@ -4,6 +4,7 @@
 #include <lacuna/io/deck.h>
 #include <lacuna/mesh/hex_mesh.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -30,8 +31,8 @@ inline constexpr ShapeWords kShapeWords[kDeckShapes] = {
     {"C3D4", "CTETRA", "TETRA", 111, 4, 10},
     {"C3D10", "CTETRA", "TETRA10", 118, 11, 24},
     {"C3D8", "CPYRAM", "PYRAMID", 115, 7, 14}, // see `is_merged_brick()`
-    {"", "CPYRAM", "PYRAMID13", 0, 19, 27},
-    {"", "", "", 0, 14, 0},
+    {"C3D20", "CPYRAM", "PYRAMID13", 116, 19, 27},
+    {"", "", "PYRAMID14", 0, 14, 0}, // see `vtk_view()`
     {"C3D6", "CPENTA", "WEDGE", 112, 6, 13},
     {"C3D15", "CPENTA", "WEDGE15", 113, 18, 26},
     {"", "", "", 0, 13, 32},
@@ -48,12 +49,23 @@ inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int
     return {};
 }
 
-/// Whether pyramids are written as bricks whose upper four nodes are the apex. UNV has no pyramid, and Abaqus
-/// one that CalculiX lacks. The merged brick of eight nodes is a pyramid exactly: its sides are linear, so
-/// that it fits tetrahedra, and CalculiX's result of a patch test has one stress to 1e-12. A merged C3D20 has
-/// not (22 % of the stress), because its sides do not fit those of tetrahedra, so it is not written.
-/// @param brick  whether the word or number to be written is that of a brick
-inline bool is_merged_brick(DeckShape shape, bool brick) { return shape == DeckShape::pyramid5 && brick; }
+/// Pyramids are written as bricks whose upper nodes are the apex where a format has none: UNV, and Abaqus,
+/// whose pyramid CalculiX lacks and which has none of order 2. The brick of eight nodes is a pyramid exactly:
+/// its sides are linear, so that it fits tetrahedra, and CalculiX's result of a patch test has one stress to
+/// 1e-12. The sides of a brick of twenty nodes fit those of tetrahedra if the displacement is linear along
+/// the sides of the base, which equations in the deck see to (`abaqus_writer.cpp`): the stress is one to 1e-7
+/// then, and 22 % off without.
+///
+/// @return  the brick of a pyramid; empty for other shapes
+inline std::optional<DeckShape> merged_brick(DeckShape shape)
+{
+    if (shape == DeckShape::pyramid5) return DeckShape::hex8;
+    if (shape == DeckShape::pyramid13) return DeckShape::hex20;
+    return {};
+}
+/// The node of the pyramid at each node of its brick, of which the first eight or all twenty are used.
+inline constexpr std::array<std::uint8_t, 20> kMergedBrick{0, 1, 2, 3, 4, 4, 4, 4,  5,  6,
+                                                           7, 8, 4, 4, 4, 4, 9, 10, 11, 12};
 
 /// Orders of a cell's nodes other than that of DeckShape.
 enum class NodeOrder { exodus, gmsh, unv };

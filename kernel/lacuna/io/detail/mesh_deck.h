@@ -62,7 +62,6 @@ NamedEntity entity_of(const mesh::SkinPatch& patch);
 /// @throw InvalidInput "io.mixed_order"  only one of them has a middle node, or these differ.
 void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
                   double tolerance, double scale, std::vector<Index>& points);
-/// The same for cells of order 1, which have none.
 void join_middles(const Deck& deck, const mesh::TetPart& mesh, const std::vector<bool>& matched,
                   double tolerance, double scale, std::vector<Index>& points);
 

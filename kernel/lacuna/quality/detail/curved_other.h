@@ -17,7 +17,7 @@ namespace lacuna::quality {
 /// of the collapse, 1 - v of a triangle and (1 - w)² of an apex, and are divided by them; the rest decides
 /// as in `judge()`. The scaled Jacobian is that of the corners, with the tangents of the edges there.
 /// @param nodes  of a hex20 with merged corners: middle nodes of merged edges are repeated, those of
-///               collapsed edges are the corner.
-std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3, 20> nodes, int max_depth = 4);
+///               collapsed edges are the corner. The centre of a pyramid's base may follow.
+std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3> nodes, int max_depth = 4);
 
 } // namespace lacuna::quality

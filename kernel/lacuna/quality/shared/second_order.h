@@ -6,6 +6,7 @@
 #include <lacuna/quality/quality.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,12 +46,17 @@ std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell);
 /// Cells of a mesh whose Jacobian is not proved positive everywhere, ascending. Parallel.
 std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunContext& context = {});
 
+/// Measure a cell of a list; empty: its middle nodes are where linear interpolation puts them, so it is a
+/// cell of order 1.
+/// @param cell  as `mesh::merged_nodes()`; a middle node of -1 is missing and interpolated linearly
+std::optional<CurvedCell> judge_listed(std::span<const Vec3> nodes, const mesh::CellNodes& cell);
+
+/// The curved cells of a list whose Jacobian is not proved positive everywhere, ascending. Parallel.
+std::vector<std::size_t> invalid_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
+                                       const RunContext& context = {});
+
 /// Measure a list of cells of order 1 and 2; straight cells as cells of
-/// order 1, the others with `judge()`.
-/// @param cells  with 8, 20 or 27 nodes; a middle node of -1 is missing and interpolated linearly. Cells
-///               that are no hexahedra have merged corners as for the list of order 1 and, of order 2,
-///               twenty nodes: middle nodes of merged edges are repeated, those of collapsed edges are the
-///               corner.
+/// order 1, the others with `judge_listed()`.
 /// @param columns  as for `measure_cells()` of hexahedra.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
                       const RunContext& context = {}, std::span<const Index> columns = {});

@@ -13,7 +13,8 @@
 
 namespace lacuna::sweep {
 
-/// The quads of the skin on one face; at order 2 four for each quad of the mesh, by its middle nodes.
+/// The quads of the skin on one face; at order 2 four for each quad or triangle of the mesh, by its middle
+/// nodes.
 struct SkinOfFace {
     FaceId face;
     std::vector<Quad> quads;       ///< as points of the skin

@@ -3,6 +3,7 @@
 
 #include <lacuna/mesh/layered_nodes.h>
 #include <lacuna/sweep/detail/second_order.h>
+#include <lacuna/sweep/shared/side_middles.h>
 
 #include <array>
 #include <cstddef>
@@ -146,11 +147,6 @@ inline Vec3 middle_of_cell(const std::array<Vec3, 6>& faces, const std::array<Ve
     };
     return sum(faces) / 2 - sum(sides) / 4 + sum(corners) / 8;
 }
-
-/// Numbers of middle nodes of the skin that were given, are on exact geometry, or on facets.
-struct SkinCounts {
-    std::size_t given = 0, exact = 0, facets = 0;
-};
 
 /// The middle nodes of a mesh's skin.
 struct PlacedSkin {

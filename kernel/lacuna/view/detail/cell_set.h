@@ -30,8 +30,8 @@ struct ListedCells {
     std::string name;
     std::vector<Vec3> nodes;
     std::vector<Hex> cells;
-    /// All nodes of hexahedra of order 2, as in `mesh::CellNodes`; a count of 0 for other cells. Empty if no
-    /// cell is of order 2.
+    /// All nodes of cells of order 2, as `mesh::merged_nodes()`; a count of 0 for others. Empty if no cell is
+    /// of order 2.
     std::vector<mesh::CellNodes> curved;
     std::vector<Index> tags;     ///< cell numbers in the file; 0 if too large
     std::vector<double> quality; ///< scaled Jacobian

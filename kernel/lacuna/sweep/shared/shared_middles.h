@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/mesh/hex_mesh.h>
+#include <lacuna/mesh/tet_mesh.h>
 
 #include <array>
 #include <functional>
@@ -10,8 +11,7 @@
 
 namespace lacuna::sweep {
 
-/// Middle nodes of the skins of meshes of order 2, found by the exact positions of corners. Internal to this
-/// folder.
+/// Middle nodes of the skins of meshes of order 2, found by the exact positions of corners.
 class SharedMiddles {
 public:
     /// Add the nodes of a mesh. O(skin log).
@@ -19,6 +19,7 @@ public:
     ///                included.
     /// @return  false if a side or quad that is known has another middle here.
     [[nodiscard]] bool add(const mesh::HexMesh& mesh, const std::function<bool(Index patch)>& wanted);
+    [[nodiscard]] bool add(const mesh::TetPart& mesh); ///< as above, the whole skin
 
     /// The middle node between two places, or in the middle of a quad by two opposite corners.
     [[nodiscard]] std::optional<Vec3> side(const Vec3& a, const Vec3& b) const
@@ -33,6 +34,8 @@ public:
 private:
     using Key = std::array<double, 6>;
     using Places = std::map<Key, Vec3>; // zeros of both signs are one place
+    template <class Mesh, class Wanted>
+    bool add_quad(const Mesh& mesh, std::size_t i, const Wanted& wanted);
     static Key key_of(const Vec3& a, const Vec3& b);
     static Key key_of(const std::array<Vec3, 4>& corners);
     static std::optional<Vec3> find(const Places& places, const Key& key);

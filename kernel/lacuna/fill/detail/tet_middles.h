@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/mesh/tet_mesh.h>
+#include <lacuna/quality/quality.h>
+#include <lacuna/sweep/second_order_options.h>
+#include <lacuna/sweep/shared/shared_middles.h>
+#include <lacuna/topology/model.h>
+
+#include <string>
+#include <vector>
+
+namespace lacuna::fill {
+
+/// The result of adding middle nodes to pyramids and tetrahedra.
+struct ElevatedTets {
+    quality::Quality quality; ///< of the cells of order 2
+    std::string report;       ///< a line
+};
+
+/// Add middle nodes to pyramids and tetrahedra of order 1, which makes them cells of order 2.
+///
+/// On the skin the middle nodes of neighbours and those that were given are kept bit for bit. Others lie on
+/// the exact curve or surface of their side, or on its facets. Inside, sides are straight. Where a cell is
+/// not valid by its Bézier bounds, its sides that bend only to follow geometry are straight too.
+/// @param faces   of each patch of the skin
+/// @param known   middle nodes of the meshes beside
+/// @param region  its name, for messages
+/// @throw NotSweepable "fill.second_order"  sides that neighbours or the file have leave a cell not valid.
+///        Cancelled.
+/// @note  Deterministic for any number of threads. O(n log n) in the sides of the skin, O(n) in cells.
+ElevatedTets elevate(const topology::Model& model, mesh::TetPart& mesh, const std::vector<FaceId>& faces,
+                     const sweep::SharedMiddles& known, const sweep::SecondOrderOptions& options,
+                     const std::string& region, const RunContext& context);
+
+} // namespace lacuna::fill

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/model.h>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace lacuna::sweep {
+
+/// A side of a mesh's skin whose middle node is to be placed on geometry.
+struct SideOfSkin {
+    Vec3 from, to;
+    Vec3 near;          ///< where the middle is expected
+    FaceId face, other; ///< faces of the model on both sides of it
+};
+
+/// Numbers of middle nodes of the skin that were given, are on exact geometry, or on facets.
+struct SkinCounts {
+    std::size_t given = 0, exact = 0, facets = 0;
+};
+
+/// The middles of sides that lie on edges of a model, halfway along the edge; empty for the others. Sides
+/// that are straight but for rounding have exactly the middle of their ends, here and in the next.
+std::vector<std::optional<Vec3>> middles_on_edges(const topology::Model& model,
+                                                  std::span<const SideOfSkin> sides, SkinCounts& counts,
+                                                  const RunContext& context = {});
+
+/// The middles of sides moved onto the exact surface of their face or, if both ends lie on its facets, onto
+/// these; empty for the others.
+std::vector<std::optional<Vec3>> middles_on_faces(const topology::Model& model,
+                                                  std::span<const SideOfSkin> sides, SkinCounts& counts,
+                                                  const RunContext& context = {});
+
+} // namespace lacuna::sweep
