@@ -242,9 +242,9 @@ class Volume(Shown):
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
             boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
-            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
-            serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
-            improve: bool | Mapping[str, Any] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
+            order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
+            min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ...,
     ) -> Mesh | AssemblyMesh: ...
@@ -257,9 +257,9 @@ class Volume(Shown):
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
             boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
-            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
-            serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
-            improve: bool | Mapping[str, Any] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
+            order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
+            min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ..., write: Mapping[str, Any] | None = ...,
     ) -> Report: ...
@@ -308,8 +308,8 @@ class Mesh(AnyMesh):
             without: str | int | Iterable[str | int] | None = ..., renumber: bool | None = ...,
             first_node: int | None = ..., first_cell: int | None = ..., element: str | None = ...,
             groups: Literal["one", "all"] | None = ..., gmsh_options: bool | None = ...,
-            interfaces: bool | None = ..., partitions: int | Literal["processes"] | None = ...,
-            ghosts: int | None = ...,
+            interfaces: bool | None = ..., orientation: bool | None = ...,
+            partitions: int | Literal["processes"] | None = ..., ghosts: int | None = ...,
     ) -> None: ...
     def view(
             self, path: Path, options: Mapping[str, Any] | None = None, /, *, title: str | None = ...,
@@ -332,9 +332,9 @@ class Assembly(Object):
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
             boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
-            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
-            serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
-            improve: bool | Mapping[str, Any] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
+            order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
+            min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ...,
     ) -> AssemblyMesh: ...
@@ -347,9 +347,9 @@ class Assembly(Object):
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
             boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
-            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
-            serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
-            improve: bool | Mapping[str, Any] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
+            order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
+            min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ..., write: Mapping[str, Any] | None = ...,
     ) -> Report: ...
@@ -391,8 +391,8 @@ class AssemblyMesh(AnyMesh):
             without: str | int | Iterable[str | int] | None = ..., renumber: bool | None = ...,
             first_node: int | None = ..., first_cell: int | None = ..., element: str | None = ...,
             groups: Literal["one", "all"] | None = ..., gmsh_options: bool | None = ...,
-            interfaces: bool | None = ..., partitions: int | Literal["processes"] | None = ...,
-            ghosts: int | None = ...,
+            interfaces: bool | None = ..., orientation: bool | None = ...,
+            partitions: int | Literal["processes"] | None = ..., ghosts: int | None = ...,
     ) -> None: ...
     def view(
             self, path: Path, options: Mapping[str, Any] | None = None, /, *, title: str | None = ...,
