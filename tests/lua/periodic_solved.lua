@@ -4,7 +4,7 @@
 -- left out.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
-local params = lacuna.params { scratch = "" }
+local params = lacuna.params { lacuna = "", scratch = "" }
 
 if not os.execute("command -v ccx >/dev/null 2>&1") then
   print("CalculiX (ccx) is not here: no deck is solved")
