@@ -124,8 +124,7 @@ struct SweptAssembly {
 /// Faces of `SweepOptions::periodic` get the same mesh: the edges around them are one edge in the interval
 /// assignment, a face of another member gets its image's quads, and nodes of two faces of one member are
 /// moved onto each other before the proof, and then fixed. After a translation nodes are equal bit for
-/// bit, unless
-/// both are given.
+/// bit, unless both are given.
 /// @throw NotSweepable  as `sweep()`, the region named; "sweep.periodic_unlike"  two faces of a member whose
 ///         quads are not connected alike; "assembly.layers"  volumes side by side for which
 ///         other numbers of layers are asked; "assembly.layers_differ", "assembly.layers_rows"  boundary
