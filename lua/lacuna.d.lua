@@ -138,6 +138,14 @@
 ---@field [2] integer
 ---@field [3]? number
 
+--- Two faces, or groups of faces, that get the same mesh, and the motion from the first to the second;
+--- default: a translation, or else the rotation by the smallest angle, that is found.
+---@class lacuna.PeriodicPair
+---@field [1] lacuna.FaceRefs
+---@field [2] lacuna.FaceRefs
+---@field translate? lacuna.Vector
+---@field rotate? { [1]: lacuna.Vector, [2]: lacuna.Vector, [3]: number } point, direction, degrees
+
 ---@class lacuna.SweepOptions
 ---@field layers? integer|number[]|lacuna.Layers a count, rising heights in (0, 1] or a spacing; default as the
 ---walls' own meshes have rows, else about as high as the quads are wide
@@ -152,6 +160,7 @@
 ---@field row_height? number|fun(x: number, y: number, z: number): number of those rows (one at least); default: the size
 ---@field boundary_layers? lacuna.BoundaryLayer|lacuna.BoundaryLayer[] thin rows of cells along walls and ends
 ---@field intervals? lacuna.Interval[] numbers of sides on edges, walls and along the sweep
+---@field periodic? lacuna.PeriodicPair[] faces with the same mesh under a translation or rotation
 ---@field order? 1|2 of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
 ---@field serendipity? boolean with order 2: hex20 instead of hex27; default false
 ---@field min_scaled_jacobian? number below it the mesh is refused; default 0
@@ -175,6 +184,7 @@
 ---@field groups? "one"|"all" of .msh: whether cells are in one physical group or in all of theirs, which overlap; default "one"
 ---@field gmsh_options? boolean of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and groups; default false
 ---@field interfaces? boolean of an assembly: quads between its volumes are elements too; default false
+---@field orientation? boolean directions of cells: fields in .vtu, .vtk and .exo, material axes in .inp and .bdf; default false
 ---@field partitions? integer|"processes" of .pvtu and .msh: parts; of .pvtu default as many as processes
 ---@field ghosts? integer rows of other parts' cells that are marked as each part's ghosts; default 0
 

@@ -189,6 +189,7 @@ const Option<WriteArguments> kIoWriteOptions[] = {
     {"first_cell", count<&WriteArguments::deck, &io::MeshDeckOptions::first_cell>},
     {"element", read_element},
     {"interfaces", boolean<&WriteArguments::msh, &io::MeshFileOptions::interfaces>},
+    {"orientation", boolean<&WriteArguments::msh, &io::MeshFileOptions::orientation>},
     {"gmsh_options", boolean<&WriteArguments::gmsh_options>},
     {"partitions", read_partitions},
     {"ghosts", read_ghosts},
@@ -284,10 +285,11 @@ const char* idle_option(const io::Format& format, const WriteArguments& argument
                                                      {arguments.deck.first_node != 0, "first_node"},
                                                      {arguments.deck.first_cell != 0, "first_cell"}};
     const std::pair<bool, const char*> of_all[] = {
-        {arguments.version_given, "version"},    {arguments.binary_given, "binary"},
-        {arguments.element_given, "element"},    {arguments.gmsh_options, "gmsh_options"},
-        {arguments.groups_given, "groups"},      {joins, "with"},
-        {arguments.msh.interfaces, "interfaces"}};
+        {arguments.version_given, "version"},     {arguments.binary_given, "binary"},
+        {arguments.element_given, "element"},     {arguments.gmsh_options, "gmsh_options"},
+        {arguments.groups_given, "groups"},       {joins, "with"},
+        {arguments.msh.interfaces, "interfaces"}, {arguments.msh.orientation, "orientation"}};
+    if (arguments.msh.orientation && joins) return "orientation";
     for (const auto& [given, name] : of_all)
         if (given && !format.has_option(name)) return name;
     for (const auto& [given, name] : of_meshes)
@@ -394,6 +396,9 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
             Message("lua.mixed_write", "write: a mesh with tetrahedra or a split interface is written as one "
                                        "file")
                 .remedy("{}", is_pieces(format) ? "write a .vtu file" : "leave out 'partitions'"));
+    if (arguments.msh.orientation)
+        throw InvalidInput(Message("lua.mixed_write", "write: tetrahedra have no orientation of a sweep")
+                               .remedy("leave out 'orientation'"));
     arguments.deck.format = format.deck;
     const io::Deck deck = arguments.with.empty()
                               ? fill::whole_deck(state, arguments.deck, arguments.msh.interfaces, context)
@@ -414,7 +419,10 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
                                   .unit = state.unit},
                                  crew, context);
     const io::Format& format = io::needed_mesh_format("write", path.text());
+    arguments.msh.periodic = state.swept.periodic;
     if (!arguments.with.empty()) {
+        if (!arguments.msh.periodic.empty())
+            log_line(context, "note: write: pairs of periodic nodes are not written with a model");
         arguments.deck.format = format.deck;
         return io::write_deck(joined_deck(state, arguments, context), format, path, context, arguments.msh);
     }

@@ -6,6 +6,7 @@
 #include "bindings/options.h"
 
 #include <lacuna/cad/load.h>
+#include <lacuna/core/shared/constants.h>
 
 #include <cmath>
 #include <limits>
@@ -238,6 +239,52 @@ void read_intervals(lua_State* L, int index, const Where& where, SweepArguments&
                [&](int element, const Where& at) { read_interval(L, element, at, arguments); });
 }
 
+/// { a, b [, translate = {x,y,z} or rotate = { point, direction, degrees }] }
+void read_periodic_pair(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    const char* const expected = "a table { face, face [, translate = {x, y, z} or rotate = { point, "
+                                 "direction, degrees }] }, with names, tags, Faces or arrays of those";
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) fail_value(L, where, expected, index);
+    auto& held = temporary<std::vector<surface::PeriodicPair>>(
+        L); // its matrix is aligned more than Lua's data
+    guard(L, [&] { held.resize(1); });
+    surface::PeriodicPair& pair = held.front();
+    const int top = lua_gettop(L);
+    for (int side = 1; side <= 2; ++side) {
+        lua_rawgeti(L, index, side);
+        read_face_names(L, lua_gettop(L), where, *arguments.volume, side == 1 ? pair.a : pair.b);
+        lua_settop(L, top);
+    }
+    for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
+        if (lua_type(L, -2) != LUA_TSTRING) continue;
+        const std::string_view key = lua_tostring(L, -2);
+        if (pair.onto || (key != "translate" && key != "rotate")) fail_value(L, where, expected, index);
+        const int value = lua_gettop(L);
+        Eigen::Isometry3d onto = Eigen::Isometry3d::Identity();
+        if (key == "translate") {
+            onto.translation() = read_vector(L, value, where);
+        } else {
+            if (lua_type(L, value) != LUA_TTABLE || lua_rawlen(L, value) != 3)
+                fail_value(L, where, expected, index);
+            for (int i = 1; i <= 3; ++i) lua_rawgeti(L, value, i);
+            const Vec3 point = read_vector(L, value + 1, where), axis = read_vector(L, value + 2, where);
+            const double degrees = read_number(L, value + 3, where);
+            if (!(axis.norm() > 0)) fail_option(L, where, "has a 'rotate' without a direction");
+            onto = Eigen::Translation3d(point) * Eigen::AngleAxisd(degrees * kDegree, axis.normalized()) *
+                   Eigen::Translation3d(-point);
+            lua_settop(L, value);
+        }
+        pair.onto = onto;
+    }
+    guard(L, [&] { arguments.periodic.push_back(pair); });
+}
+
+void read_periodic(lua_State* L, int index, const Where& where, SweepArguments& arguments)
+{
+    read_array(L, index, where, "an array of { face, face }",
+               [&](int element, const Where& at) { read_periodic_pair(L, element, at, arguments); });
+}
+
 /// Calls back a recipe's function. The kernel samples sizes on the thread that called it; were it ever to ask
 /// from another, Lua, which knows no threads, would be lost: so that is refused.
 struct LuaSize {
@@ -328,6 +375,7 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"row_height", read_row_height},
     {"boundary_layers", read_boundary_layers},
     {"intervals", read_intervals},
+    {"periodic", read_periodic},
     {"order", read_order},
     {"serendipity", boolean<&SweepArguments::second_order, &sweep::SecondOrderOptions::serendipity>},
     {"min_scaled_jacobian", number<&SweepArguments::min_scaled_jacobian>},

@@ -542,6 +542,7 @@ class Volume(Shown):
             size
         boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
         intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
+        periodic: list[list[Any]]; faces with the same mesh under a translation or rotation
         order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
         serendipity: bool; with order 2: hex20 instead of hex27; default False
         min_scaled_jacobian: float; below it the mesh is refused; default 0
@@ -565,6 +566,12 @@ class Volume(Shown):
 
         One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
         edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+
+        A dict for `periodic` has:
+        [1]: Face | int | str | dict | list[Face | int | str | dict]
+        [2]: Face | int | str | dict | list[Face | int | str | dict]
+        translate: (x, y, z)
+        rotate: list[(x, y, z) | float]; point, direction, degrees
         """
         return self._method("sweep", options_of(options, keywords))
 
@@ -594,6 +601,7 @@ class Volume(Shown):
             size
         boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
         intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
+        periodic: list[list[Any]]; faces with the same mesh under a translation or rotation
         order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
         serendipity: bool; with order 2: hex20 instead of hex27; default False
         min_scaled_jacobian: float; below it the mesh is refused; default 0
@@ -618,6 +626,12 @@ class Volume(Shown):
 
         One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
         edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+
+        A dict for `periodic` has:
+        [1]: Face | int | str | dict | list[Face | int | str | dict]
+        [2]: Face | int | str | dict | list[Face | int | str | dict]
+        translate: (x, y, z)
+        rotate: list[(x, y, z) | float]; point, direction, degrees
         """
         return self._method("sweep_to", path, options_of(options, keywords))
 
@@ -773,6 +787,8 @@ class Mesh(AnyMesh):
         gmsh_options: bool; of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and
             groups; default False
         interfaces: bool; of an assembly: quads between its volumes are elements too; default False
+        orientation: bool; directions of cells: fields in .vtu, .vtk and .exo, material axes in .inp and .bdf;
+            default False
         partitions: int | "processes"; of .pvtu and .msh: parts; of .pvtu default as many as processes
         ghosts: int; rows of other parts' cells that are marked as each part's ghosts; default 0
         """
@@ -830,6 +846,7 @@ class Assembly(Object):
             size
         boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
         intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
+        periodic: list[list[Any]]; faces with the same mesh under a translation or rotation
         order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
         serendipity: bool; with order 2: hex20 instead of hex27; default False
         min_scaled_jacobian: float; below it the mesh is refused; default 0
@@ -853,6 +870,12 @@ class Assembly(Object):
 
         One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
         edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+
+        A dict for `periodic` has:
+        [1]: Face | int | str | dict | list[Face | int | str | dict]
+        [2]: Face | int | str | dict | list[Face | int | str | dict]
+        translate: (x, y, z)
+        rotate: list[(x, y, z) | float]; point, direction, degrees
         """
         return self._method("sweep", options_of(options, keywords))
 
@@ -879,6 +902,7 @@ class Assembly(Object):
             size
         boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
         intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
+        periodic: list[list[Any]]; faces with the same mesh under a translation or rotation
         order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
         serendipity: bool; with order 2: hex20 instead of hex27; default False
         min_scaled_jacobian: float; below it the mesh is refused; default 0
@@ -903,6 +927,12 @@ class Assembly(Object):
 
         One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
         edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+
+        A dict for `periodic` has:
+        [1]: Face | int | str | dict | list[Face | int | str | dict]
+        [2]: Face | int | str | dict | list[Face | int | str | dict]
+        translate: (x, y, z)
+        rotate: list[(x, y, z) | float]; point, direction, degrees
         """
         return self._method("sweep_to", path, options_of(options, keywords))
 
@@ -1050,6 +1080,8 @@ class AssemblyMesh(AnyMesh):
         gmsh_options: bool; of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and
             groups; default False
         interfaces: bool; of an assembly: quads between its volumes are elements too; default False
+        orientation: bool; directions of cells: fields in .vtu, .vtk and .exo, material axes in .inp and .bdf;
+            default False
         partitions: int | "processes"; of .pvtu and .msh: parts; of .pvtu default as many as processes
         ghosts: int; rows of other parts' cells that are marked as each part's ghosts; default 0
         """

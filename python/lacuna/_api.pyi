@@ -248,9 +248,9 @@ class Volume(Shown):
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
             boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
-            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
-            serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
-            improve: bool | Mapping[str, Any] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
+            order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
+            min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ...,
     ) -> Mesh | AssemblyMesh: ...
@@ -263,9 +263,9 @@ class Volume(Shown):
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
             boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
-            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
-            serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
-            improve: bool | Mapping[str, Any] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
+            order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
+            min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ..., write: Mapping[str, Any] | None = ...,
     ) -> Report: ...
@@ -327,8 +327,8 @@ class Mesh(AnyMesh):
             without: str | int | Iterable[str | int] | None = ..., renumber: bool | None = ...,
             first_node: int | None = ..., first_cell: int | None = ..., element: str | None = ...,
             groups: Literal["one", "all"] | None = ..., gmsh_options: bool | None = ...,
-            interfaces: bool | None = ..., partitions: int | Literal["processes"] | None = ...,
-            ghosts: int | None = ...,
+            interfaces: bool | None = ..., orientation: bool | None = ...,
+            partitions: int | Literal["processes"] | None = ..., ghosts: int | None = ...,
     ) -> None: ...
     def view(
             self, path: Path, options: Mapping[str, Any] | None = None, /, *, title: str | None = ...,
@@ -351,9 +351,9 @@ class Assembly(Object):
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
             boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
-            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
-            serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
-            improve: bool | Mapping[str, Any] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
+            order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
+            min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ...,
     ) -> AssemblyMesh: ...
@@ -366,9 +366,9 @@ class Assembly(Object):
             fallback: Literal["wedges", "leave_out", "mixed"] | None = ..., wedges: bool | None = ...,
             rows: int | None = ..., row_height: float | Callable[[float, float, float], float] | None = ...,
             boundary_layers: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None = ...,
-            intervals: Iterable[Sequence[Any]] | None = ..., order: Literal[1, 2] | None = ...,
-            serendipity: bool | None = ..., min_scaled_jacobian: float | None = ...,
-            improve: bool | Mapping[str, Any] | None = ...,
+            intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
+            order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
+            min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ..., write: Mapping[str, Any] | None = ...,
     ) -> Report: ...
@@ -425,8 +425,8 @@ class AssemblyMesh(AnyMesh):
             without: str | int | Iterable[str | int] | None = ..., renumber: bool | None = ...,
             first_node: int | None = ..., first_cell: int | None = ..., element: str | None = ...,
             groups: Literal["one", "all"] | None = ..., gmsh_options: bool | None = ...,
-            interfaces: bool | None = ..., partitions: int | Literal["processes"] | None = ...,
-            ghosts: int | None = ...,
+            interfaces: bool | None = ..., orientation: bool | None = ...,
+            partitions: int | Literal["processes"] | None = ..., ghosts: int | None = ...,
     ) -> None: ...
     def view(
             self, path: Path, options: Mapping[str, Any] | None = None, /, *, title: str | None = ...,

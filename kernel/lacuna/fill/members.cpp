@@ -116,6 +116,13 @@ void check_known_faces(const std::vector<Part>& all)
             for (const int tag : names.tags) check(one, option, own, NamedEntity{"face", tag}, tag);
             for (const std::string& name : names.names) check(one, option, own, '"' + name + '"', name);
         });
+        for (const surface::PeriodicPair& pair : one.asked->options.periodic)
+            for (const surface::FaceNames* names : {&pair.a, &pair.b}) {
+                for (const int tag : names->tags)
+                    check(one, "periodic", false, NamedEntity{"face", tag}, tag);
+                for (const std::string& name : names->names)
+                    check(one, "periodic", false, '"' + name + '"', name);
+            }
     }
 }
 
@@ -447,6 +454,18 @@ FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> p
                std::move(pieces));
     for (Part& part : parts) part.asked_name = name.empty() ? "the volume" : name;
     return sweep_parts(parts, {}, true, context);
+}
+
+Filled sweep_as_assembly(const Volume& volume, const sweep::SweepOptions& options, const RunContext& context)
+{
+    const Member asked{&volume, nullptr, nullptr, options};
+    std::vector<Part> parts;
+    parts.push_back({&asked, "the volume", volume, nullptr});
+    if (volume.name.empty()) parts.front().volume.name = "volume";
+    Filled filled{{}, sweep_parts(parts, {}, true, context)};
+    filled.volumes.push_back(std::move(parts.front().volume));
+    filled.volumes.front().name = volume.name;
+    return filled;
 }
 
 FilledParts fill_alone(const Member& member, const RunContext& context)

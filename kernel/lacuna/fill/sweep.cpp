@@ -97,10 +97,12 @@ Filled sweep_whole(const Volume& volume, sweep::SweepOptions options, const RunC
 
 Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request, const RunContext& context)
 {
-    if (!pieces) return sweep_whole(volume, request.options, context);
+    const bool periodic = !request.options.periodic.empty();
+    if (!pieces && !periodic) return sweep_whole(volume, request.options, context);
     sweep::SweepOptions options = request.options;
     options.layered = options.layered && request.layered_parts;
     if (!options.layered) options.crew = nullptr;
+    if (!pieces) return sweep_as_assembly(volume, options, context);
     Filled filled{{}, sweep_pieces(volume, cut_into_pieces(volume, context), options, context)};
     filled.volumes.push_back(volume);
     return filled;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/message.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/cursor.h>
 #include <lacuna/io/detail/format_table.h>
+#include <lacuna/io/detail/periodic_nodes.h>
 
 #include <Eigen/LU>
 
@@ -105,6 +107,8 @@ public:
         if (!equations_.empty()) file_.add(equations_);
         for (std::size_t s = 0; s < view_->sets.size(); ++s)
             if (!by_elements_[s]) add_set(s);
+        add_periodic();
+        if (view_->frames) add_orientation();
         file_.add(cards.others);
         return std::move(file_);
     }
@@ -124,6 +128,98 @@ private:
         };
         file_.sections.push_back(
             section_of_points("*NODE\n", view_, kNumberBytes + 3 * (kWidth + 2) + 1, put));
+    }
+
+    /// A sector gets a cyclic symmetry, other periodic faces equations.
+    void add_periodic()
+    {
+        if (view_->periodic.empty()) return;
+        if (const CyclicSector sector = cyclic_sector(*view_); sector.sectors > 0) {
+            std::string text = "*SURFACE, TYPE=NODE, NAME=periodic_1_master\nperiodic_1_a,\n"
+                               "*SURFACE, TYPE=NODE, NAME=periodic_1_slave\nperiodic_1_b,\n"
+                               "*TIE, CYCLIC SYMMETRY, NAME=periodic_1\nperiodic_1_slave, periodic_1_master\n"
+                               "*CYCLIC SYMMETRY MODEL, N=" +
+                               std::to_string(sector.sectors) + ", NGRAPH=1, TIE=periodic_1\n";
+            const Vec3 end = sector.point + sector.axis;
+            for (std::size_t i = 0; i < 6; ++i)
+                text += real(i < 3 ? sector.point[static_cast<Eigen::Index>(i)]
+                                   : end[static_cast<Eigen::Index>(i - 3)]) +
+                        (i < 5 ? ", " : "\n");
+            file_.add(std::move(text));
+            return;
+        }
+        const PeriodicEquations all = periodic_equations(*view_);
+        const DeckTag first = view_->point_tags.bounds(view_->points).second + 1;
+        std::string text;
+        for (std::size_t p = 0; p < all.number.size(); ++p) {
+            if (all.number[p] == kNoIndex) continue;
+            text += "*NODE, NSET=periodic_" + std::to_string(p + 1) + "\n" +
+                    std::to_string(first + static_cast<DeckTag>(all.number[p]));
+            for (const double x : all.references[all.number[p]]) text += ", " + real(x);
+            text += "\n";
+        }
+        for (const std::vector<PeriodicTerm>& terms : all.equations) {
+            text += "*EQUATION\n" + std::to_string(terms.size()) + "\n";
+            for (std::size_t t = 0; t < terms.size(); ++t) {
+                const PeriodicTerm& term = terms[t];
+                const DeckTag node = term.node < view_->points
+                                         ? view_->point_tags[term.node]
+                                         : first + static_cast<DeckTag>(term.node - view_->points);
+                text += std::to_string(node) + ", " + std::to_string(term.direction + 1) + ", " +
+                        real(term.factor) + (t + 1 == terms.size() || t % 4 == 3 ? "\n" : ", ");
+            }
+        }
+        file_.add(std::move(text));
+    }
+    /// For each region a distribution of its cells' axes and an orientation with it, for *SOLID SECTION.
+    void add_orientation()
+    {
+        file_.add("*DISTRIBUTION TABLE, NAME=axes\nCOORD3D, COORD3D\n");
+        for (std::size_t r = 0; r < region_names_.size(); ++r) {
+            if (dimensions_[r] != 3) continue;
+            const std::string name = (region_names_[r].empty() ? "volume" : region_names_[r]) +
+                                     "_orientation";
+            file_.add("*DISTRIBUTION, NAME=" + name +
+                      "_of, LOCATION=ELEMENT, TABLE=axes\n"
+                      ", 1., 0., 0., 0., 1., 0.\n");
+            for (std::size_t b = 0; b < view_->blocks.size(); ++b) {
+                const MeshView::Block& block = view_->blocks[b];
+                if ((*view_->frames)[b].empty()) continue;
+                mesh::each_run(
+                    block.regions, 0, block.count, [&](std::size_t first, std::size_t last, Index region) {
+                        if (region < 0 || index(region) != r) return;
+                        file_.sections.push_back(
+                            {{},
+                             last - first,
+                             kNumberBytes + 6 * (kWidth + 2) + 1,
+                             [view = view_, b, first](std::size_t begin, std::size_t end, char* out) {
+                                 return put_axes(*view, b, first + begin, first + end, out);
+                             }});
+                    });
+            }
+            file_.add("*ORIENTATION, NAME=" + name + ", SYSTEM=RECTANGULAR\n" + name + "_of\n");
+        }
+    }
+    static char* put_axes(const MeshView& view, std::size_t b, std::size_t begin, std::size_t end, char* out)
+    {
+        view.blocks[b].tags.each(begin, end, [&](std::size_t i, DeckTag tag) {
+            const std::array<Vec3, 3> axes = (*view.frames)[b][i].material();
+            out = put_text(out, tag);
+            for (const std::size_t a : {std::size_t(0), std::size_t(1)})
+                for (const double x : axes[a]) {
+                    *out++ = ',';
+                    *out++ = ' ';
+                    out = put_real(out, x, kWidth);
+                }
+            *out++ = '\n';
+        });
+        return out;
+    }
+
+    static std::string real(double value)
+    {
+        std::array<char, kWidth> room;
+        return {room.data(), put_real(room.data(), value, kWidth)};
     }
 
     /// The word for the elements of a block.

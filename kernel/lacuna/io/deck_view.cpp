@@ -333,8 +333,7 @@ int SetLists::extended(int list, int set)
     return found->second;
 }
 
-std::shared_ptr<const MeshView> view_of(const Deck& deck, const Format& format,
-                                        std::span<const BulkPart> parts)
+std::shared_ptr<MeshView> view_of(const Deck& deck, const Format& format, std::span<const BulkPart> parts)
 {
     const auto bulk = std::make_shared<const Bulk>(parts);
     auto view = std::make_shared<MeshView>();

@@ -260,7 +260,7 @@ public:
         std::size_t longest = kLeastName;
         for (const Block& block : *blocks_) longest = std::max(longest, block.name.size());
         for (const MeshView::Set& set : view_->sets) longest = std::max(longest, set.name.size());
-        nc_.dimension("time_step", 0);
+        const int time = nc_.dimension("time_step", view_->fields.empty() ? 0 : 1);
         name_ = nc_.dimension("len_name", longest + 1);
         nc_.dimension("len_string", kLeastName + 1);
         nc_.dimension("len_line", 81);
@@ -278,6 +278,7 @@ public:
         add_sets("node_sets", "ns", "num_nod_ns", "node_ns", nodes_);
         add_sets("elem_sets", "els", "num_ele_els", "elem_els", cells_);
         add_sets("side_sets", "ss", "num_side_ss", "elem_ss", sides_);
+        if (!view_->fields.empty()) add_fields(time);
         file_.sections = nc_.take();
         file_.sizes = Sizes::exact;
         return std::move(file_);
@@ -435,6 +436,7 @@ private:
             const MeshView::Block& of = view_->blocks[block.of];
             const auto nodes = static_cast<std::size_t>(shape_info(of.shape).nodes);
             const int rows = nc_.dimension("num_el_in_blk" + number, block.elements.count());
+            rows_.push_back(rows);
             const int columns = nc_.dimension("num_nod_per_el" + number, nodes);
             nc_.array(
                 "connect" + number, NcType::whole, {rows, columns}, nodes,
@@ -478,6 +480,44 @@ private:
         }
     }
 
+    /// A variable for each component, at the only time; readers join _x, _y and _z to vectors.
+    void add_fields(int time)
+    {
+        std::vector<std::string> names;
+        for (const MeshView::Field& field : view_->fields)
+            for (std::size_t c = 0; c < field.components; ++c)
+                names.push_back(field.components == 1 ? field.name : field.name + "_" + "xyz"[c]);
+        const int count = nc_.dimension("num_elem_var", names.size());
+        const auto put_zero = [](std::size_t begin, std::size_t end, char* out) {
+            for (; begin < end; ++begin) out = io::put_big(out, 0.0);
+            return out;
+        };
+        nc_.array("time_whole", NcType::real, {time}, 1, put_zero);
+        nc_.names("name_elem_var", {count, name_}, names);
+        std::size_t variable = 0;
+        for (std::size_t f = 0; f < view_->fields.size(); ++f)
+            for (std::size_t c = 0; c < view_->fields[f].components; ++c) {
+                ++variable;
+                for (std::size_t b = 0; b < blocks_->size(); ++b) {
+                    const Block& block = (*blocks_)[b];
+                    nc_.array("vals_elem_var" + std::to_string(variable) + "eb" + std::to_string(b + 1),
+                              NcType::real, {time, rows_[b]}, 1,
+                              [view = view_, blocks = blocks_, &block, f, c](std::size_t begin,
+                                                                             std::size_t end, char* out) {
+                                  const MeshView::Field& field = view->fields[f];
+                                  block.elements.each(begin, end, [&](std::size_t first, std::size_t last) {
+                                      std::size_t component = 0;
+                                      field.each(block.of, first, last, [&](std::size_t, double value) {
+                                          if (component++ % field.components == c)
+                                              out = io::put_big(out, value);
+                                      });
+                                  });
+                                  return out;
+                              });
+                }
+            }
+    }
+
     View view_;
     std::string unit_;
     DeckFile file_;
@@ -485,7 +525,8 @@ private:
     std::shared_ptr<std::vector<Block>> blocks_ = std::make_shared<std::vector<Block>>();
     std::vector<Set> nodes_, cells_, sides_;
     std::size_t elements_ = 0;
-    int name_ = 0; ///< dimension of names
+    int name_ = 0;          ///< dimension of names
+    std::vector<int> rows_; ///< dimension of the elements of each block
 };
 
 } // namespace

@@ -20,6 +20,8 @@ void read_med(Cursor& cursor, DeckBuilder& into);
 namespace {
 
 constexpr std::string_view kDeckOptions = "with without renumber first_node first_cell interfaces";
+constexpr std::string_view kOrientedDeckOptions =
+    "orientation with without renumber first_node first_cell interfaces";
 
 FormatRow mesh_format(std::string_view ending, std::string_view name, std::string_view word, DeckFormat deck)
 {
@@ -63,25 +65,27 @@ std::vector<FormatRow> make_table()
     row.unwritten_sets = "sets of nodes or sides are not written: groups of MSH are of elements";
     table.push_back(row);
     row = view_format(".vtu", "a VTU file", "VTK", vtu,
-                      "quality with without renumber first_node first_cell interfaces", vtu_file);
+                      "quality orientation with without renumber first_node first_cell interfaces", vtu_file);
     row.read = read_vtu, row.unwritten_sets = kNoSides;
     table.push_back(row);
     row = view_format(".pvtu", "a PVTU file", "VTK", vtu, "quality partitions ghosts interfaces", nullptr);
     row.is_read = row.streamed_parts = false;
     table.push_back(row);
     row = view_format(".vtk", "a legacy VTK file", "VTK", vtk,
-                      "binary quality with without renumber first_node first_cell interfaces", vtk_file);
+                      "binary quality orientation with without renumber first_node first_cell interfaces",
+                      vtk_file);
     row.read = read_vtk, row.unwritten_sets = kNoSides;
     table.push_back(row);
     row = deck_format(".inp", "an Abaqus deck", "Abaqus", abaqus, Format::Skin::nodes_and_sides, abaqus_file,
                       read_abaqus);
-    row.options = "element with without renumber first_node first_cell interfaces";
+    row.options = "element orientation with without renumber first_node first_cell interfaces";
     table.push_back(row);
     for (const char* ending : {".bdf", ".nas", ".dat"}) {
         row = deck_format(ending, "a Nastran deck", "Nastran", nastran, Format::Skin::nodes, nastran_file,
                           read_nastran);
         row.unwritten_sets = "sets of sides are not written: Nastran has none";
         row.omits_middles = true;
+        row.options = kOrientedDeckOptions;
         table.push_back(row);
     }
     row = deck_format(".unv", "a universal file", "UNV", unv, Format::Skin::quads, unv_file, read_unv);
@@ -91,6 +95,7 @@ std::vector<FormatRow> make_table()
         row = deck_format(ending, "an Exodus file", "Exodus", exodus, Format::Skin::nodes_and_sides,
                           exodus_file, read_exodus);
         row.has_hex27 = true, row.streamed_parts = false;
+        row.options = kOrientedDeckOptions;
         table.push_back(row);
     }
     for (const char* ending : {".k", ".key", ".dyn"}) {

@@ -5,6 +5,8 @@
 #include <lacuna/core/shared/team.h>
 #include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/format_table.h>
+#include <lacuna/io/detail/orientation.h>
+#include <lacuna/io/detail/periodic_nodes.h>
 #include <lacuna/io/detail/swept_view.h>
 #include <lacuna/io/shared/units.h>
 
@@ -64,9 +66,16 @@ void write_as_deck(const Format& format, std::span<BulkPart> parts, const Output
 {
     deck_options.format = format.deck;
     const Deck deck = deck_without_bulk(parts, deck_options, options.interfaces, context);
-    const View view = view_of(deck, format, parts);
+    const std::shared_ptr<mesh::MeshView> view = view_of(deck, format, parts);
+    add_periodic(options.periodic, format.is_numbered, *view);
+    const bool fields = !format.is_numbered || format.deck == DeckFormat::exodus;
+    if (options.orientation) add_orientation(parts, fields, *view);
+    std::vector<std::string> notes;
+    if (format.is_folder && !options.periodic.empty())
+        notes.emplace_back(
+            "pairs of periodic nodes are not written: make the patches cyclic with createPatch");
     write_view(
-        row_of(format), view, [&] { return parts_of(*view, parts, options.partition); }, {}, options, path,
+        row_of(format), view, [&] { return parts_of(*view, parts, options.partition); }, notes, options, path,
         context, team);
 }
 
@@ -81,9 +90,12 @@ void write_swept(const Format& format, const mesh::HexMesh& mesh, std::unique_pt
         return write_as_deck(format, {&part, 1}, path, options, deck, context, team);
     }
     const std::vector<FieldReader> fields = readers();
+    const std::shared_ptr<mesh::MeshView> view = view_of(mesh, *nodes, fields);
+    const BulkPart whole{mesh, nullptr, nullptr};
+    if (options.orientation) add_orientation({&whole, 1}, true, *view);
     write_view(
-        row_of(format), view_of(mesh, *nodes, fields), [&] { return parts_of(mesh, options.partition); }, {},
-        options, path, context, team);
+        row_of(format), view, [&] { return parts_of(mesh, options.partition); }, {}, options, path, context,
+        team);
 }
 
 void note_sets(const Format& format, const Deck& deck, std::vector<std::string>& notes)

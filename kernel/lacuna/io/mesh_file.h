@@ -36,6 +36,13 @@ struct MeshFileOptions {
     /// Of several meshes, in formats where the skin is elements: quads shared by two of them are written too.
     bool interfaces = false;
     std::string unit{}; ///< declared unit of the lengths, as `metres_of()`; empty: that of the deck, or none
+    /// Directions of cells (`mesh::cell_frames()`): fields "column", "axis", "radial" and "tangential" in VTK
+    /// and Exodus; in Abaqus a distribution and an orientation for each region, in Nastran coordinate systems
+    /// and MATCID cards, with the axes of `CellFrame::material()`. Needs meshes that store their nodes.
+    bool orientation = false;
+    /// Nodes of periodic faces, written as $Periodic in .msh, as equations or a cyclic symmetry in Abaqus, as
+    /// multipoint constraints in Nastran, and as two sets of nodes in the order of the pairs elsewhere.
+    std::vector<mesh::PeriodicNodes> periodic{};
 };
 
 /// Write hexahedra, wedges and their skin, with a group for each entity: the complete file or none.

@@ -184,7 +184,7 @@ struct PartEntity {
 class MshFile {
 public:
     MshFile(const View& view, const MeshFileOptions& options, const ViewParts* parts)
-        : view_(view), numbers_{options.binary}, parts_(parts), unit_(options.unit)
+        : view_(view), numbers_{options.binary}, old_(options.version == 2.2), parts_(parts), unit_(options.unit)
     {
         rows_ = rows_of(nullptr);
         if (parts != nullptr) part_rows_ = rows_of(parts);
@@ -589,6 +589,73 @@ private:
         text_ += numbers_.gap() + "$EndGhostElements\n";
     }
 
+    /// $Periodic of each pair of surfaces: nodes of the second one and their images on the first.
+    void add_periodic()
+    {
+        std::string all;
+        std::size_t links = 0;
+        for (const MeshView::Periodic& own : view_->periodic) {
+            std::map<Index, Index> from; // by the node it is moved to
+            for (const auto& [a, b] : own.nodes.pairs) from.emplace(b, a);
+            // Surfaces of the quads on the first side, and nodes of the surfaces on the second one.
+            std::map<std::vector<Index>, std::size_t> entity_of;
+            std::vector<std::pair<std::size_t, std::vector<Index>>> sides;
+            for (const MeshView::Block& block : view_->blocks) {
+                if (shape_info(block.shape).dimension != 2) continue;
+                mesh::each_run(
+                    block.entities, 0, block.count, [&](std::size_t first, std::size_t last, Index e) {
+                        block.each_cell(first, last, [&](std::size_t, std::span<const Index> nodes) {
+                            std::vector<Index> key(nodes.begin(), nodes.end());
+                            if (std::ranges::all_of(key, [&](Index n) { return from.contains(n); }))
+                                sides.emplace_back(index(e), key);
+                            std::ranges::sort(key);
+                            entity_of.emplace(std::move(key), index(e));
+                        });
+                    });
+            }
+            std::map<std::pair<std::size_t, std::size_t>, std::map<Index, Index>> pairs; // by both surfaces
+            for (const auto& [entity, nodes] : sides) {
+                std::vector<Index> key;
+                for (const Index n : nodes) key.push_back(from.at(n));
+                std::ranges::sort(key);
+                const auto master = entity_of.find(key);
+                if (master == entity_of.end()) continue;
+                for (const Index n : nodes) pairs[{entity, master->second}][n] = from.at(n);
+            }
+            for (const auto& [entities, nodes] : pairs) {
+                all += periodic_link(own.nodes.onto, entities.first, entities.second, nodes);
+                ++links;
+            }
+        }
+        if (links == 0) return;
+        text_ += "$Periodic\n" + (old_ ? std::to_string(links) + "\n" : numbers_.line(size_of(links))) + all +
+                 (old_ ? "" : numbers_.gap()) + "$EndPeriodic\n";
+    }
+    /// In version 2.2 the section is text in binary files too.
+    [[nodiscard]] std::string periodic_link(const Eigen::Isometry3d& onto, std::size_t entity,
+                                            std::size_t master, const std::map<Index, Index>& nodes) const
+    {
+        const MshNumbers to{numbers_.binary && !old_};
+        std::string text = to.line(2, view_->entities[entity].tag, view_->entities[master].tag);
+        if (old_)
+            text += "Affine";
+        else
+            text += to.line(size_of(std::size_t(16)));
+        if (!to.binary && !old_) text.back() = ' ';
+        for (Eigen::Index i = 0; i < 4; ++i)
+            for (Eigen::Index j = 0; j < 4; ++j) {
+                if (!to.binary) text += ' ';
+                text += to.line(onto.matrix()(i, j));
+                if (!to.binary) text.pop_back();
+            }
+        if (!to.binary) text += '\n';
+        text += to.line(size_of(nodes.size()));
+        for (const auto& [slave, node] : nodes)
+            text += to.line(size_of(view_->point_tags[index(slave)]),
+                            size_of(view_->point_tags[index(node)]));
+        return text;
+    }
+
     /// $ElementData of each field. Values cover all elements, since meshio rejects a field that lacks some.
     void add_fields()
     {
@@ -618,6 +685,7 @@ private:
     }
     DeckFile take()
     {
+        add_periodic();
         add_fields();
         add(0, 0, {});
         file_.sizes = numbers_.binary ? Sizes::exact : Sizes::varying;
@@ -626,6 +694,7 @@ private:
 
     View view_;
     MshNumbers numbers_;
+    bool old_; ///< version 2.2
     const ViewParts* parts_;
     std::string unit_; ///< declared for the lengths; empty: none
     std::vector<Row> rows_, part_rows_;

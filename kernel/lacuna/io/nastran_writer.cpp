@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/nastran.h>
+#include <lacuna/io/detail/periodic_nodes.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 // Nodes are written in large fields, in the basic frame; elements in small fields if their numbers fit.
 // Fields that a card was read with keep their text; if they do not fit, the card is written in free format.
@@ -200,6 +203,70 @@ std::string property_text(const MeshView& view)
     return text;
 }
 
+std::string real_text(double value)
+{
+    std::array<char, kLarge> room;
+    return {room.data(), put_real(room.data(), value, kLarge, RealForm::nastran)};
+}
+
+/// Multipoint constraints of periodic faces, of number 1, with a GRID for each reference.
+std::string periodic_text(const MeshView& view)
+{
+    if (view.periodic.empty()) return {};
+    const PeriodicEquations all = periodic_equations(view);
+    const DeckTag first = view.point_tags.bounds(view.points).second + 1;
+    std::string text = "$ periodic faces: MPC = 1 in the case control\n";
+    for (std::size_t p = 0; p < all.number.size(); ++p) {
+        if (all.number[p] == kNoIndex) continue;
+        const Vec3& at = all.references[all.number[p]];
+        const std::string tag = std::to_string(first + static_cast<DeckTag>(all.number[p]));
+        text += "$ the displacement of node " + tag + " is the difference across periodic_" +
+                std::to_string(p + 1) + "\nGRID," + tag + ",," + real_text(at.x()) + "," + real_text(at.y()) +
+                "," + real_text(at.z()) + "\n";
+    }
+    for (const std::vector<PeriodicTerm>& terms : all.equations) {
+        text += "MPC,1";
+        for (std::size_t t = 0; t < terms.size(); ++t) {
+            const DeckTag node = terms[t].node < view.points
+                                     ? view.point_tags[terms[t].node]
+                                     : first + static_cast<DeckTag>(terms[t].node - view.points);
+            if (t > 0 && t % 2 == 0) text += ",\n+,";
+            text += "," + std::to_string(node) + "," + std::to_string(terms[t].direction + 1) + "," +
+                    real_text(terms[t].factor);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+/// A coordinate system for all cells with the same axes, and the MATCID card that gives it to them.
+std::string orientation_text(const MeshView& view)
+{
+    std::map<std::array<std::string, 6>, std::vector<DeckTag>> cells; // by the z axis and the direction of x
+    for (std::size_t b = 0; b < view.blocks.size(); ++b) {
+        if ((*view.frames)[b].empty()) continue;
+        view.blocks[b].tags.each(0, view.blocks[b].count, [&](std::size_t i, DeckTag tag) {
+            const std::array<Vec3, 3> axes = (*view.frames)[b][i].material();
+            std::array<std::string, 6> key;
+            for (std::size_t k = 0; k < 6; ++k)
+                key[k] = real_text(axes[k < 3 ? 2 : 0][static_cast<Eigen::Index>(k % 3)]);
+            cells[key].push_back(tag);
+        });
+    }
+    std::string text = "$ material axes: along the columns, radial, normal to both\n";
+    std::size_t number = 0;
+    for (auto& [key, tags] : cells) {
+        const std::string own = std::to_string(++number);
+        text += "CORD2R," + own + ",,0.,0.,0.," + key[0] + "," + key[1] + "," + key[2] + "\n+," + key[3] +
+                "," + key[4] + "," + key[5] + "\nMATCID," + own;
+        std::ranges::sort(tags);
+        for (std::size_t t = 0; t < tags.size(); ++t)
+            text += ((t + 1) % 8 == 0 ? "\n+," : ",") + std::to_string(tags[t]);
+        text += "\n";
+    }
+    return text;
+}
+
 } // namespace
 
 DeckFile nastran_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
@@ -216,6 +283,8 @@ DeckFile nastran_file(const View& view, const MeshFileOptions& options, const me
     for (const MeshView::Set& set : view->sets)
         if (set.count > 0) text += set_text(set, ++number);
     if (!view->kept) text += property_text(*view);
+    text += periodic_text(*view);
+    if (view->frames) text += orientation_text(*view);
     file.add(std::move(text));
     file.add(kept.tail);
     return file;

@@ -148,8 +148,8 @@ void check_skin(const mesh::HexMesh& mesh)
                                numbered("patch", patch.tag));
 }
 
-std::shared_ptr<const MeshView> view_of(const mesh::HexMesh& mesh, const NodeReader& nodes,
-                                        const std::vector<FieldReader>& fields)
+std::shared_ptr<MeshView> view_of(const mesh::HexMesh& mesh, const NodeReader& nodes,
+                                  const std::vector<FieldReader>& fields)
 {
     check_skin(mesh);
     auto view = std::make_shared<MeshView>();

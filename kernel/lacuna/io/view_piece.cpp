@@ -81,7 +81,7 @@ PieceView piece_of(const std::shared_ptr<const MeshView>& whole, const mesh::Vie
                                                    double* out) {
             piece->cells[b].each(begin, end, [&](std::size_t first, std::size_t last) {
                 whole->fields[f].values(b, first, last, out);
-                out += last - first;
+                out += (last - first) * whole->fields[f].components;
             });
         };
     return result;

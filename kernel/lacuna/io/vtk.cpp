@@ -309,8 +309,10 @@ std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = null
         of_cells(Place::cell_data, "type=\"Int32\" Name=\"region\"", 4,
                  by_entity(view, region_number, put_one));
     for (std::size_t f = 0; f < view->fields.size(); ++f)
-        of_cells(Place::cell_data, "type=\"Float64\" Name=\"" + view->fields[f].name + "\"", 8,
-                 by_field(view, f, put_one));
+        of_cells(Place::cell_data,
+                 "type=\"Float64\" Name=\"" + view->fields[f].name + "\"" +
+                     (view->fields[f].components == 3 ? " NumberOfComponents=\"3\"" : ""),
+                 8 * view->fields[f].components, by_field(view, f, put_one));
     if (numbered && !view->is_deck) number_points();
     if (numbered) of_cells(Place::cell_data, "type=\"Int64\" Name=\"cell_number\"", 8, by_tag(view, put_one));
     if (ghosts == nullptr) return arrays;
@@ -406,9 +408,10 @@ std::vector<Section> vtk_sections(const View& view, bool binary, const std::stri
         sections.front().text = before;
         for (Section& section : sections) all.push_back(std::move(section));
     };
-    const auto of_cells = [&](const std::string& before, std::size_t bytes, const FillBlock& fill) {
+    const auto of_cells = [&](const std::string& before, std::size_t bytes, const FillBlock& fill,
+                              std::size_t values = 1) {
         add(before, by_blocks(
-                        *view, [=](const MeshView::Block&) { return room(1, bytes); }, fill));
+                        *view, [=](const MeshView::Block&) { return values * room(1, bytes); }, fill));
     };
     const auto scalars = [](const std::string& name, const char* type) {
         return "SCALARS " + name + " " + type + " 1\nLOOKUP_TABLE default\n";
@@ -436,7 +439,9 @@ std::vector<Section> vtk_sections(const View& view, bool binary, const std::stri
              by_entity(view, entity_number, put_line));
     if (view->is_deck) of_cells("\n" + scalars("region", "int"), 4, by_entity(view, region_number, put_line));
     for (std::size_t f = 0; f < view->fields.size(); ++f)
-        of_cells("\n" + scalars(view->fields[f].name, "double"), 8, by_field(view, f, put_line));
+        of_cells("\n" + (view->fields[f].components == 3 ? "VECTORS " + view->fields[f].name + " double\n"
+                                                         : scalars(view->fields[f].name, "double")),
+                 8, by_field(view, f, put_line), view->fields[f].components);
     if (view->is_deck) {
         of_cells("\n" + scalars("cell_number", "long"), 8, by_tag(view, put_line));
         all.push_back({"\nPOINT_DATA " + std::to_string(view->points) + "\n" + scalars("node_number", "long"),

@@ -4,9 +4,12 @@
 #include <lacuna/mesh/layered_nodes.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 namespace lacuna::mesh {
 
@@ -64,6 +67,13 @@ private:
     std::vector<std::pair<Index, Index>> known_;
     std::size_t nodes_ = 0;
     std::vector<Index> before_; ///< number of shared nodes before each block
+};
+
+/// Nodes of two groups of faces with the same mesh.
+struct PeriodicNodes {
+    Eigen::Isometry3d onto =
+        Eigen::Isometry3d::Identity();       ///< moves the first node of each pair to the second
+    std::vector<std::array<Index, 2>> pairs; ///< in the numbering of the whole mesh; equal on the axis
 };
 
 /// One of several swept meshes with shared nodes, which may not store its nodes. Holds references only.

@@ -25,7 +25,11 @@ bool is_named(const OpenVolume& volume, FaceId id, const std::string& name)
 {
     const Face& face = volume.model[id];
     if (name == "walls") return volume.role[id.index()] == Role::wall;
-    if (face.origin == Origin::made_void) return name == void_name(face);
+    if (face.origin == Origin::made_void) {
+        const Role role = volume.role[id.index()];
+        return name == void_name(face) || (name == "source" && role == Role::source) ||
+               (name == "target" && role == Role::target);
+    }
     return face.name == name || std::ranges::find(face.groups, name) != face.groups.end();
 }
 

@@ -2,15 +2,19 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 namespace lacuna::surface {
 
 /// Faces as named by the user: the union of both lists.
 struct FaceNames {
     std::vector<int> tags;          ///< of given faces
-    std::vector<std::string> names; ///< of given faces; "void:<n>": void face n; "walls": all walls
+    std::vector<std::string> names; ///< of given faces; "void:<n>": void face n; "source",
+                                    ///< "target": void ends; "walls": all walls
 };
 
 /// Rows of thin cells along selected faces.
@@ -33,6 +37,12 @@ struct Interval {
     /// Ratio of last to first length, > 0 [-]: in the edge's direction, from the first vertex to the second,
     /// or from source to target; 1 for walls.
     double bias = 1;
+};
+
+/// Two groups of faces that get the same mesh, one moved onto the other.
+struct PeriodicPair {
+    FaceNames a, b;
+    std::optional<Eigen::Isometry3d> onto; ///< moves the faces `a` onto `b`; none: it is found
 };
 
 } // namespace lacuna::surface

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/assembly.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
@@ -10,6 +11,7 @@
 #include <lacuna/sweep/detail/assembly_order.h>
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/carry_lines.h>
+#include <lacuna/sweep/detail/periodic.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/source_quads.h>
@@ -35,14 +37,37 @@ using namespace topology;
 
 namespace {
 
-/// Copy a face's mesh to the face of the neighbouring volume.
-void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to)
+/// Copy a face's mesh, moved, to the face of another volume.
+void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to, const Eigen::Isometry3d& onto)
 {
-    const QuadsAlone mesh = quads_alone(quads_on(part.mesh, part.faces, from));
-    std::vector<Vec3> nodes;
-    for (const Index n : mesh.nodes) nodes.push_back(part.skin()[n]);
-    give_mesh(volume, to, nodes, mesh.quads);
+    FaceMesh mesh = face_mesh(part.skin(), quads_on(part.mesh, part.faces, from));
+    for (Vec3& p : mesh.places) p = onto * p;
+    give_mesh(volume, to, mesh.places, mesh.quads);
 }
+
+/// The given quads of a face, if it keeps them.
+std::optional<FaceMesh> given_mesh(const Model& model, FaceId face)
+{
+    if (!model[face].keeps_nodes || model[face].given_quads.empty()) return std::nullopt;
+    FaceMesh mesh{quads_alone(model[face].given_quads), {}};
+    for (const Index n : mesh.nodes) mesh.places.push_back(model.at(n));
+    return mesh;
+}
+
+/// The length of the shortest side of some quads.
+double shortest_side(const FaceMesh& mesh)
+{
+    double least = kInfinity;
+    for (const Quad& quad : mesh.quads)
+        for (std::size_t k = 0; k < 4; ++k)
+            if (const Index a = quad[k], b = quad[(k + 1) % 4]; a != b)
+                least = std::min(least, (mesh.places[index(a)] - mesh.places[index(b)]).norm());
+    return least;
+}
+
+/// Nodes of faces whose quads are connected alike are nearer to each other's images than this share of the
+/// shortest side; then no other node is as near.
+constexpr double kNearImage = 0.25;
 
 /// Relative difference between a face's area and the sum of its facets' areas below which the face is flat.
 constexpr double kFlat = 1e-9;
@@ -138,7 +163,7 @@ public:
         set_aside();
         if (members_.empty()) return std::move(result_);
         before_ = members_before(members_, result_.shared);
-        plan_ = plan_assembly(members_, result_.shared, beside_, context_);
+        plan();
         try {
             sweep_all();
         } catch (const MemberFailed& failed) {
@@ -147,6 +172,7 @@ public:
             sweep_again();
         }
         number_nodes(result_);
+        pair_nodes();
         check_no_hanging_nodes(result_, members_);
         name_groups();
         log_defaults();
@@ -302,11 +328,18 @@ private:
         return counts;
     }
 
+    void plan()
+    {
+        grid_ = grid_of(members_);
+        periodic_ = periodic_faces(members_, grid_, context_);
+        plan_ = plan_assembly(members_, result_.shared, beside_, periodic_, context_);
+    }
+
     void sweep_again()
     {
         result_.report.clear();
         result_.shared = faces_in_common(members_, context_, sag_).whole;
-        plan_ = plan_assembly(members_, result_.shared, beside_, context_);
+        plan();
         sweep_all();
     }
 
@@ -316,8 +349,13 @@ private:
     {
         std::vector<std::size_t> first;
         std::optional<MemberFailed> reason;
+        std::vector<SharedFace> faces = result_.shared; // a periodic face takes the quads of its image
+        for (const PeriodicFaces& pair : periodic_)
+            if (pair.a != pair.b)
+                faces.push_back(pair.a < pair.b ? SharedFace{pair.a, pair.b, pair.face_a, pair.face_b}
+                                                : SharedFace{pair.b, pair.a, pair.face_b, pair.face_a});
         for (std::size_t attempt = 0; attempt <= members_.size(); ++attempt) {
-            const std::vector<std::size_t> order = order_members(members_, result_.shared, before_, first);
+            const std::vector<std::size_t> order = order_members(members_, faces, before_, first);
             if (!first.empty() && order == order_) break;
             order_ = order;
             const std::optional<MemberFailed> failed = sweep_in_order();
@@ -350,10 +388,10 @@ private:
         std::vector<char> done(members_.size(), 0);
         for (const std::size_t m : order_) {
             check_cancelled(context_);
-            const std::vector<Neighbour> neighbours = shared_with(m, done);
+            const std::vector<Neighbour> neighbours = shared_with(m, done), images = images_for(m, done);
             done[m] = 1;
             try {
-                make_or_take(m, neighbours);
+                make_or_take(m, neighbours, images);
                 check_kept(m, neighbours);
                 if (members_[m].options.order > 1) keep_middles(m);
             } catch (const Cancelled&) {
@@ -361,7 +399,7 @@ private:
             } catch (const Error& error) {
                 if (!std::exchange(is_made_, true)) put_away(m, error.message());
                 MemberFailed failed(m, why_failed(members_[m], error));
-                if (!neighbours.empty()) return failed;
+                if (!neighbours.empty() || !images.empty()) return failed;
                 put_all_away();
                 throw failed;
             }
@@ -374,7 +412,21 @@ private:
         FaceId own;
         std::size_t other;
         FaceId there;
+        Eigen::Isometry3d onto = Eigen::Isometry3d::Identity(); ///< moves that face onto the own one
     };
+    /// Periodic faces of a member whose images are meshed already, in other members.
+    [[nodiscard]] std::vector<Neighbour> images_for(std::size_t m, const std::vector<char>& done) const
+    {
+        std::vector<Neighbour> found;
+        for (const PeriodicFaces& pair : periodic_) {
+            if (pair.a == pair.b) continue;
+            if (pair.b == m && done[pair.a] != 0)
+                found.push_back({pair.face_b, pair.a, pair.face_a, pair.onto});
+            if (pair.a == m && done[pair.b] != 0)
+                found.push_back({pair.face_a, pair.b, pair.face_b, pair.onto.inverse()});
+        }
+        return found;
+    }
     /// Faces that a member shares with members that are meshed already.
     [[nodiscard]] std::vector<Neighbour> shared_with(std::size_t m, const std::vector<char>& done) const
     {
@@ -398,11 +450,12 @@ private:
     }
 
     /// Make a part, or take one that was made of the same before.
-    void make_or_take(std::size_t m, const std::vector<Neighbour>& neighbours)
+    void make_or_take(std::size_t m, const std::vector<Neighbour>& neighbours,
+                      const std::vector<Neighbour>& images)
     {
         Ingredients of = ingredients(m, neighbours);
-        // At order 2 a part also depends on those that it touches along an edge.
-        const bool again = members_[m].options.order > 1;
+        // At order 2 a part also depends on those that it touches along an edge, else on images of its faces.
+        const bool again = members_[m].options.order > 1 || !periodic_.empty();
         if (!again && made_of_[m] && made_of_[m]->first == of) return;
         put_away(m);
         std::optional<MadePart> before = again ? std::nullopt : parts_before_.take(of);
@@ -413,7 +466,7 @@ private:
             return;
         }
         is_made_ = false;
-        make(m, neighbours);
+        make(m, neighbours, images);
         is_made_ = true;
     }
 
@@ -441,8 +494,8 @@ private:
 
     /// Copy the neighbours' meshes on shared faces to the member, then sweep it. A face whose mesh follows
     /// from its rim alone is left to the member, and the result is compared with the neighbour's; if they
-    /// differ, all meshes are copied.
-    void make(std::size_t m, const std::vector<Neighbour>& neighbours)
+    /// differ, all meshes are copied. Meshes of images on periodic faces are copied always.
+    void make(std::size_t m, const std::vector<Neighbour>& neighbours, const std::vector<Neighbour>& images)
     {
         const AssemblyMember& member = members_[m];
         if (member.fixed != nullptr) {
@@ -450,7 +503,8 @@ private:
             return;
         }
         SweepOptions options = member.options;
-        options.fallback = Fallback::none; // the whole assembly is computed again
+        options.fallback = Fallback::none;                      // the whole assembly is computed again
+        options.layered = options.layered && periodic_.empty(); // pairs of nodes are written with the whole
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         if (!plan_.heights[m].empty()) {
             std::vector<double> heights{0};
@@ -458,13 +512,14 @@ private:
             if (member.volume->turned_round) reverse_heights(heights); // these run from the named source
             options.layers.heights.assign(heights.begin() + 1, heights.end());
         }
-        std::vector<Neighbour> alike, handed;
+        std::vector<Neighbour> alike, handed = images;
         for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
+        std::set<FaceId> fixed; // faces whose nodes are given or copied
         if (options.order > 1) give_middles(options.second_order);
         options.beside.between = shared_faces_of(m);
         options.beside.own_mesh = came_with_mesh(member);
         options.beside.settle = [&](const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) {
-            return settle(m, alike, skin, faces);
+            return settle(m, alike, fixed, skin, faces);
         };
         const auto sweep_it = [&] {
             OpenVolume volume = *member.volume, sealed = *member.volume;
@@ -472,14 +527,18 @@ private:
             // Rows along walls continue across a shared face: each side makes them itself.
             if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
                 for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
-            for (const auto& [own, other, from] : handed) {
-                hand_on(result_.parts[other], from, volume, own);
+            for (const auto& [own, other, from, onto] : handed) {
+                hand_on(result_.parts[other], from, volume, own, onto);
                 // On a void face, the neighbour's mesh defines the shape.
                 if (volume.model[own].origin == Origin::made_void)
-                    hand_on(result_.parts[other], from, sealed, own);
+                    hand_on(result_.parts[other], from, sealed, own, onto);
             }
+            const bool keeps = options.quads == Quads::automatic || options.quads == Quads::keep;
+            fixed = options.beside.handed;
+            for (const Neighbour& n : handed) fixed.insert(n.own);
+            if (keeps) give_to_images(m, volume, fixed);
             // The shape is compared with the volume as sealed, not with the neighbours' quads on its rim.
-            if (!plan_.nodes[m].empty() || !handed.empty()) options.beside.shape = &sealed;
+            if (!plan_.nodes[m].empty() || !fixed.empty()) options.beside.shape = &sealed;
             result_.parts[m] = sweep(volume, options, context_);
         };
         try {
@@ -487,9 +546,140 @@ private:
         } catch (const UnlikeNeighbour& unlike) {
             log_line(context_, unlike.message().text());
             alike.clear();
-            handed = neighbours;
+            handed = images;
+            handed.insert(handed.end(), neighbours.begin(), neighbours.end());
             sweep_it();
         }
+    }
+
+    /// Give the quads of a member's periodic faces to their images in it.
+    /// @param fixed  is extended by the faces with given quads
+    void give_to_images(std::size_t m, OpenVolume& volume, std::set<FaceId>& fixed) const
+    {
+        for (const PeriodicFaces& pair : periodic_) {
+            for (const auto& [of, member] : {std::pair(pair.face_a, pair.a), std::pair(pair.face_b, pair.b)})
+                if (member == m && given_mesh(volume.model, of)) fixed.insert(of);
+            if (pair.a != m || pair.b != m || fixed.contains(pair.face_a) == fixed.contains(pair.face_b))
+                continue;
+            const bool forth = fixed.contains(pair.face_a);
+            const auto [from, to] = forth ? std::pair(pair.face_a, pair.face_b)
+                                          : std::pair(pair.face_b, pair.face_a);
+            const Eigen::Isometry3d onto = forth ? pair.onto : pair.onto.inverse();
+            std::optional<FaceMesh> mesh = given_mesh(volume.model, from);
+            if (!mesh) continue;
+            for (Vec3& p : mesh->places) p = onto * p;
+            give_mesh(volume, to, mesh->places, mesh->quads);
+            fixed.insert(to);
+        }
+    }
+
+    /// Move the nodes of a member's periodic faces onto each other, and those whose images are in other
+    /// members to the grid.
+    void tie_images(std::size_t m, const std::set<FaceId>& fixed, const mesh::SkinNodes& skin,
+                    const std::vector<FaceId>& faces, SettledNodes& settled) const
+    {
+        const double tolerance = members_[m].volume->model.tolerance;
+        std::map<Index, std::size_t> number;
+        std::vector<Index> nodes;
+        std::vector<Vec3> places;
+        std::vector<char> is_fixed;
+        std::vector<Tie> ties;
+        const auto add = [&](Index node) {
+            const auto [found, fresh] = number.try_emplace(node, nodes.size());
+            if (fresh) nodes.push_back(node), places.push_back(skin[node]), is_fixed.push_back(0);
+            return found->second;
+        };
+        const Eigen::Isometry3d itself = Eigen::Isometry3d::Identity();
+        for (const PeriodicFaces& pair : periodic_) {
+            for (const auto& [of, member] :
+                 {std::pair(pair.face_a, pair.a), std::pair(pair.face_b, pair.b)}) {
+                if (member != m) continue;
+                settled.faces.insert(of);
+                for (const Quad& quad : quads_on(skin.mesh, faces, of))
+                    for (const Index node : quad) {
+                        const std::size_t n = add(node);
+                        if (fixed.contains(of)) is_fixed[n] = 1;
+                        if (is_translation(pair.onto)) ties.push_back({n, n, &itself});
+                    }
+            }
+            if (pair.a != m || pair.b != m) continue;
+            FaceMesh from = face_mesh(skin, quads_on(skin.mesh, faces, pair.face_a));
+            const FaceMesh to = face_mesh(skin, quads_on(skin.mesh, faces, pair.face_b));
+            for (Vec3& p : from.places) p = pair.onto * p;
+            const bool both = fixed.contains(pair.face_a) && fixed.contains(pair.face_b);
+            const auto same = same_quads(
+                from, to, both ? tolerance : kNearImage * std::min(shortest_side(from), shortest_side(to)));
+            if (!same) refuse_images(pair, both);
+            for (const NodePair& nodes_of : *same)
+                ties.push_back({add(nodes_of.own), add(nodes_of.other), &pair.onto});
+        }
+        tie_points(places, is_fixed, ties, grid_);
+        for (std::size_t n = 0; n < nodes.size(); ++n) settled.nodes.emplace_back(nodes[n], places[n]);
+    }
+    [[noreturn]] void refuse_images(const PeriodicFaces& pair, bool given) const
+    {
+        const NamedEntity a = entity_in(members_[pair.a], pair.face_a),
+                          b = entity_in(members_[pair.b], pair.face_b);
+        if (given)
+            throw InvalidInput(Message("sweep.periodic_given",
+                                       "periodic: the given meshes of {} and {} differ, and given nodes do "
+                                       "not move",
+                                       a, b)
+                                   .remedy("load one of them with keep_mesh = false"));
+        throw NotSweepable(
+            Message("sweep.periodic_unlike", "periodic: the quads on {} and {} are not connected alike", a, b)
+                .remedy("make both of them walls, or source and target, or use quads = "
+                        "\"mapped\""));
+    }
+
+    /// List the nodes of periodic faces in pairs, and make middle nodes equal.
+    void pair_nodes()
+    {
+        for (const PeriodicFaces& pair : periodic_) {
+            if (result_.periodic.size() <= pair.pair) result_.periodic.resize(pair.pair + 1);
+            mesh::PeriodicNodes& found = result_.periodic[pair.pair];
+            found.onto = pair.onto;
+            const std::vector<Index> from = nodes_on(pair.a, pair.face_a), to = nodes_on(pair.b, pair.face_b);
+            Swept &part_a = result_.parts[pair.a], &part_b = result_.parts[pair.b];
+            std::vector<Vec3> moved, places;
+            for (const Index n : from) moved.push_back(pair.onto * part_a.skin()[n]);
+            for (const Index n : to) places.push_back(part_b.skin()[n]);
+            const FaceMesh corners = face_mesh(part_a.skin(), quads_of(pair.a, pair.face_a));
+            // Given nodes of both faces may differ by the tolerance; middle nodes by the facets' sag.
+            const std::vector<Index> twin = same_places(moved, places,
+                                                        kNearImage / 4 * shortest_side(corners));
+            if (twin.empty()) refuse_images(pair, false);
+            bool changed = false;
+            for (std::size_t n = 0; n < from.size(); ++n) {
+                const Index other = to[index(twin[n])];
+                found.pairs.push_back(
+                    {result_.numbering[pair.a].of(from[n]), result_.numbering[pair.b].of(other)});
+                const std::size_t corner_count = mesh::corner_count(part_b.mesh);
+                if (index(other) < corner_count || part_b.skin()[other] == moved[n]) continue;
+                part_b.mesh.middles.nodes[index(other) - corner_count] = moved[n];
+                changed = true;
+            }
+            std::ranges::sort(found.pairs);
+            const auto again = std::ranges::unique(found.pairs);
+            found.pairs.erase(again.begin(), again.end());
+            if (changed)
+                quality::require(
+                    quality::prove(part_b.mesh, members_[pair.b].options.min_scaled_jacobian, context_));
+        }
+        for (const mesh::PeriodicNodes& pair : result_.periodic)
+            result_.report.push_back(formatted("periodic: {} pairs of nodes", pair.pairs.size()));
+    }
+    /// All nodes of a part on a face, middle nodes too.
+    [[nodiscard]] std::vector<Index> nodes_on(std::size_t m, FaceId face) const
+    {
+        const Swept& part = result_.parts[m];
+        std::set<Index> nodes;
+        for (std::size_t i = 0; i < part.mesh.skin_count(); ++i)
+            if (part.faces[index(mesh::skin_quad(part.mesh, i).patch)] == face) {
+                const mesh::CellNodes own = mesh::skin_nodes(part.mesh, i);
+                nodes.insert(own.all().begin(), own.all().end());
+            }
+        return {nodes.begin(), nodes.end()};
     }
 
     /// Add the middle nodes of meshed members before those from the user's files.
@@ -550,10 +740,11 @@ private:
     }
 
     /// The neighbours' nodes onto which a member's face nodes are moved.
-    SettledNodes settle(std::size_t m, const std::vector<Neighbour>& alike, const mesh::SkinNodes& skin,
-                        const std::vector<FaceId>& faces)
+    SettledNodes settle(std::size_t m, const std::vector<Neighbour>& alike, const std::set<FaceId>& fixed,
+                        const mesh::SkinNodes& skin, const std::vector<FaceId>& faces)
     {
         SettledNodes settled;
+        tie_images(m, fixed, skin, faces, settled);
         const double within = kRoundoff * coordinates_of(m);
         for (const Neighbour& n : alike) {
             const mesh::SkinNodes theirs = result_.parts[n.other].skin();
@@ -625,7 +816,7 @@ private:
     void check_kept(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
         const Swept& part = result_.parts[m];
-        for (const auto& [own, other, there] : neighbours) {
+        for (const auto& [own, other, there, onto] : neighbours) {
             const std::vector<Quad> a = quads_of(m, own), b = quads_of(other, there);
             const NamedEntity face_a = entity_in(members_[m], own),
                               face_b = entity_in(members_[other], there);
@@ -652,6 +843,8 @@ private:
     std::vector<std::vector<double>> sag_; ///< for each member: of its faces before ends were split
     std::vector<std::string> notes_;       ///< lines of the report: imprints and near misses
     const RunContext& context_;
+    std::vector<PeriodicFaces> periodic_;
+    double grid_ = 0; ///< of the nodes on periodic faces
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;

@@ -97,9 +97,10 @@ struct SweptAssembly {
     /// Of each part's nodes, the number in the whole mesh, from 0. Parts follow each other; a node that an
     /// earlier part has keeps its number.
     std::vector<mesh::NodeNumbers> numbering;
-    std::size_t nodes = 0;             ///< number of nodes of the whole mesh
-    std::vector<SharedFace> shared;    ///< faces with common quads; `a` and `b` index `parts`
-    std::vector<NearMiss> near_misses; ///< `a` and `b` index `parts`
+    std::size_t nodes = 0;                     ///< number of nodes of the whole mesh
+    std::vector<mesh::PeriodicNodes> periodic; ///< one for each pair of `SweepOptions::periodic`
+    std::vector<SharedFace> shared;            ///< faces with common quads; `a` and `b` index `parts`
+    std::vector<NearMiss> near_misses;         ///< `a` and `b` index `parts`
     /// A line for each shared face and each near miss, and the order of meshing.
     std::vector<std::string> report;
 };
@@ -117,7 +118,13 @@ struct SweptAssembly {
 /// Fixed members become parts unchanged and first: their neighbours keep their quads on shared faces.
 /// A member that cannot be meshed this way is meshed with wedges or left out, as its `fallback` says, and the
 /// assembly is then computed again without it. With `Fallback::mixed` it is then one that is not swept.
-/// @throw NotSweepable  as `sweep()`, the region named; "assembly.layers"  volumes side by side for which
+///
+/// Faces of `SweepOptions::periodic` get the same mesh: the edges around them are one edge in the interval
+/// assignment, a face of another member gets its image's quads, and nodes of two faces of one member are
+/// moved onto each other before the proof, and then fixed. After a translation nodes are equal bit for
+/// bit, unless both are given.
+/// @throw NotSweepable  as `sweep()`, the region named; "sweep.periodic_unlike"  two faces of a member whose
+///         quads are not connected alike; "assembly.layers"  volumes side by side for which
 ///         other numbers of layers are asked; "assembly.layers_differ", "assembly.layers_rows"  boundary
 ///         layers of several volumes that cannot be on one edge, or for which it has too few sides;
 ///         "assembly.round"  volumes each of which lacks a face that the next one has;
@@ -125,8 +132,9 @@ struct SweptAssembly {
 ///         "assembly.hanging_node"  a node of one mesh within a side of another's.
 /// Partially shared faces are split along each other's rims first; the faces of `shared` and of the parts
 /// then belong to the split volumes, whose first faces are the members' own.
-/// @throw InvalidInput  as `shared_faces()` and `sweep()`; "assembly.part_of_face" where a face that is
-///         shared in part keeps its quads, or cannot be split.
+/// @throw InvalidInput  as `shared_faces()` and `sweep()`; "sweep.periodic_faces"  faces that no motion makes
+///         equal; "sweep.periodic_given"  given nodes of such faces that differ; "assembly.part_of_face" where
+///         a face that is shared in part keeps its quads, or cannot be split.
 /// @post  conformal: every quad of a shared face belongs to both volumes, no node of one lies inside a side
 ///        or a quad of another, and each volume is proved as in `sweep()`, its shape against its own sealed
 ///        skin.

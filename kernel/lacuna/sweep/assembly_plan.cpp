@@ -13,6 +13,7 @@
 #include <lacuna/sweep/detail/assembly_plan.h>
 #include <lacuna/sweep/detail/edge_rows.h>
 #include <lacuna/sweep/detail/keep_thickness.h>
+#include <lacuna/sweep/detail/member_edge.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
 #include <lacuna/sweep/detail/volume_share.h>
@@ -36,13 +37,6 @@ using namespace topology;
 
 namespace {
 
-/// Edges of two members are the same if their midpoints differ by no more than this share of their length,
-/// besides matching ends: facets of different fineness have slightly different midpoints.
-constexpr double kSameMiddle = 1e-2;
-/// Mean points of a closed curve, computed from two sets of chords, may differ by this share of the chords'
-/// sag. A higher value merges different curves, a lower one separates equal curves with different chords. Not
-/// measured.
-constexpr double kSameCentre = 0.2;
 /// Maximum number of nodes on edges of all members: with more, memory runs out before anything is meshed.
 constexpr double kMostNodes = 2e7;
 /// A rim segment does not include edges that it covers by less than this share of its length.
@@ -51,32 +45,23 @@ constexpr double kInset = 1e-3;
 /// fewer.
 constexpr int kRounds = 64;
 
-/// An edge of a member.
-struct MemberEdge {
-    std::size_t member = 0;
-    EdgeId edge;
-    double length = 0;
-    Vec3 from = Vec3::Zero(), middle = Vec3::Zero(), to = Vec3::Zero();
-    Vec3 centre = Vec3::Zero(); ///< mean point of it
-    double sag = 0;             ///< maximum distance of the curve from its chain of points
-    Eigen::AlignedBox3d box;
-    bool closed = false;
-};
-
 class Planner {
 public:
     Planner(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
-            std::span<const std::pair<std::size_t, FaceId>> beside, const RunContext& context)
-        : members_(members), shared_(shared), context_(context), levels_(members, shared)
+            std::span<const std::pair<std::size_t, FaceId>> beside, std::span<const PeriodicFaces> periodic,
+            const RunContext& context)
+        : members_(members), shared_(shared), periodic_(periodic), context_(context), levels_(members, shared)
     {
         for (std::size_t m = 0; m < members.size(); ++m) {
             const Model& model = members[m].volume->model;
             first_.push_back(edges_.size());
-            for (std::size_t e = 0; e < model.edges.size(); ++e) edges_.push_back(read(m, EdgeId(e)));
+            for (std::size_t e = 0; e < model.edges.size(); ++e)
+                edges_.push_back(member_edge(model, m, EdgeId(e)));
         }
         first_.push_back(edges_.size());
         layers_.assign(members.size(), 1);
         for (const AssemblyMember& member : members) per_turn_.push_back(member.options.curvature);
+        if (!periodic.empty()) grid_ = grid_of(members);
         for (const auto& [m, face] : beside)
             for (const Loop& loop : border_loops(model(m), face))
                 for (const EdgeUse& use : loop.uses) beside_.insert(number(m, use.edge));
@@ -85,6 +70,7 @@ public:
     AssemblyPlan run()
     {
         find_same();
+        join_periodic();
         find_cusps();
         classes_ = same_;
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -119,40 +105,9 @@ private:
     [[nodiscard]] const Model& model(std::size_t m) const { return members_[m].volume->model; }
     [[nodiscard]] std::size_t number(std::size_t m, EdgeId edge) const { return first_[m] + edge.index(); }
 
-    [[nodiscard]] MemberEdge read(std::size_t m, EdgeId id) const
-    {
-        const Edge& edge = model(m)[id];
-        const std::vector<Vec3> line = surface::edge_line(model(m), id);
-        MemberEdge result;
-        for (const Vec3& p : line) result.box.extend(p);
-        const std::vector<double> arc = geometry::arc_lengths(line);
-        result.member = m;
-        result.edge = id;
-        result.length = arc.back();
-        result.from = line.front();
-        result.to = line.back();
-        result.middle = geometry::point_at(line, arc, arc.back() / 2);
-        result.sag = geometry::sag(line);
-        for (std::size_t i = 0; i + 1 < line.size(); ++i)
-            result.centre += (arc[i + 1] - arc[i]) / arc.back() * (line[i] + line[i + 1]) / 2;
-        result.closed = edge.points.front() == edge.points.back();
-        return result;
-    }
-
     [[nodiscard]] bool is_same(const MemberEdge& a, const MemberEdge& b) const
     {
-        const double tolerance = std::max(model(a.member).tolerance, model(b.member).tolerance);
-        const double slack = tolerance + kSameMiddle * a.length;
-        if (a.closed != b.closed || std::abs(a.length - b.length) > slack) return false;
-        if (a.closed) {
-            // Chords of the same curve differ by at most their sag, and their mean points hardly at all.
-            const double off = tolerance + 2 * std::max(a.sag, b.sag);
-            return (a.box.min() - b.box.min()).norm() <= off && (a.box.max() - b.box.max()).norm() <= off &&
-                   (a.centre - b.centre).norm() <= tolerance + kSameCentre * std::max(a.sag, b.sag);
-        }
-        const bool along = (a.from - b.from).norm() <= tolerance && (a.to - b.to).norm() <= tolerance;
-        const bool back = (a.from - b.to).norm() <= tolerance && (a.to - b.from).norm() <= tolerance;
-        return (along || back) && (a.middle - b.middle).norm() <= slack;
+        return sweep::is_same(a, b, std::max(model(a.member).tolerance, model(b.member).tolerance));
     }
 
     /// Find the same edge in several members.
@@ -197,6 +152,107 @@ private:
             same_.unite(std::min(a, b), std::max(a, b));
             common_[a] = common_[b] = true;
         }
+    }
+
+    /// Make edges of periodic faces one edge with their images, whose place and nodes are those of the first.
+    void join_periodic()
+    {
+        std::map<std::size_t, std::vector<std::pair<std::size_t, Eigen::Isometry3d>>> images; // onto the key
+        for (const PeriodicFaces& pair : periodic_)
+            for (const auto& [own, image] : pair.edges) {
+                const std::size_t a = same_.find(number(pair.a, own)), b = same_.find(number(pair.b, image));
+                images[a].emplace_back(b, pair.onto.inverse());
+                images[b].emplace_back(a, pair.onto);
+            }
+        std::map<std::size_t, Eigen::Isometry3d> home;
+        std::vector<std::pair<std::size_t, std::size_t>> joined;
+        for (const auto& [first, ignored] : images) {
+            if (!home.emplace(first, Eigen::Isometry3d::Identity()).second) continue;
+            for (std::vector<std::size_t> left{first}; !left.empty();) {
+                const std::size_t at = left.back();
+                left.pop_back();
+                for (const auto& [next, onto] : images.at(at)) {
+                    if (!home.emplace(next, home.at(at) * onto).second) continue;
+                    left.push_back(next);
+                    joined.emplace_back(first, next);
+                }
+            }
+        }
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            const auto found = home.find(same_.find(e));
+            if (found == home.end()) continue;
+            edges_[e].home = found->second;
+            common_[e] = true;
+        }
+        for (const auto& [first, next] : joined) same_.unite(first, next);
+        for (const auto& [first, ignored] : home) tied_.insert(same_.find(first));
+    }
+
+    /// Tie the vertices of periodic faces, once for all pairs: those of given meshes stay.
+    void tie_corners()
+    {
+        if (periodic_.empty()) return;
+        std::vector<Vec3> places;
+        std::vector<char> fixed;
+        std::vector<Tie> ties;
+        const auto corner = [&](const Vec3& p, double tolerance) {
+            const auto found = std::ranges::find_if(
+                places, [&](const Vec3& other) { return (other - p).norm() <= tolerance; });
+            if (found != places.end()) return static_cast<std::size_t>(found - places.begin());
+            places.push_back(p);
+            fixed.push_back(0);
+            return places.size() - 1;
+        };
+        for (const PeriodicFaces& pair : periodic_)
+            for (const auto& [own, image] : pair.edges) {
+                const MemberEdge &a = edges_[number(pair.a, own)], &b = edges_[number(pair.b, image)];
+                if (a.closed) continue;
+                const bool along = (pair.onto * a.from - b.from).norm() <= (pair.onto * a.from - b.to).norm();
+                const double within = model(pair.a).tolerance, there = model(pair.b).tolerance;
+                for (const bool first : {true, false})
+                    ties.push_back({corner(first ? a.from : a.to, within),
+                                    corner(first == along ? b.from : b.to, there), &pair.onto});
+            }
+        for (std::size_t e = 0; e < edges_.size(); ++e)
+            for (const Vec3& end : {edges_[e].from, edges_[e].to})
+                if (kept_[e] != Kept::no) {
+                    const std::size_t c = corner(end, model(edges_[e].member).tolerance);
+                    fixed[c] = 1;
+                }
+        tie_points(places, fixed, ties, grid_);
+        corners_ = std::move(places);
+    }
+
+    /// Nodes of an edge moved onto the first of its images, or back.
+    [[nodiscard]] std::vector<Vec3> at_home(std::vector<Vec3> nodes, std::size_t e) const
+    {
+        if (!tied_.contains(same_.find(e))) return nodes;
+        for (Vec3& p : nodes) p = edges_[e].home * p;
+        if (kept_[e] == Kept::no)
+            for (Vec3& p : nodes) p = on_grid(p, grid_);
+        return nodes;
+    }
+    [[nodiscard]] std::vector<Vec3> from_home(std::vector<Vec3> nodes, std::size_t e) const
+    {
+        if (!tied_.contains(same_.find(e))) return nodes;
+        const Eigen::Isometry3d back = edges_[e].home.inverse();
+        for (Vec3& p : nodes) p = back * p;
+        if (kept_[e] == Kept::no) return nodes;
+        const MemberEdge& edge = edges_[e];
+        std::vector<Vec3> given = surface::edge_line(model(edge.member), edge.edge);
+        if (!edge.closed && (nodes.front() - edge.from).norm() > (nodes.back() - edge.from).norm())
+            std::ranges::reverse(nodes);
+        double off = given.size() == nodes.size() ? 0 : edge.length;
+        for (std::size_t i = 0; i < nodes.size() && off < edge.length; ++i)
+            off = std::max(off, (nodes[i] - given[i]).norm());
+        if (off <= model(edge.member).tolerance) return given;
+        if (kept_[e] == Kept::rim) return nodes;
+        const AssemblyMember& member = members_[edge.member];
+        throw InvalidInput(Message("sweep.periodic_given",
+                                   "periodic: {} of {} has {} given nodes where its image has {} others, and "
+                                   "given nodes do not move",
+                                   entity_in(member, edge.edge), member.region, given.size(), nodes.size())
+                               .remedy("load one of them with keep_mesh = false"));
     }
 
     /// Find corners of ends whose two edges leave them along one tangent, such as an arc and the line that
@@ -510,7 +566,8 @@ private:
     /// Whether the same edge has the same direction in two members.
     static bool run_alike(const MemberEdge& a, const MemberEdge& b)
     {
-        return (a.from - b.from).norm() <= (a.from - b.to).norm();
+        const Vec3 from = a.home * a.from;
+        return (from - b.home * b.from).norm() <= (from - b.home * b.to).norm();
     }
     /// Whether a member's edge has the direction of the edge that represents it.
     [[nodiscard]] bool runs_along(std::size_t e) const { return run_alike(edges_[e], edges_[same_.find(e)]); }
@@ -775,6 +832,7 @@ private:
     AssemblyPlan nodes_and_layers()
     {
         AssemblyPlan plan;
+        tie_corners();
         double all = 0;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             if (common_[e]) all += count_.at(classes_.find(e));
@@ -795,9 +853,12 @@ private:
             const bool gives_way = kept_[e] == Kept::rim && sides_of(e) != count_.at(classes_.find(e));
             if (!(common_[e] || gives_way) || !on_frame[e]) continue;
             auto found = nodes.find(same_.find(e));
-            if (found == nodes.end())
-                found = nodes.emplace(same_.find(e), places(exact_one(e), count_.at(classes_.find(e)))).first;
-            std::vector<Vec3> own = found->second;
+            if (found == nodes.end()) {
+                const std::size_t one = exact_one(e);
+                std::vector<Vec3> made = at_home(places(one, count_.at(classes_.find(e))), one);
+                found = nodes.emplace(same_.find(e), std::move(made)).first;
+            }
+            std::vector<Vec3> own = from_home(found->second, e);
             turn(own, edges_[e]);
             if (!edges_[e].closed) {
                 own.front() = corner_at(own.front(), model(edges_[e].member).tolerance);
@@ -853,11 +914,12 @@ private:
                         if (share >= ends[u] && share <= ends[u + 1])
                             own.push_back((share - ends[u]) / (ends[u + 1] - ends[u]));
                     if (line[u].reversed) reverse_heights(own);
-                    found->second = surface::edge_points(model(m), line[u].edge, own);
-                    for (Vec3* end : {&found->second.front(), &found->second.back()})
+                    std::vector<Vec3> made = surface::edge_points(model(m), line[u].edge, own);
+                    for (Vec3* end : {&made.front(), &made.back()})
                         *end = corner_at(*end, model(m).tolerance);
+                    found->second = at_home(std::move(made), number(m, line[u].edge));
                 }
-                std::vector<Vec3> own = found->second;
+                std::vector<Vec3> own = from_home(found->second, number(m, line[u].edge));
                 turn(own, edge);
                 plan.nodes[m].push_back({line[u].edge, std::move(own)});
             }
@@ -938,6 +1000,7 @@ private:
 
     std::span<const AssemblyMember> members_;
     std::span<const SharedFace> shared_;
+    std::span<const PeriodicFaces> periodic_;
     const RunContext& context_;
     std::vector<std::size_t> first_; ///< index of each member's first edge
     std::vector<MemberEdge> edges_;  ///< edges of all members
@@ -952,6 +1015,8 @@ private:
     std::vector<bool> common_;                    ///< for each edge: other members have it too
     /// For each set of same edges: least length of the first side at both ends [model length].
     std::map<std::size_t, std::array<double, 2>> cusps_;
+    double grid_ = 0;              ///< of nodes on periodic faces
+    std::set<std::size_t> tied_;   ///< sets of same edges that periodic faces have
     std::set<std::size_t> beside_; ///< edges shared with members that are not swept
     /// For each member: side lines of several edges, some of them shared with such members.
     std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
@@ -975,9 +1040,10 @@ private:
 } // namespace
 
 AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
-                           std::span<const std::pair<std::size_t, FaceId>> beside, const RunContext& context)
+                           std::span<const std::pair<std::size_t, FaceId>> beside,
+                           std::span<const PeriodicFaces> periodic, const RunContext& context)
 {
-    return Planner(members, shared, beside, context).run();
+    return Planner(members, shared, beside, periodic, context).run();
 }
 
 } // namespace lacuna::sweep

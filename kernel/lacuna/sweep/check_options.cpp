@@ -140,6 +140,11 @@ void check(const SweepOptions& options, const RunContext& context)
     }
     for (const surface::BoundaryLayer& layer : options.boundary_layers) check(layer);
     for (const surface::Interval& interval : options.intervals) check(interval);
+    if (!options.periodic.empty() && options.fallback == Fallback::mixed)
+        throw InvalidInput(Message("sweep.periodic_mixed",
+                                   "sweep: 'periodic' pairs faces of hexahedra, and fallback = \"mixed\" may "
+                                   "fill their volumes with tetrahedra")
+                               .remedy("use one of them"));
     if (options.rows > 0 && !options.boundary_layers.empty())
         throw InvalidInput(
             Message("sweep.boundary_layers",

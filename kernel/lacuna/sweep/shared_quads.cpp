@@ -10,49 +10,15 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Nodes of some quads, sorted along an oblique line.
-struct NodesOf {
-    QuadsAlone alone;
-    std::vector<Vec3> places;                   ///< for each node
-    std::vector<std::pair<double, Index>> line; ///< position along the line and index of the node, sorted
-
-    NodesOf(const mesh::SkinNodes& skin, std::span<const Quad> quads)
-        : alone(quads_alone({quads.begin(), quads.end()}))
-    {
-        // A direction that mesh rows are unlikely to have.
-        const Vec3 slanted = Vec3(1, 0.6180339887498949, 0.2720196495140690).normalized();
-        for (const Index n : alone.nodes) {
-            line.emplace_back(slanted.dot(skin[n]), static_cast<Index>(places.size()));
-            places.push_back(skin[n]);
-        }
-        std::ranges::sort(line);
-    }
-};
-
-/// For each own node, the other mesh's node in the same place, as list indices; empty if one has none.
-std::vector<Index> same_places(const NodesOf& a, const NodesOf& b, double within)
+/// Places and their positions along an oblique line, sorted.
+std::vector<std::pair<double, Index>> along_line(std::span<const Vec3> places)
 {
-    std::vector<Index> twin(a.places.size(), -1);
-    std::vector<char> used(b.places.size(), 0);
-    std::size_t first = 0;
-    // Includes the rounding of positions along the line.
-    const double slack = within +
-                         1e-15 * std::max(std::abs(a.line.front().first), std::abs(a.line.back().first));
-    for (const auto& [at, place] : a.line) {
-        while (first < b.line.size() && b.line[first].first < at - slack) ++first;
-        const Vec3& p = a.places[index(place)];
-        for (std::size_t i = first; i < b.line.size() && b.line[i].first <= at + slack; ++i) {
-            const Index candidate = b.line[i].second;
-            const Vec3& q = b.places[index(candidate)];
-            const bool same = within > 0 ? (p - q).squaredNorm() <= within * within : p == q;
-            if (!same || used[index(candidate)] != 0) continue;
-            used[index(candidate)] = 1;
-            twin[index(place)] = candidate;
-            break;
-        }
-        if (twin[index(place)] < 0) return {};
-    }
-    return twin;
+    // A direction that mesh rows are unlikely to have.
+    const Vec3 slanted = Vec3(1, 0.6180339887498949, 0.2720196495140690).normalized();
+    std::vector<std::pair<double, Index>> line;
+    for (const Vec3& p : places) line.emplace_back(slanted.dot(p), static_cast<Index>(line.size()));
+    std::ranges::sort(line);
+    return line;
 }
 
 /// Sort the nodes of each quad, and then the quads.
@@ -79,24 +45,60 @@ std::vector<Quad> quads_on(const mesh::HexMesh& mesh, std::span<const FaceId> fa
     return quads;
 }
 
+std::vector<Index> same_places(std::span<const Vec3> a, std::span<const Vec3> b, double within)
+{
+    if (a.size() != b.size() || a.empty()) return {};
+    const std::vector<std::pair<double, Index>> line_a = along_line(a), line_b = along_line(b);
+    std::vector<Index> twin(a.size(), -1);
+    std::vector<char> used(b.size(), 0);
+    std::size_t first = 0;
+    // Includes the rounding of positions along the line.
+    const double slack = within +
+                         1e-15 * std::max(std::abs(line_a.front().first), std::abs(line_a.back().first));
+    for (const auto& [at, place] : line_a) {
+        while (first < line_b.size() && line_b[first].first < at - slack) ++first;
+        const Vec3& p = a[index(place)];
+        for (std::size_t i = first; i < line_b.size() && line_b[i].first <= at + slack; ++i) {
+            const Index candidate = line_b[i].second;
+            const Vec3& q = b[index(candidate)];
+            const bool same = within > 0 ? (p - q).squaredNorm() <= within * within : p == q;
+            if (!same || used[index(candidate)] != 0) continue;
+            used[index(candidate)] = 1;
+            twin[index(place)] = candidate;
+            break;
+        }
+        if (twin[index(place)] < 0) return {};
+    }
+    return twin;
+}
+
+FaceMesh face_mesh(const mesh::SkinNodes& skin, std::span<const Quad> quads)
+{
+    FaceMesh mesh{quads_alone({quads.begin(), quads.end()}), {}};
+    for (const Index n : mesh.nodes) mesh.places.push_back(skin[n]);
+    return mesh;
+}
+
+std::optional<std::vector<NodePair>> same_quads(FaceMesh own, const FaceMesh& other, double within)
+{
+    const std::vector<Index> twin = same_places(own.places, other.places, within);
+    if (twin.empty()) return std::nullopt;
+    for (Quad& quad : own.quads)
+        for (Index& n : quad) n = twin[index(n)];
+    if (sorted(std::move(own.quads)) != sorted(other.quads)) return std::nullopt;
+    std::vector<NodePair> pairs;
+    pairs.reserve(twin.size());
+    for (std::size_t n = 0; n < twin.size(); ++n)
+        pairs.push_back({own.nodes[n], other.nodes[index(twin[n])]});
+    return pairs;
+}
+
 std::optional<std::vector<NodePair>> same_quads(const mesh::SkinNodes& own, std::span<const Quad> own_quads,
                                                 const mesh::SkinNodes& other,
                                                 std::span<const Quad> other_quads, double within)
 {
-    if (own_quads.size() != other_quads.size() || own_quads.empty()) return std::nullopt;
-    NodesOf a(own, own_quads);
-    const NodesOf b(other, other_quads);
-    if (a.places.size() != b.places.size()) return std::nullopt;
-    const std::vector<Index> twin = same_places(a, b, within);
-    if (twin.empty()) return std::nullopt;
-    for (Quad& quad : a.alone.quads)
-        for (Index& n : quad) n = twin[index(n)];
-    if (sorted(std::move(a.alone.quads)) != sorted(b.alone.quads)) return std::nullopt;
-    std::vector<NodePair> pairs;
-    pairs.reserve(twin.size());
-    for (std::size_t n = 0; n < twin.size(); ++n)
-        pairs.push_back({a.alone.nodes[n], b.alone.nodes[index(twin[n])]});
-    return pairs;
+    if (own_quads.size() != other_quads.size()) return std::nullopt;
+    return same_quads(face_mesh(own, own_quads), face_mesh(other, other_quads), within);
 }
 
 QuadsAlone quads_alone(std::vector<Quad> quads)

@@ -118,8 +118,10 @@ struct SweepOptions {
     /// Thin rows of cells along walls and ends; each face is in at most one.
     std::vector<surface::BoundaryLayer> boundary_layers;
     std::vector<surface::Interval> intervals; ///< numbers of sides
-    quads::PlanarQuadMesher quad_mesher;      ///< the mesher of `Quads::gmsh`
-    mesh::TetMesher tet_mesher;               ///< the mesher of `Fallback::mixed`
+    /// Pairs of faces with the same mesh. `sweep_assembly()` makes them, also for a single volume.
+    std::vector<surface::PeriodicPair> periodic;
+    quads::PlanarQuadMesher quad_mesher; ///< the mesher of `Quads::gmsh`
+    mesh::TetMesher tet_mesher;          ///< the mesher of `Fallback::mixed`
     Interior interior = Interior::automatic;
     int order = 1;                   ///< order of the cells: 1 or 2
     SecondOrderOptions second_order; ///< options of order 2

@@ -56,6 +56,9 @@ std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, co
 FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,
                          const sweep::SweepOptions& options, const RunContext& context);
 
+/// Close a volume and sweep it as an assembly of its own: how faces are made periodic.
+Filled sweep_as_assembly(const Volume& volume, const sweep::SweepOptions& options, const RunContext& context);
+
 /// Fill one sealed volume with tetrahedra. @pre it has `no_roles`, and the fallback is `mixed`.
 FilledParts fill_alone(const Member& member, const RunContext& context);
 

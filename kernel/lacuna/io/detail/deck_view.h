@@ -53,8 +53,8 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
 /// @param deck   must outlive the view, as must `parts`.
 /// @param parts  meshes that `deck_without_bulk()` omitted; empty: the deck has all.
 /// @note  O(n) in the elements and the members of sets; O(n log n) if tags have large gaps.
-std::shared_ptr<const mesh::MeshView> view_of(const Deck& deck, const Format& format,
-                                              std::span<const BulkPart> parts = {});
+std::shared_ptr<mesh::MeshView> view_of(const Deck& deck, const Format& format,
+                                        std::span<const BulkPart> parts = {});
 
 /// Divide the view of several swept meshes into parts, as `write_parts()` says.
 /// @param parts  of the view, whose skin elements are numbered after the cells of their mesh.

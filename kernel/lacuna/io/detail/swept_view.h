@@ -60,8 +60,8 @@ void check_skin(const mesh::HexMesh& mesh);
 /// View a mesh as blocks of hexahedra, wedges, skin quads and skin triangles. It has one entity for each
 /// patch, in their order, followed by that of the volume. The arguments must outlive the view.
 /// @throw InvalidInput  as `check_skin()`.
-std::shared_ptr<const mesh::MeshView> view_of(const mesh::HexMesh& mesh, const NodeReader& nodes,
-                                              const std::vector<FieldReader>& fields);
+std::shared_ptr<mesh::MeshView> view_of(const mesh::HexMesh& mesh, const NodeReader& nodes,
+                                        const std::vector<FieldReader>& fields);
 
 /// Assign the cells to parts by ranges of layers. @throw InvalidInput  as `layer_parts()`.
 mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& options);

@@ -3,6 +3,8 @@
 
 #include <lacuna/core/types.h>
 #include <lacuna/mesh/cell_shape.h>
+#include <lacuna/mesh/mesh_part.h>
+#include <lacuna/mesh/shared/orientation.h>
 
 #include <Eigen/Geometry>
 
@@ -188,21 +190,22 @@ struct MeshView {
             }
         }
     };
-    /// One value for each cell.
+    /// One value for each cell, or several.
     struct Field {
         std::string name;
         /// Writes the values of the cells [begin, end) of the block with index `block`.
         std::function<void(std::size_t block, std::size_t begin, std::size_t end, double* out)> values;
+        std::size_t components = 1;
 
-        /// Call `visit(i, value)` for the cells [begin, end) of a block.
+        /// Call `visit(i, value)` for the cells [begin, end) of a block, for each component in turn.
         template <class Visit>
         void each(std::size_t block, std::size_t begin, std::size_t end, const Visit& visit) const
         {
             std::array<double, 1024> room; // 8 kB, which fits into the first-level cache
             while (begin < end) {
-                const std::size_t count = std::min(room.size(), end - begin);
+                const std::size_t count = std::min(room.size() / components, end - begin);
                 values(block, begin, begin + count, room.data());
-                for (std::size_t k = 0; k < count; ++k) visit(begin + k, room[k]);
+                for (std::size_t k = 0; k < count * components; ++k) visit(begin + k / components, room[k]);
                 begin += count;
             }
         }
@@ -238,6 +241,12 @@ struct MeshView {
         std::vector<TextByIndex> cells; ///< by block: fields of a cell's card after its nodes
     };
 
+    /// Nodes that motions move onto each other, and the tags of both sides.
+    struct Periodic {
+        PeriodicNodes nodes;
+        std::array<std::vector<std::int64_t>, 2> tags;
+    };
+
     std::size_t points = 0;
     std::function<void(std::size_t begin, std::size_t end, const TakePoints& take)> each_point;
     Numbers point_tags;
@@ -248,6 +257,9 @@ struct MeshView {
     std::vector<Field> fields;
     /// Named lists of entity numbers or of point indices.
     std::vector<std::pair<std::string, std::vector<int>>> lists;
+    std::vector<Periodic> periodic;
+    /// For each block the directions of its cells, empty for blocks of other cells; null: not requested.
+    std::shared_ptr<const std::vector<std::vector<CellFrame>>> frames;
     std::vector<GroupTag> group_tags; ///< group tags to keep from the source file
     std::vector<Region> regions;      ///< of a deck
     std::vector<Set> sets;            ///< of a deck

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/sweep/assembly.h>
+#include <lacuna/sweep/detail/periodic.h>
 #include <lacuna/topology/shared/give_mesh.h>
 
 #include <cstddef>
@@ -33,8 +34,9 @@ struct AssemblyPlan {
 /// @throw NotSweepable "assembly.layers"  different numbers of layers requested in members whose side lines
 ///        are in one class; "assembly.layers_differ"  different rows of two members that end on one edge;
 ///        "assembly.layers_rows"  more rows on an edge than it has sides. Names them.
+/// @throw InvalidInput "sweep.periodic_given"  given nodes of an edge that differ from those of its image.
 AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
                            std::span<const std::pair<std::size_t, FaceId>> beside = {},
-                           const RunContext& context = {});
+                           std::span<const PeriodicFaces> periodic = {}, const RunContext& context = {});
 
 } // namespace lacuna::sweep

@@ -20,22 +20,31 @@ struct NodePair {
     Index own = -1, other = -1;
 };
 
-/// The pairs of nodes of two meshes' quads on one face, if the quads are equal: each node within a distance
-/// of one of the other's, and a one to one map of the quads. Nothing if they differ.
-///
-/// Nodes are sorted along an oblique line, so that few have similar keys.
-/// @param within  >= 0; 0: bit-identical [model length].
-/// @note  O(n log n) for n quads.
-std::optional<std::vector<NodePair>> same_quads(const mesh::SkinNodes& own, std::span<const Quad> own_quads,
-                                                const mesh::SkinNodes& other,
-                                                std::span<const Quad> other_quads, double within);
-
 /// Quads with their nodes numbered from 0, in the order in which they are met, and those nodes.
 struct QuadsAlone {
     std::vector<Quad> quads;
     std::vector<Index> nodes;
 };
 QuadsAlone quads_alone(std::vector<Quad> quads);
+
+/// The same with the place of each node.
+struct FaceMesh : QuadsAlone {
+    std::vector<Vec3> places;
+};
+FaceMesh face_mesh(const mesh::SkinNodes& skin, std::span<const Quad> quads);
+
+/// For each place of `a` one of `b` within a distance, each used once; empty if there is none for one of
+/// them. Places are sorted along an oblique line, so that few have similar keys.
+/// @param within  >= 0; 0: bit-identical [model length].
+/// @note  O(n log n) for n places.
+std::vector<Index> same_places(std::span<const Vec3> a, std::span<const Vec3> b, double within);
+
+/// The pairs of nodes of two meshes' quads on one face, if the quads are equal: each node within a distance
+/// of one of the other's, as `same_places()`, and a one to one map of the quads. Nothing if they differ.
+std::optional<std::vector<NodePair>> same_quads(FaceMesh own, const FaceMesh& other, double within);
+std::optional<std::vector<NodePair>> same_quads(const mesh::SkinNodes& own, std::span<const Quad> own_quads,
+                                                const mesh::SkinNodes& other,
+                                                std::span<const Quad> other_quads, double within);
 
 /// Sides of the skin's quads between two patches, the lower node first, including those of the source's and
 /// the target's rim. O(skin).

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/io/detail/deck_view.h>
+
+#include <span>
+
+namespace lacuna::io {
+
+/// Add the directions of cells to a view of swept meshes that store their nodes: as `MeshView::frames`, and
+/// with `fields` as fields "column", "axis", "radial" and "tangential" of three values.
+/// @param parts  in the order of the view's cells.
+void add_orientation(std::span<const BulkPart> parts, bool fields, mesh::MeshView& view);
+
+} // namespace lacuna::io

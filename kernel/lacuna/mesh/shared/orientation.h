@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/types.h>
+#include <lacuna/mesh/hex_mesh.h>
+
+#include <array>
+#include <vector>
+
+namespace lacuna::mesh {
+
+/// Directions at the centre of a swept cell, of length 1.
+struct CellFrame {
+    Vec3 column = Vec3::Zero(); ///< along the column of cells, from source to target
+    Vec3 axis = Vec3::Zero();   ///< along the sweep, at the centroid of the section
+    /// From the centroid of the section to the cell, normal to the axis; of a cell at the centroid any.
+    Vec3 radial = Vec3::Zero();
+    Vec3 tangential = Vec3::Zero(); ///< axis × radial
+
+    /// The axes of a material: along the column, radially normal to it, and normal to both.
+    [[nodiscard]] std::array<Vec3, 3> material() const;
+};
+
+/// The directions of all cells, by their numbers.
+///
+/// Where a fit shows that a rigid motion takes a layer to the next, directions are tangents of the screw
+/// between them: exact after straight sweeps, turns and helices. Elsewhere they are chords.
+/// @pre  the mesh stores its nodes. O(nodes).
+std::vector<CellFrame> cell_frames(const HexMesh& mesh);
+
+} // namespace lacuna::mesh

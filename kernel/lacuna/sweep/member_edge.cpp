@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/member_edge.h>
+
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/surface/shared/seeds.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lacuna::sweep {
+
+namespace {
+
+/// Mean points of a closed curve, computed from two sets of chords, may differ by this share of the chords'
+/// sag. A higher value merges different curves, a lower one separates equal curves with different chords. Not
+/// measured.
+constexpr double kSameCentre = 0.2;
+
+} // namespace
+
+MemberEdge member_edge(const topology::Model& model, std::size_t member, EdgeId edge,
+                       const Eigen::Isometry3d& by)
+{
+    std::vector<Vec3> line = surface::edge_line(model, edge);
+    for (Vec3& p : line) p = by * p;
+    MemberEdge result;
+    for (const Vec3& p : line) result.box.extend(p);
+    const std::vector<double> arc = geometry::arc_lengths(line);
+    result.member = member;
+    result.edge = edge;
+    result.length = arc.back();
+    result.from = line.front();
+    result.to = line.back();
+    result.middle = geometry::point_at(line, arc, arc.back() / 2);
+    result.sag = geometry::sag(line);
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        result.centre += (arc[i + 1] - arc[i]) / arc.back() * (line[i] + line[i + 1]) / 2;
+    result.closed = model[edge].points.front() == model[edge].points.back();
+    return result;
+}
+
+bool is_same(const MemberEdge& a, const MemberEdge& b, double tolerance)
+{
+    const double slack = tolerance + kSameMiddle * a.length;
+    if (a.closed != b.closed || std::abs(a.length - b.length) > slack) return false;
+    if (a.closed) {
+        // Chords of the same curve differ by at most their sag, and their mean points hardly at all.
+        const double off = tolerance + 2 * std::max(a.sag, b.sag);
+        return (a.box.min() - b.box.min()).norm() <= off && (a.box.max() - b.box.max()).norm() <= off &&
+               (a.centre - b.centre).norm() <= tolerance + kSameCentre * std::max(a.sag, b.sag);
+    }
+    const bool along = (a.from - b.from).norm() <= tolerance && (a.to - b.to).norm() <= tolerance;
+    const bool back = (a.from - b.to).norm() <= tolerance && (a.to - b.from).norm() <= tolerance;
+    return (along || back) && (a.middle - b.middle).norm() <= slack;
+}
+
+} // namespace lacuna::sweep
