@@ -57,7 +57,7 @@ struct FilledParts {
     std::vector<FilledTets> tets;
     std::vector<SplitInterface> interfaces{}; ///< from `split_interface()`
     std::string unit{};                       ///< as `Volume::unit`
-    bool copied = false; ///< as of `FilledVolume`
+    bool copied = false;                      ///< as of `FilledVolume`
 };
 
 /// A mesh, and the volumes with the roles that they were swept with.

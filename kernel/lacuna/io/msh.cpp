@@ -184,7 +184,11 @@ struct PartEntity {
 class MshFile {
 public:
     MshFile(const View& view, const MeshFileOptions& options, const ViewParts* parts)
-        : view_(view), numbers_{options.binary}, old_(options.version == 2.2), parts_(parts), unit_(options.unit)
+        : view_(view),
+          numbers_{options.binary},
+          old_(options.version == 2.2),
+          parts_(parts),
+          unit_(options.unit)
     {
         rows_ = rows_of(nullptr);
         if (parts != nullptr) part_rows_ = rows_of(parts);
