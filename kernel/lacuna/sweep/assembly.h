@@ -133,8 +133,8 @@ struct SweptAssembly {
 /// Partially shared faces are split along each other's rims first; the faces of `shared` and of the parts
 /// then belong to the split volumes, whose first faces are the members' own.
 /// @throw InvalidInput  as `shared_faces()` and `sweep()`; "sweep.periodic_faces"  faces that no motion makes
-///         equal; "sweep.periodic_given"  given nodes of such faces that differ; "assembly.part_of_face" where
-///         a face that is shared in part keeps its quads, or cannot be split.
+///         equal; "sweep.periodic_given"  given nodes of such faces that differ; "assembly.part_of_face"
+///         where a face that is shared in part keeps its quads, or cannot be split.
 /// @post  conformal: every quad of a shared face belongs to both volumes, no node of one lies inside a side
 ///        or a quad of another, and each volume is proved as in `sweep()`, its shape against its own sealed
 ///        skin.
