@@ -82,7 +82,8 @@ def main():
                 run = subprocess.run([rewrite, folder / name, out, *words], capture_output=True, text=True)
                 assert run.returncode == 0, (name, file, run.stderr)
                 for other in who:
-                    if other not in here:
+                    # meshio reads Exodus by netCDF4.
+                    if other not in here or (file == "a.exo" and not readers.installed("netCDF4")):
                         continue
                     found = READ[other](out, "exodus") if other == "meshio" and file == "a.exo" else READ[other](out)
                     what = f"{name} as {file} by {other}"

@@ -138,7 +138,7 @@ local promised = {
   fill_to = function() prism():open_volume { source = "source", fill_to = {} } end,
   quads = function() return prism().quads end,
   contacts = function() return prism().contacts end,
-  split_interface = function() return lacuna.split_interface.no_such_field end,
+  split_interface = function() return assert(lacuna.split_interface) end,
   auto = function() volume():cut { auto = true } end,
   ['fallback = "mixed"'] = function() volume():sweep { size = 1, fallback = "mixed" } end,
   seconds = function() volume():sweep { size = 1, seconds = 1 } end,

@@ -238,7 +238,7 @@ do
     faces[#faces + 1] = { away(face[1]), away(face[2]), away(face[3]) }
   end
   check.fails(function() solid(faces):open_volume {}:sweep { fallback = "mixed" } end, "cad.skin_open",
-    "open each part by itself, with open_volume{ faces = … }")
+    "open separate parts one by one, with open_volume{ faces = … }")
 end
 
 -- A hole inside a cube: the skin has two parts. The body that fills the hole shares its nodes.
