@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: MIT
 -- The oil in a cast block: two bores that cross, from four sides. Only their walls are given.
 --
--- The four mouths are closed by flat faces. The oil is cut where the bores meet; what cannot be swept there
--- is filled with tetrahedra, with pyramids on the quads that it shares with the hexahedra.
+-- The four mouths are closed by flat faces. The oil is cut where the bores meet, and each piece is swept.
+-- At other sizes a sweep may not fit a piece; it is then filled with tetrahedra and pyramids on shared quads.
 local lacuna = require "lacuna"
 
 local params = lacuna.params {

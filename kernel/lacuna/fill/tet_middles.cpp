@@ -2,6 +2,7 @@
 #include <lacuna/fill/detail/tet_middles.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/quality/shared/second_order.h>
 #include <lacuna/sweep/shared/side_middles.h>
@@ -63,9 +64,8 @@ std::vector<Segment> number_middles(mesh::TetPart& mesh, const RunContext& conte
     middles.of_skin.resize(of_skin);
     std::vector<Segment> sides;
     const auto next = [&](std::size_t i) { return static_cast<Index>(mesh.nodes.size() + i); };
-    constexpr std::size_t kPolled = 65536; // nodes between two looks at the cancel flag: milliseconds
     for (std::size_t low = 0; low < mesh.nodes.size(); ++low) {
-        if (low % kPolled == 0) check_cancelled(context);
+        if (low % kBetweenPolls == 0) check_cancelled(context);
         const auto own = std::span(uses).subspan(start[low], start[low + 1] - start[low]);
         std::ranges::sort(own);
         for (const auto& [high, at] : own) {

@@ -127,17 +127,15 @@ private:
         aligned_.push_back(s);
     }
 
-    /// Up to kNear of some loops, those nearest to loop s, in their order.
+    /// Up to kNearLoops of some loops, those nearest to loop s, in their order.
     [[nodiscard]] std::vector<std::size_t> nearest(std::size_t s, std::vector<std::size_t> loops) const
     {
-        // They fix the motion next to a loop; with all loops the cost of each would grow with their number.
-        constexpr std::size_t kNear = 8;
-        if (loops.size() <= kNear) return loops;
+        if (loops.size() <= kNearLoops) return loops;
         const auto away = [&](std::size_t other) {
             return (problem_.source[other].centroid - problem_.source[s].centroid).squaredNorm();
         };
-        std::ranges::nth_element(loops, loops.begin() + kNear, {}, away);
-        loops.resize(kNear);
+        std::ranges::nth_element(loops, loops.begin() + kNearLoops, {}, away);
+        loops.resize(kNearLoops);
         std::ranges::sort(loops);
         return loops;
     }

@@ -166,9 +166,7 @@ bool Problem::has_hard(std::size_t s) const
 
 PointPairs Problem::led_near(std::size_t s) const
 {
-    // As many as the samples of 8 loops: more than fix a motion, and few enough that a loop's cost does not
-    // grow with the number of loops.
-    constexpr std::size_t kMost = 8 * kSamples;
+    constexpr std::size_t kMost = kNearLoops * kSamples;
     if (led.from.size() <= kMost) return led;
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t p = 0; p < led.from.size(); ++p)

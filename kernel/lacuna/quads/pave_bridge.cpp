@@ -2,11 +2,11 @@
 #include <lacuna/quads/detail/pave_bridge.h>
 
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/quads/detail/loop_sides.h>
 #include <lacuna/quads/detail/pave_cut.h>
 
 #include <deque>
-#include <numeric>
 #include <queue>
 #include <tuple>
 #include <unordered_set>
@@ -28,9 +28,8 @@ std::size_t stride_of(std::size_t n)
 class LoopJoiner {
 public:
     LoopJoiner(PartialMesh& partial, const std::vector<Cycle>& loops)
-        : partial_(partial), loops_(loops), cycles_(loops), tree_(loops.size())
+        : partial_(partial), loops_(loops), cycles_(loops), joined_(loops.size())
     {
-        std::iota(tree_.begin(), tree_.end(), 0);
         for (const Cycle& loop : loops) {
             angles_.push_back(corner_angles(partial.points, loop));
             sides_.emplace_back(partial, loop);
@@ -48,13 +47,12 @@ public:
             }
             const Bridge next = waiting_.top();
             waiting_.pop();
-            if (root(next.a) == root(next.b)) continue;
+            if (joined_.find(next.a) == joined_.find(next.b)) continue;
             if (next.from < 0 || !is_current(next)) {
                 if (const auto found = best_between(next.a, next.b)) waiting_.push(*found);
                 continue;
             }
-            lay(next);
-            --left;
+            if (lay(next)) --left;
         }
         return std::move(cycles_.front());
     }
@@ -94,12 +92,6 @@ private:
         return sides_[a].box().exteriorDistance(sides_[b].box());
     }
 
-    std::size_t root(std::size_t loop)
-    {
-        while (tree_[loop] != loop) loop = tree_[loop] = tree_[tree_[loop]];
-        return loop;
-    }
-
     /// Whether no line that was laid since the bridge was found touches it.
     [[nodiscard]] bool is_current(const Bridge& bridge) const
     {
@@ -120,7 +112,7 @@ private:
     /// The corner of a node in the loop as it is now; empty if the line leaves into none.
     std::optional<Corner> corner_now(std::size_t loop, Index node, const Vec2& along)
     {
-        const Cycle& cycle = cycles_[root(loop)];
+        const Cycle& cycle = cycles_[joined_.find(loop)];
         const std::size_t n = cycle.size();
         for (std::size_t k = 0; k < n; ++k) {
             if (cycle[k] != node) continue;
@@ -187,17 +179,20 @@ private:
         return best;
     }
 
-    void lay(const Bridge& bridge)
+    /// @return  false if the line leaves into no corner of the loops as they are now
+    bool lay(const Bridge& bridge)
     {
         const Vec2 &p = partial_.at(bridge.from), &q = partial_.at(bridge.to);
         const double wanted = (q - p).norm() / local_size(partial_, p, q);
         const auto from = corner_now(bridge.a, bridge.from, q - p),
                    to = corner_now(bridge.b, bridge.to, p - q);
+        if (!from || !to) return false;
         lines_.push_back({bridge.from, bridge.to});
         of_lines_.emplace_back(partial_, lines_.back());
         met_.insert({bridge.from, bridge.to});
         join_cycles(bridge.a, bridge.b,
                     {from->at, to->at, static_cast<std::size_t>(std::max(1L, std::lround(wanted)))});
+        return true;
     }
 
     /// Lay the shortest line between the first loop and another, even if it crosses sides.
@@ -226,20 +221,20 @@ private:
 
     void join_cycles(std::size_t a, std::size_t b, Cut cut)
     {
-        a = root(a), b = root(b);
+        a = joined_.find(a), b = joined_.find(b);
         if (a > b) std::swap(a, b), std::swap(cut.from, cut.to); // the first loop stays the first
         const Cycle &one = cycles_[a], &two = cycles_[b];
         const Cycle line = nodes_along(partial_, one[cut.from], two[cut.to], cut.edges);
         if (cut.edges == 1) partial_.link(line.front(), line.back());
         cycles_[a] = join(one, two, cut, line);
         cycles_[b].clear();
-        tree_[b] = a;
+        joined_.unite(a, b);
     }
 
     PartialMesh& partial_;
     const std::vector<Cycle>& loops_;
-    std::vector<Cycle> cycles_;     ///< joined so far, at their first loops; empty at the others
-    std::vector<std::size_t> tree_; ///< of each loop, one that it was joined to, or itself
+    std::vector<Cycle> cycles_; ///< joined so far, at their first loops; empty at the others
+    geometry::UnionFind joined_;
     std::vector<std::vector<double>> angles_;
     std::vector<LoopSides> sides_;
     std::deque<Cycle> lines_; ///< the ends of each

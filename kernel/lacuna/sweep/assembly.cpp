@@ -454,10 +454,14 @@ private:
                       const std::vector<Neighbour>& images)
     {
         Ingredients of = ingredients(m, neighbours);
-        // At order 2 a part also depends on those that it touches along an edge, else on images of its faces.
+        // A part of order 2 also depends on those that it touches along an edge, and any part on the images
+        // of its periodic faces.
         const bool again = members_[m].options.order > 1 || !periodic_.empty();
         if (!again && made_of_[m] && made_of_[m]->first == of) return;
-        put_away(m);
+        if (again)
+            made_of_[m].reset();
+        else
+            put_away(m);
         std::optional<MadePart> before = again ? std::nullopt : parts_before_.take(of);
         if (before && before->why) throw NotSweepable(*before->why);
         made_of_[m] = {std::move(of), before ? before->number : ++parts_before_.count};

@@ -55,10 +55,12 @@ Index add_point(ModelBuilder& model, FaceId face, Vec3 place, Vec2 uv)
     return static_cast<Index>(model.points.size()) - 1;
 }
 
-/// Insert a point into the chain of the edge that has a side, a seam, on its exact curve if there is one.
-void add_to_seam(ModelBuilder& model, Index a, Index b, double fraction, Index point)
+/// Insert a point into the chain of the face's edge that has a side, a seam, on its exact curve if there is
+/// one.
+void add_to_seam(ModelBuilder& model, FaceId face, Index a, Index b, double fraction, Index point)
 {
-    for (Edge& edge : model.edges) {
+    for (const EdgeUse& use : uses_of(model[face])) {
+        Edge& edge = model[use.edge];
         for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
             if (edge_key(edge.points[i], edge.points[i + 1]) != edge_key(a, b)) continue;
             const double f = edge.points[i] == a ? fraction : 1 - fraction;
@@ -92,7 +94,7 @@ Index add_on_side(ModelBuilder& model, FaceId id, Index a, Index b, double fract
     }
     if (beside < 2) return -1;
     const Index made = add_point(model, id, place, uv);
-    add_to_seam(model, a, b, fraction, made);
+    add_to_seam(model, id, a, b, fraction, made);
     SidePoints sides;
     sides.add(a, b, {made});
     cut_at_sides(model.points, face, sides);

@@ -13,6 +13,9 @@ namespace lacuna::matching {
 /// Sample points of a loop in a fit. Each is tried as the start, so the cost grows with their square; the
 /// best start is refined between samples afterwards.
 inline constexpr std::size_t kSamples = 64;
+/// Loops that fix the motion next to another one, with their samples. With all loops the cost of each would
+/// grow with their number.
+inline constexpr std::size_t kNearLoops = 8;
 
 /// Geometry of a loop for matching.
 struct LoopShape {
