@@ -57,15 +57,21 @@ VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loop
                    sides / static_cast<double>(3 * triangles.size()), face, context);
 }
 
-void add_face(OpenVolume& volume, Closure& closure, const std::vector<Loop>& loops, Role role,
-              const Tools& tools)
+/// Add void faces of one role, each within its loops.
+void add_faces(OpenVolume& volume, Closure& closure, const std::vector<std::vector<Loop>>& faces, Role role,
+               const Tools& tools)
 {
-    const Subject face{"", {{"void face", static_cast<long long>(closure.void_faces.size()) + 1}}};
-    VoidFilling filling = role == Role::target && tools.way.cap == Cap::parallel
-                              ? parallel_cap(volume, loops, face, tools.context)
-                              : fill(volume, loops, tools.bending(), face, tools.context);
-    note(closure, filling.algorithm);
-    closure.void_faces.push_back(add_void_face(volume, std::move(filling), role));
+    std::vector<VoidFilling> fillings;
+    for (const std::vector<Loop>& loops : faces) {
+        const std::size_t before = closure.void_faces.size() + fillings.size();
+        const Subject face{"", {{"void face", static_cast<long long>(before) + 1}}};
+        fillings.push_back(role == Role::target && tools.way.cap == Cap::parallel
+                               ? parallel_cap(volume, loops, face, tools.context)
+                               : fill(volume, loops, tools.bending(), face, tools.context));
+        note(closure, fillings.back().algorithm);
+    }
+    const std::vector<FaceId> made = add_void_faces(volume, std::move(fillings), role);
+    closure.void_faces.insert(closure.void_faces.end(), made.begin(), made.end());
 }
 
 /// Reverse the target if the match pairs its loops against their own direction: without walls between the
@@ -84,8 +90,9 @@ void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 /// Eq. (2): V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi, one wall v-TopoFace per free loop.
 void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
-    for (const Loop& loop : void_loops(volume, closure.void_edges))
-        add_face(volume, closure, {loop}, Role::wall, tools);
+    std::vector<std::vector<Loop>> walls;
+    for (const Loop& loop : void_loops(volume, closure.void_edges)) walls.push_back({loop});
+    add_faces(volume, closure, walls, Role::wall, tools);
     note(closure, "Algorithm 3");
 }
 
@@ -158,6 +165,7 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     note(closure, "Algorithm 10");
     const Model& model = volume.model;
     std::vector<Loop> loops;
+    std::vector<std::vector<Loop>> holes;
     const std::size_t wanted = rims(model, volume.faces(Role::source)).size();
     const std::vector<Rim> open = free_loops(volume);
     for (const Rim& rim : open) {
@@ -170,10 +178,11 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
                                 .remedy("name the wall, or the target; 'along' sweeps a source alone"));
         }
         if (open.size() > wanted && is_hole_of_walls(volume, rim))
-            add_face(volume, closure, {reversed(rim)}, Role::wall, tools);
+            holes.push_back({reversed(rim)});
         else
             loops.push_back(reversed(rim));
     }
+    add_faces(volume, closure, holes, Role::wall, tools);
     if (loops.size() != wanted) {
         throw NotClosed(Message("closure.loop_counts",
                                 "the source has {} loops and the walls leave {} free loops for the target, "
@@ -191,7 +200,7 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
             return;
         }
     }
-    add_face(volume, closure, loops, Role::target, tools);
+    add_faces(volume, closure, {loops}, Role::target, tools);
 }
 
 /// Eq. (5) to (8): the free loops, sorted into two sets, are those of source and target. Departure: a floor
@@ -203,7 +212,7 @@ void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
     for (const Role role : {Role::source, Role::target}) {
         const std::vector<Loop>& end = role == Role::source ? ends.source : ends.target;
         const std::vector<FaceId> floors = floors_round(volume, end);
-        add_face(volume, closure, end, role, tools);
+        add_faces(volume, closure, {end}, role, tools);
         for (const FaceId floor : floors) {
             volume.role[floor.index()] = role;
             closure.notes.push_back(

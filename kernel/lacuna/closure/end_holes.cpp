@@ -40,12 +40,13 @@ std::vector<EndHole> holes_without_walls(const OpenVolume& volume)
 std::vector<FaceId> cover_holes(OpenVolume& volume, const std::vector<EndHole>& holes,
                                 const RunContext& context)
 {
-    std::vector<FaceId> covers;
+    std::vector<VoidFilling> fillings;
     for (const EndHole& hole : holes) {
-        VoidFilling cover = fill(volume, {reversed(hole.rim)}, nullptr,
-                                 {"the cover of a hole of ", {entity_of(volume.model, hole.face)}}, context);
-        covers.push_back(add_void_face(volume, std::move(cover), hole.end));
+        fillings.push_back(fill(volume, {reversed(hole.rim)}, nullptr,
+                                {"the cover of a hole of ", {entity_of(volume.model, hole.face)}}, context));
     }
+    std::vector<FaceId> covers = add_void_faces(volume, std::move(fillings), Role::wall);
+    for (std::size_t i = 0; i < holes.size(); ++i) volume.role[covers[i].index()] = holes[i].end;
     return covers;
 }
 

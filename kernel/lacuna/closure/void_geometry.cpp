@@ -309,17 +309,32 @@ EdgeId add_void_edge_through(Model& model, VertexId from, VertexId to, const std
     return edge;
 }
 
+std::vector<FaceId> add_void_faces(OpenVolume& volume, std::vector<VoidFilling> fillings, Role role)
+{
+    std::vector<FaceId> ids;
+    ModelBuilder model(std::move(volume.model));
+    const auto given = static_cast<Index>(model.points.size());
+    for (VoidFilling& filling : fillings) {
+        const Index shift = static_cast<Index>(model.points.size()) - given;
+        for (Triangle& t : filling.triangles)
+            for (Index& corner : t)
+                if (corner >= given) corner += shift;
+        const FaceId id = ids.emplace_back(model.add_void_face(filling.geometry));
+        model[id].name = std::move(filling.name);
+        model[id].triangles = std::move(filling.triangles);
+        model[id].loops = std::move(filling.loops);
+        model.points.insert(model.points.end(), filling.points.begin(), filling.points.end());
+    }
+    volume.model = std::move(model).finish();
+    volume.role.resize(volume.role.size() + fillings.size(), role);
+    return ids;
+}
+
 FaceId add_void_face(OpenVolume& volume, VoidFilling filling, Role role)
 {
-    ModelBuilder model(std::move(volume.model));
-    const FaceId id = model.add_void_face(filling.geometry);
-    model[id].name = std::move(filling.name);
-    model[id].triangles = std::move(filling.triangles);
-    model[id].loops = std::move(filling.loops);
-    model.points.insert(model.points.end(), filling.points.begin(), filling.points.end());
-    volume.model = std::move(model).finish();
-    volume.role.push_back(role);
-    return id;
+    std::vector<VoidFilling> one;
+    one.push_back(std::move(filling));
+    return add_void_faces(volume, std::move(one), role).front();
 }
 
 } // namespace lacuna::closure

@@ -289,10 +289,18 @@ VertexId ModelBuilder::add_void_vertex(Index point)
     return VertexId(vertices.size() - 1);
 }
 
+template <class Entity>
+int ModelBuilder::VoidTags::take(const std::vector<Entity>& all)
+{
+    for (; counted < all.size(); ++counted)
+        if (all[counted].origin == Origin::made_void) next = std::max(next, all[counted].tag + 1);
+    return next;
+}
+
 EdgeId ModelBuilder::add_void_edge(VertexId from, VertexId to, std::vector<Index> chain)
 {
     Edge edge;
-    edge.tag = next_tag(edges, Origin::made_void);
+    edge.tag = edge_tags_.take(edges);
     edge.origin = Origin::made_void;
     edge.from = from;
     edge.to = to;
@@ -304,7 +312,7 @@ EdgeId ModelBuilder::add_void_edge(VertexId from, VertexId to, std::vector<Index
 FaceId ModelBuilder::add_void_face(Geometry geometry)
 {
     Face face;
-    face.tag = next_tag(faces, Origin::made_void);
+    face.tag = face_tags_.take(faces);
     face.origin = Origin::made_void;
     face.geometry = geometry;
     face.kind = "void";
