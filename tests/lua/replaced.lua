@@ -212,8 +212,8 @@ do
   check.equal(#lacuna.load(out):faces { region = "pid:8", free = true }, 1)
 end
 
--- An equation keeps the nodes of its terms, and none whose number equals the number of terms, a direction or a
--- coefficient.
+-- An equation keeps the nodes of its terms, and none whose number equals the number of terms, a
+-- direction or a coefficient.
 for terms = 2, 5 do
   for _, named in ipairs { false, true } do -- whether the last term is a node of the plug
     local lines = { "*NODE" }
