@@ -72,6 +72,21 @@ local faces = signs:faces()
 signs:open_volume { source = faces[1], target = faces[2], walls = "auto", name = "p > 5 & q < 6" }
   :sweep { size = 0.5, layers = 2 }:write(params.scratch .. "/signs.vtu")
 check.equal(lacuna.check(params.scratch .. "/signs.vtu").hexes, 8)
+
+-- VTK's files are read without groups, and a note names those that are lost, in text and in bytes.
+do
+  local cubes = cube { "f1", "f2", "f3", "f4", "f5", "f6" }
+  local ends = cubes:faces()
+  local mesh = cubes:open_volume { source = ends[1], target = ends[2], walls = "auto", name = "steel" }
+    :sweep { size = 0.5, layers = 2 }
+  for name, options in pairs { ["told.vtu"] = {}, ["told.vtk"] = {}, ["text.vtk"] = { binary = false } } do
+    mesh:write(params.scratch .. "/" .. name, options)
+    check.write(params.scratch .. "/told.lua", ('require("lacuna").load("%s")'):format(name))
+    local code, out, err = check.run(params.lacuna, params.scratch, { "told.lua" })
+    check.equal(code, 0, err)
+    check.that((out .. err):find "note: [^\n]*groups[^\n]*'f1'[^\n]*%.msh", name .. ": " .. out .. err)
+  end
+end
 for _, name in ipairs { "a\nb", "a\0b", 'a"b', "" } do
   check.fails(function() cube { name } end, "name")
 end

@@ -212,6 +212,32 @@ do
   check.equal(#lacuna.load(out):faces { region = "pid:8", free = true }, 1)
 end
 
+-- An equation keeps the nodes of its terms, and none whose number equals the number of terms, a
+-- direction or a coefficient.
+for terms = 2, 5 do
+  for _, named in ipairs { false, true } do -- whether the last term is a node of the plug
+    local lines = { "*NODE" }
+    for n = 0, 11 do
+      local corner = n % 4
+      lines[#lines + 1] = ("%d, %d, %d, %d"):format(n + 1, (corner + 1) // 2 % 2, corner // 2, 2 - n // 4)
+    end
+    lines[#lines + 1] = "*ELEMENT, TYPE=C3D8, ELSET=body\n1, 9, 10, 11, 12, 5, 6, 7, 8\n"
+      .. "*ELEMENT, TYPE=C3D8, ELSET=plug\n2, 5, 6, 7, 8, 1, 2, 3, 4\n*EQUATION"
+    for _, last in ipairs { 8, named and 4 or 9 } do
+      lines[#lines + 1] = "** another\n" .. terms
+      local row = {}
+      for t = 1, terms do
+        row[#row + 1] = ("%d, %d, %d"):format(t == terms and last or 4 + t, 1 + t % 3, t % 2 + 1)
+        if t == terms or #row == 4 then lines[#lines + 1], row = table.concat(row, ", "), {} end
+      end
+    end
+    check.write(params.scratch .. "/tied.inp", table.concat(lines, "\n") .. "\n")
+    local notes = said('lacuna.load("tied.inp", { without = "plug" })')
+    local gone = ("1 elements are left out, and %d nodes"):format(named and 3 or 4)
+    check.that(notes:find(gone, 1, true), gone .. "\n" .. notes)
+  end
+end
+
 -- Refused, by name.
 do
   local path = params.scratch .. "/plug.inp"

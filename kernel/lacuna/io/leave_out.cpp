@@ -105,12 +105,16 @@ private:
     {
         for (const AbaqusCard& card : abaqus_cards(text)) {
             const std::string& word = card.keyword.name;
+            if (word == "EQUATION") {
+                read_equations(card);
+                continue;
+            }
             each_data_line(card, [&](std::string_view line) {
                 std::string_view others = line;
                 const auto first = parse_integer<DeckTag>(next_field(others));
                 if (word == "ELEMENT")
                     use_all(others);
-                else if (word == "MPC" || word == "EQUATION" || word == "KINEMATICCOUPLING")
+                else if (word == "MPC" || word == "KINEMATICCOUPLING")
                     use_all(line);
                 else if (first && (word == "BOUNDARY" || word == "CLOAD" || word == "TEMPERATURE"))
                     name("*" + word, *first, 0);
@@ -118,6 +122,24 @@ private:
                     name("*" + word, 0, *first);
             });
         }
+    }
+
+    /// Each equation is a line with the number of its terms, and lines with a node or set, a direction and a
+    /// coefficient for each term.
+    void read_equations(const AbaqusCard& card) const
+    {
+        int terms = 0; // still to come
+        each_data_line(card, [&](std::string_view line) {
+            if (terms <= 0) {
+                terms = parse_integer<int>(next_field(line)).value_or(0);
+                return;
+            }
+            for (; terms > 0 && !trimmed(line).empty(); --terms) {
+                if (const auto node = parse_integer<DeckTag>(next_field(line))) use(*node);
+                next_field(line);
+                next_field(line);
+            }
+        });
     }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/core/shared/large_pages.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/vtk_cells.h>
 
@@ -195,6 +196,13 @@ void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& curs
             room.tags[k - c] = tag + static_cast<DeckTag>(k - c);
         }
     }
+}
+
+void note_groups(const std::vector<std::string_view>& names, DeckBuilder& into)
+{
+    if (!names.empty())
+        into.warn(formatted("groups of VTK files are not read: {}; an .msh file keeps them",
+                            short_list(names, shown)));
 }
 
 void turn_vtk_wedges(Deck& deck)

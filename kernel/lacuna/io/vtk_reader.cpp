@@ -28,7 +28,12 @@ public:
         cursor_.has_bytes = binary_ = same_word(coding, "BINARY");
         while (cursor_.more()) {
             const std::string_view word = cursor_.word();
-            if (same_word(word, "CELL_DATA") || same_word(word, "POINT_DATA")) break;
+            if (same_word(word, "CELL_DATA") || same_word(word, "POINT_DATA")) {
+                // The first array of files with groups, see `note_groups()`.
+                const std::string_view next = cursor_.rest().substr(0, 64);
+                if (next.find("\nSCALARS entity int") != std::string_view::npos) note_groups(groups_, into_);
+                break;
+            }
             read_section(word);
         }
         if (cells_.types.empty() && !unstructured_.empty())
@@ -161,6 +166,7 @@ private:
             if (components != 0 && tuples > std::numeric_limits<std::uint64_t>::max() / 64 / components)
                 cursor_.fail("expected a smaller array");
             const std::uint64_t count = components * tuples;
+            if (same_word(kind, "int") && components == 1) groups_.push_back(name);
             if (same_word(kind, "string"))
                 for (std::uint64_t i = 0; i < count; ++i) skip_string();
             else
@@ -258,6 +264,7 @@ private:
     DeckBuilder& into_;
     bool binary_ = false;
     VtkCells cells_;
+    std::vector<std::string_view> groups_;   ///< names of fields of whole numbers
     std::vector<std::int64_t> unstructured_; ///< ends of CELLS, until their types are known
     std::vector<Index> unstructured_points_;
 };

@@ -78,9 +78,10 @@ public:
             else if (tag.name == "Piece")
                 pieces_.push_back(
                     {count(tag, "NumberOfPoints"), count(tag, "NumberOfCells"), {}, {}, {}, {}});
-            else if (tag.name == "Points" || tag.name == "Cells")
-                section_ = tag.name;
-            else if (tag.name == "/Points" || tag.name == "/Cells")
+            else if (tag.name == "Points" || tag.name == "Cells" || tag.name == "FieldData" ||
+                     tag.name == "CellData")
+                section_ = tag.empty ? std::string_view() : tag.name;
+            else if (tag.name.starts_with('/') && tag.name.substr(1) == section_)
                 section_ = {};
             else if (tag.name == "DataArray")
                 take_array(tag);
@@ -91,6 +92,7 @@ public:
         }
         if (!headed_) cursor_.fail("expected <VTKFile>, found none");
         for (const Piece& piece : pieces_) read_piece(piece);
+        if (has_entities_) note_groups(groups_, into_);
     }
 
 private:
@@ -195,7 +197,9 @@ private:
             // The text contains no '<'; an inner tag such as <InformationKey> ends it.
             array.text = cursor_.rest().substr(0, cursor_.rest().find('<'));
         }
-        if (section_.empty() || pieces_.empty()) return;
+        if (section_ == "FieldData" && tag["type"] == "Int32") groups_.push_back(tag["Name"]);
+        if (section_ == "CellData" && tag["Name"] == "entity") has_entities_ = true;
+        if ((section_ != "Points" && section_ != "Cells") || pieces_.empty()) return;
         if (array.format == "appended") {
             const auto offset = parse_integer<std::uint64_t>(trimmed(tag["offset"]));
             if (!offset) cursor_.fail("expected an offset, found {}", found(shown(tag["offset"])));
@@ -417,7 +421,9 @@ private:
     std::vector<Piece> pieces_;
     std::string_view section_, appended_;
     const VtkType* header_ = nullptr;
-    std::string_view compressor_; ///< empty: none
+    std::string_view compressor_;          ///< empty: none
+    std::vector<std::string_view> groups_; ///< names of lists of entities
+    bool has_entities_ = false;
     DeckTag cells_ = 0;
     bool headed_ = false, big_ = false, base64_ = false;
 };

@@ -37,6 +37,9 @@ struct VtkCells {
 /// @throw InvalidInput  an unknown point or type, ends that do not increase; `cursor` gives the position.
 void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor);
 
+/// Warn that groups are not read. The writers store them as lists of entities, for the cells' array `entity`.
+void note_groups(const std::vector<std::string_view>& names, DeckBuilder& into);
+
 /// Convert wedges to the order of `mesh::Wedge`. In VTK's own order the triangle 0-1-2 faces away from 3-4-5,
 /// and VTK computes negative volumes otherwise, but Gmsh and meshio write the opposite order. The sum of the
 /// volumes shows which one a file uses.
