@@ -238,6 +238,30 @@ for terms = 2, 5 do
   end
 end
 
+-- The directions of a coupling are no nodes.
+check.write(params.scratch .. "/coupled.inp", [[
+*NODE
+1, 0, 0, 2
+2, 1, 0, 2
+3, 1, 1, 2
+4, 0, 1, 2
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+9, 0, 0, 0
+10, 1, 0, 0
+11, 1, 1, 0
+12, 0, 1, 0
+*ELEMENT, TYPE=C3D8, ELSET=body
+1, 9, 10, 11, 12, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8, ELSET=plug
+2, 5, 6, 7, 8, 1, 2, 3, 4
+*KINEMATIC COUPLING, REF NODE=9
+5, 1, 3
+]])
+check.that(said('lacuna.load("coupled.inp", { without = "plug" })'):find("and 4 nodes", 1, true), "a coupling")
+
 -- Refused, by name.
 do
   local path = params.scratch .. "/plug.inp"

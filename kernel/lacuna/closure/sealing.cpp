@@ -6,7 +6,9 @@
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
+#include <utility>
 
 namespace lacuna::closure {
 
@@ -26,47 +28,52 @@ int shared_points(const Triangle& a, const Triangle& b)
 std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
-    std::vector<FaceId> void_faces = all_faces(model);
-    std::erase_if(void_faces, [&](FaceId face) { return model[face].origin != Origin::made_void; });
-    const std::vector<Triangle> made = facets_of(model, void_faces);
-    if (made.empty()) return std::nullopt;
+    struct Facets {
+        std::vector<Triangle> triangles;
+        std::vector<std::size_t> face;
+    } made, given;
+    const auto collect = [&](Facets& into, bool are_made, const std::function<bool(const Triangle&)>& taken) {
+        for (std::size_t f = 0; f < model.faces.size(); ++f) {
+            if ((model.faces[f].origin == Origin::made_void) != are_made) continue;
+            check_cancelled(context);
+            std::ranges::copy_if(model.faces[f].triangles, std::back_inserter(into.triangles), taken);
+            into.face.resize(into.triangles.size(), f);
+        }
+    };
+    collect(made, true, [](const Triangle&) { return true; });
+    if (made.triangles.empty()) return std::nullopt;
     // Given faces may be finely meshed, so only their facets near void faces are checked.
-    const geometry::FacetTree all_made(model.points, made, context);
-    std::vector<std::vector<Triangle>> facets(model.faces.size());
-    std::vector<geometry::FacetTree> trees(model.faces.size());
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        check_cancelled(context);
-        const Face& face = model.faces[f];
-        const bool given = face.origin != Origin::made_void;
-        std::copy_if(face.triangles.begin(), face.triangles.end(), std::back_inserter(facets[f]),
-                     [&](const Triangle& t) {
-                         Eigen::AlignedBox3d box(model.at(t[0]));
-                         box.extend(model.at(t[1]));
-                         box.extend(model.at(t[2]));
-                         return !given || all_made.may_meet(box);
-                     });
-        trees[f] = geometry::FacetTree(model.points, facets[f], context);
-    }
+    const geometry::FacetTree made_tree(model.points, made.triangles, context);
+    collect(given, false, [&](const Triangle& t) {
+        Eigen::AlignedBox3d box(model.at(t[0]));
+        box.extend(model.at(t[1]));
+        box.extend(model.at(t[2]));
+        return made_tree.may_meet(box);
+    });
     const auto corners = [&](const Triangle& t) {
         return std::array<Vec3, 3>{model.at(t[0]), model.at(t[1]), model.at(t[2])};
     };
-    for (const FaceId void_face : void_faces) {
-        const std::size_t v = void_face.index();
-        for (std::size_t f = 0; f < model.faces.size(); ++f) {
-            if (f == v || (f < v && model.faces[f].origin == Origin::made_void)) continue;
-            const bool clear = trees[v].overlaps(trees[f], [&](Index a, Index b) {
-                check_cancelled(context);
-                const Triangle& mine = facets[v][index(a)];
-                const Triangle& theirs = facets[f][index(b)];
-                // Neighbours along a shared side can only fold onto each other, which the enclosed volume
-                // reveals.
-                if (shared_points(mine, theirs) >= 2) return true;
-                return !geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance);
-            });
-            if (!clear) return FaceCrossing{void_face, FaceId(f)};
-        }
-    }
-    return std::nullopt;
+    std::optional<std::pair<std::size_t, std::size_t>> first; // a void face, and another face
+    const auto visit_with = [&](const Facets& others) {
+        return [&](Index a, Index b) {
+            check_cancelled(context);
+            std::pair pair(made.face[index(a)], others.face[index(b)]);
+            if (pair.first == pair.second) return true;
+            if (&others == &made && pair.first > pair.second) std::swap(pair.first, pair.second);
+            if (first && *first <= pair) return true;
+            const Triangle& mine = made.triangles[index(a)];
+            const Triangle& theirs = others.triangles[index(b)];
+            // Neighbours along a shared side can only fold onto each other, which the enclosed volume reveals.
+            if (shared_points(mine, theirs) < 2 &&
+                geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance))
+                first = pair;
+            return true;
+        };
+    };
+    made_tree.overlaps(made_tree, visit_with(made));
+    made_tree.overlaps(geometry::FacetTree(model.points, given.triangles, context), visit_with(given));
+    if (!first) return std::nullopt;
+    return FaceCrossing{FaceId(first->first), FaceId(first->second)};
 }
 
 double enclosed_volume(const OpenVolume& volume)

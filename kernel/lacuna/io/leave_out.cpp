@@ -114,8 +114,10 @@ private:
                 const auto first = parse_integer<DeckTag>(next_field(others));
                 if (word == "ELEMENT")
                     use_all(others);
-                else if (word == "MPC" || word == "KINEMATICCOUPLING")
+                else if (word == "MPC")
                     use_all(line);
+                else if (first && word == "KINEMATICCOUPLING") // node, first and last direction
+                    use(*first);
                 else if (first && (word == "BOUNDARY" || word == "CLOAD" || word == "TEMPERATURE"))
                     name("*" + word, *first, 0);
                 else if (first && (word == "DLOAD" || word == "FILM" || word == "DFLUX"))
