@@ -77,7 +77,8 @@ long open_offered(const Offered& file, long flags)
     return own_call(SYS_openat, AT_FDCWD, reinterpret_cast<long>(own.data()), O_RDONLY | O_CLOEXEC, 0);
 }
 
-/// Open or inspect a path relative to a folder; for an offered file, its descriptor.
+/// Answer a call that opens or inspects a path. An offered file is answered from its descriptor; other paths
+/// are passed to the kernel, but not opened for writing.
 long answer_at(long number, const std::array<long, 6>& a)
 {
     const auto* path = reinterpret_cast<const char*>(a[1]);

@@ -26,7 +26,7 @@ using namespace topology;
 
 namespace {
 
-/// The sets of the source's edges, for the edges that half a turn makes of them.
+/// The sets of the source's edges, assigned to the images of these edges after half a turn.
 std::map<EdgeId, std::vector<std::string>> sets_above(const SweptSource& swept, const Model& moved)
 {
     std::map<EdgeId, std::vector<std::string>> sets;

@@ -165,7 +165,7 @@ private:
         const std::vector<Vec3> rim = places(model_, mouth.edges);
         const Vec3 centre = geometry::mean_point(rim);
         const Vec3 normal = geometry::newell_vector(rim).normalized();
-        // What leaves along the main body is a change of its section, not a branch.
+        // A mouth that faces along the main body is a change of the body's section, not a branch.
         const std::vector<Vec3>& ends = result_.ends[mouth.host];
         const Vec3 way = ends.back() - ends.front();
         if (ends.size() == 2 && way.cross(normal).norm() < kAlongAxis * way.norm()) return false;
@@ -291,7 +291,7 @@ private:
         return (far - geometry::mean_point(rim)).dot(normal) < 0 ? Vec3(-normal) : normal;
     }
 
-    /// Set the main body's axis: the direction from end to end, normal to the branch.
+    /// Set the main body's axis: the direction from end to end, without its component along the branch.
     void set_axis(const Mouth& mouth)
     {
         centre_ = geometry::mean_point(rim_places(mouth));

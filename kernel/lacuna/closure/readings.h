@@ -19,8 +19,9 @@ struct SealedVolume : Closed {
     matching::Match match;
 };
 
-/// A sealed void and its sweep directions, best first, without the one of its reading. If that separates the
-/// bottom from the walls, there is no other, and the faces of the void are whole.
+/// A sealed void and its other sweep directions, best first; the direction of its reading is not among them.
+/// For a hollow whose reading splits the bottom from the walls, `ways` is empty and the faces of `volume` are
+/// not split.
 struct OtherSweeps : Closed {
     std::vector<topology::RoleCandidate> ways; ///< in faces of `volume`
 };
@@ -49,8 +50,8 @@ struct Reading {
 /// The sealed volume with the roles of its k-th other sweep. @pre k < others.ways.size()
 topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 
-/// The voids that some faces of `model` may enclose when no roles are given, likeliest first; all are about
-/// equally likely.
+/// The voids that some faces of `model` may enclose when no roles are given, likeliest first. Voids that are
+/// clearly less likely than the first are left out.
 ///
 /// Each of topology::role_candidates() is sealed; those that do not seal are dropped. Two are the same void
 /// if their volumes agree and the distance between their void faces is small against their size. Each void is
@@ -62,8 +63,8 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// A hollow without such a candidate, because its bottom blends smoothly into its walls (a hemisphere, a bore
 /// with a round end), is split across the blend; its bottom is the source.
 ///
-/// A tube with a flat annular floor at one of its two ends, such as a counterbore's wall and ledge, has that
-/// floor and the bore's mouth as source.
+/// For a tube with a flat annular floor at one of its two ends, such as a counterbore's wall and ledge, the
+/// source is that floor together with the mouth of the narrower bore.
 ///
 /// If flat faces close the free loops, but not with one face for each loop (a face has a hole, or a loop lies
 /// in two planes), that closing is a further void. A channel that lacks its ends and one wall is closed only

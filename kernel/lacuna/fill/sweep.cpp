@@ -187,8 +187,10 @@ std::string drop_untrue(const FilledParts& mesh, std::vector<closure::StepPiece>
     return dropped;
 }
 
-/// Sweep pieces so that they have the volume of the whole.
-/// @param sized  whether the user asked for their sizes: then a volume that they lose is a note.
+/// Sweep pieces and check that their volume is that of the sealed whole. With `Fallback::mixed`, pieces whose
+/// volume is off are not swept.
+/// @param sized  whether the user requested sizes; if so, the volume is not checked here.
+/// @throw NotSweepable "sweep.volume"  the volume is off.
 FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPiece> pieces,
                               const sweep::SweepOptions& options, bool sized, const RunContext& context)
 {

@@ -56,9 +56,9 @@ struct RoleRequest {
     int reading = 0; ///< number of a found reading, from 1; with `roles`, 1 accepts ambiguous geometry
     std::optional<topology::VolumeClass> override_class;
     bool full_turn = false; ///< the volume makes a full turn: all faces are walls
-    /// Path along which the source is swept; without a target and walls.
+    /// Path along which the source is swept. Only for a volume without a target and walls.
     std::optional<closure::Along> along;
-    /// With `along`: meshes that the model was read from, whose sets of edges become those of the walls.
+    /// With `along`: meshes that the model was read from. Their sets of edges become sets of the walls.
     std::vector<std::shared_ptr<const io::Deck>> decks;
     double scale = 1; ///< model coordinates / coordinates of `decks`
     std::string name; ///< region of its cells

@@ -423,7 +423,8 @@ private:
 
 // --- writing ----------------------------------------------------------------------------------------------
 
-/// Families from the entities of a view and its sets of nodes.
+/// The content of a MED file: each entity of the view becomes a family of cells, and each combination of its
+/// sets of nodes a family of nodes.
 Content content_of(const MeshView& view, const std::string& unit)
 {
     Content content{.unit = unit};

@@ -162,7 +162,8 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     if (problem.hard.empty() && low == all && high == all) return false;
     const std::vector<Alignment> found = rated(problem, &problem.hard, source, target, true, problem.backward,
                                                problem.led_near(s));
-    // Do not split edges because of the user's pairs alone: if they contradict, they are refused.
+    // No alignment satisfies all pairs. Split edges only if the pairs from the walls alone have none either;
+    // pairs of the user that contradict each other or the walls are refused.
     if (found.empty())
         return rated(problem, &problem.walls, source, target, true, problem.backward, {}).empty();
     if (low == all && high == all) return false;

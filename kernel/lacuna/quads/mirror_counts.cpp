@@ -15,8 +15,9 @@
 namespace lacuna::quads {
 namespace {
 
-/// Counts for a part of a region between mirror axes, within the promised range. For few quads, if no grid
-/// fills the part, within the range of a ring.
+/// Numbers of sides for a part of a region between mirror axes: those of a ring, or else those of a straight
+/// grid, within the range of segments. If there are few quads and none fit, the range of a ring's segments is
+/// tried.
 std::optional<Counts> counts_of_part(const PlanarRegion& part, std::span<const int> segment,
                                      std::span<const BoundarySegment> segments, bool few,
                                      const RunContext& context)

@@ -23,11 +23,11 @@ namespace {
 /// Limit of sides tried, and the quality of the worst cell that ends the search: that of `ImproveOptions`
 /// from which a cell of the sweep is good enough.
 constexpr std::size_t kMostSides = 4;
-/// Number of quads of a row, from the boundary on, that are tried as the triangle: how far inside the
-/// triangle may lie.
+/// Number of quads of a row, counted from the boundary, that may become the triangle. It limits how far
+/// inside the triangle may lie.
 constexpr std::size_t kMostSteps = 8;
-/// Rings of neighbours around the closed row whose nodes move, and rounds of moving them; fewer if the mesh
-/// is smoothed later. Further ones improve the worst cell only slightly.
+/// Number of rings of neighbours around the closed row whose nodes are moved, and number of rounds
+/// (`kFewRounds` if the mesh is smoothed later). More of either improve the worst cell only slightly.
 constexpr int kRings = 3;
 constexpr int kRounds = 30, kFewRounds = 3;
 
@@ -179,7 +179,8 @@ struct Window {
     Index middle;                    ///< the added node; the nodes before it are the region's
 };
 
-/// @param divided  its nodes from `middle` on, except `middle`, are no boundary nodes of the mesh any more.
+/// @param divided  the region with nodes added to its boundary. Nodes after `middle` have left the boundary
+///                 of the mesh.
 /// @param middle   the added node; the nodes before it are the region's.
 Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle)
 {

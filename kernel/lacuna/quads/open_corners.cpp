@@ -120,7 +120,7 @@ private:
                 if (other < 0) continue;
                 const Index c = net_.to(QuadNet::after(other)),
                             d = net_.to(QuadNet::after(QuadNet::after(other)));
-                // The outline of both quads: p, v1, (c, d) between a and b, v3.
+                // The outline of both quads is p, v1, v2, v3 with c, d inserted between a and b.
                 if (c == p || d == p) continue;
                 const std::array<Quad, 2> swapped =
                     first ? std::array<Quad, 2>{Quad{p, v1, c, d}, Quad{p, d, v2, v3}}

@@ -212,7 +212,7 @@ private:
             const auto out = static_cast<std::size_t>(std::ranges::find(in, 0) - in.begin());
             if (out == n) {
                 whole_loops_.push_back(loop);
-                // A loop that touches a ray has no part on either side.
+                // A loop that touches a ray without crossing it is not divided by the ray.
                 for (const Index p : loop)
                     if (ray_of(arm(p)) != 0) return false;
                 continue;

@@ -194,13 +194,13 @@ std::vector<int> run_counts(const ClosedLoops& closed)
 /// @return the solutions and their costs; for a part, only those that may still be the cheapest.
 std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, TurnStyle style)
 {
-    // Weights of the number of quads, and of the number of rows, which should be `fitting_rows()`. Chosen on
-    // 40 outlines of the held family (benchmarks/pave/).
+    // Weights of the deviations of the number of quads from the requested one, and of the number of rows from
+    // `fitting_rows()`. Chosen on 40 outlines of the family that `--held` draws (benchmarks/pave/).
     constexpr double kQuads = 0.25, kRows = 1;
     constexpr double kUnlike = 10; // cost of unequal mirrored segments: nearly excludes them. Not measured
-    // kOff: cost of a number of quads outside the promised range; kNearAsked: relative deviation from the
-    // number of quads asked that counts as none; kMany: quads above which holes are not checked. Not
-    // measured.
+    // kOff: cost of a number of quads outside the promised range, and of holes without a place in the grid.
+    // kNearAsked: relative deviation from the requested number of quads at which the search ends. kMany:
+    // requested quads from which the places of holes in a whole region are not checked. Not measured.
     constexpr double kOff = 2, kNearAsked = 0.1, kMany = 2000;
     // Factors on the wanted sides; not measured.
     constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5};

@@ -85,9 +85,9 @@ LACUNA_INLINE void find_corners(const Edges<N>& edges, CellValues<N>& values)
     }
 }
 
-/// Change of edges across the cells: across[r][s] is the edge of direction p at the upper end of q minus that
-/// at the lower end, where p and q are the directions other than r, at end s of r. Zero for
-/// parallel edges of equal length.
+/// Change of edges across the cells. Let p < q be the two directions other than r. Then across[r][s] is the
+/// edge along p at the upper end of q minus the edge along p at the lower end of q, both at end s of r. It is
+/// zero if the two edges are parallel and of equal length.
 template <int N>
 struct Turns {
     alignas(64) double across[3][2][3][N];
@@ -263,7 +263,7 @@ LACUNA_INLINE void evaluate_lanes(const CellBatch<N>& batch, CellValues<N>& valu
 using Batch = CellBatch<kLanes>;
 using Values = CellValues<kLanes>;
 
-/// With the widest vectors of the processor.
+/// Evaluate a batch with the widest vectors of the processor.
 template <Wanted kWanted>
 void evaluate_widest(const Batch& batch, Values& values)
 {

@@ -115,7 +115,9 @@ Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
 
 namespace {
 
-/// Compare a skin with the sealed one. @param mesh  as of compare_face(); @param order  of the cells
+/// Compare a skin with the sealed one.
+/// @param mesh   as in compare_face()
+/// @param order  of the cells
 Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order, const Skin& skin,
                  const std::set<FaceId>& kept, double volume_of_mesh, const FidelityOptions& options,
                  const RunContext& context)

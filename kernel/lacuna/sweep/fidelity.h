@@ -97,8 +97,8 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::TetPart& mesh,
 /// allowed distance. Nothing if no face exceeds it.
 std::optional<Message> misfit(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
 
-/// Coarse chords pass the distance check on faces that turn by a right angle under one side; the total volume
-/// shows them.
+/// Check the total volume. It reveals coarse chords on faces that turn by a right angle over one side, which
+/// pass the distance check.
 /// @throw NotSweepable "sweep.deviation"  the mesh's volume differs from the sealed one by more than a fifth.
 void require_volume(const Fidelity& fidelity, int layers);
 

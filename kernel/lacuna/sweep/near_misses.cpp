@@ -28,7 +28,8 @@ constexpr double kWidest = 5e-3;
 /// Minimum share of the area within four windows that is within one: faces that diverge linearly have a
 /// quarter, faces that curve away from a contact a half.
 constexpr double kStaysNear = 0.6;
-/// An overlap that covers a smaller share of both faces counts only if it is wider than the window.
+/// Minimum share of a face, or of an edge, that is near the other member. A smaller share counts only if the
+/// overlap is wider than the window on average, or longer than `kCorner` windows along an edge.
 constexpr double kPart = 0.05;
 /// Vertices of two rims correspond if their distance is at most this factor times that of the rims: corners
 /// of 30° differ by twice the distance of their sides.

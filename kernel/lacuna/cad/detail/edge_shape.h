@@ -18,7 +18,7 @@ public:
 
     /// Points at shares in [0, 1], counted from `from` to `to` of the edge.
     [[nodiscard]] std::vector<Vec3> at(std::span<const double> shares) const;
-    /// The shares of the model points on the edge.
+    /// The share, in [0, 1], of each model point on the edge.
     [[nodiscard]] const std::vector<double>& shares() const { return shares_; }
     [[nodiscard]] double length() const { return length_; }
     [[nodiscard]] bool is_straight() const { return kind_ == Kind::straight; }

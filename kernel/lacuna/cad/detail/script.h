@@ -30,10 +30,10 @@ struct ScriptContent {
 /// Parse a Gmsh script before it is run: find the files that it includes or merges, which must be names
 /// without a folder, and the commands to remove.
 ///
-/// The sandbox of the CAD process forbids all of this in any case. Parsing gives an error that names the
-/// line, and makes scripts usable that also mesh or write files.
-/// @throw InvalidInput  "cad.script": the script runs programs, ends under a condition, or names a file in
-///                      another folder or by an expression.
+/// The sandbox of the CAD process blocks programs, other files and writing in any case. Parsing first gives
+/// an error that names the line, and lets scripts through that also mesh or write files.
+/// @throw InvalidInput  "cad.script": the script runs programs, ends under a condition, names a file in
+///                      another folder or by an expression, or has no ';' after a command to remove.
 ScriptContent look_through_script(const std::string& path, std::string_view text);
 
 } // namespace lacuna::cad

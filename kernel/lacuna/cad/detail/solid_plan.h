@@ -15,7 +15,8 @@ struct SolidSources {
     std::vector<const CadSource*> order;
     std::vector<cad_protocol::SolidSource> wanted; ///< one for each model
 };
-/// Bring the models into one process: they may be held by several, some of which may have ended.
+/// Load all CAD models of a volume into one process. Until then several processes may hold them, and some of
+/// these may have ended.
 /// @throw BackendError  a file has changed since, or cannot be read. Cancelled.
 SolidSources sources_of(const topology::Model& model, const RunContext& context);
 

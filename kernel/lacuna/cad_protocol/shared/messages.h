@@ -219,9 +219,9 @@ struct ReleaseRequest {
 
 // --- bytes --------------------------------------------------------------------------------------------
 
-/// Check a message, as far as `decode()` does not. Replies come from a process that is not trusted: their
-/// numbers are finite, and their indices in range. Of requests, only what the CAD process does not check
-/// where it uses it.
+/// Check what `decode()` does not check. Replies come from a process that is not trusted, so their numbers
+/// must be finite and their indices in range. Of a request, only those values are checked here that the CAD
+/// process does not check when it uses them.
 /// @throw ProtocolError
 template <class T>
 void check(const T&)

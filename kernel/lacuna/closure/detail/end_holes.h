@@ -26,7 +26,8 @@ std::vector<EndHole> holes_without_walls(const topology::OpenVolume& volume);
 std::vector<FaceId> cover_holes(topology::OpenVolume& volume, const std::vector<EndHole>& holes,
                                 const RunContext& context);
 
-/// Volume enclosed by a volume without a target [model length³]; empty if it cannot be sealed that way.
+/// Volumes enclosed when a volume without a target is closed with its holes covered, and with its holes
+/// extended through [model length³]; empty if that closing fails.
 struct HoleVolumes {
     std::optional<double> covered, through;
 };

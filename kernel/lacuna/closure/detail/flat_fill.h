@@ -34,9 +34,9 @@ std::optional<FlatFilling> fill_all_loops(const topology::Model& model, const st
 /// from the source, or slope by at most 60°, are the target; the others are walls, the risers of a target at
 /// several heights.
 /// @return  empty if every loop is planar and gets a face of its own, if a loop lies on a sphere, a circular
-///          cylinder or a cone, if a loop was split as that of a channel, if a new face is not flat, if the
-///          result is not sealed, or if the target is one connected part with another number of loops than
-///          the source.
+///          cylinder or a cone, if a loop is that of a channel (`FlatFilling::channel`), if a loop of a new
+///          face is not flat, if the result is not sealed, or if the target is one connected part and does
+///          not have as many loops as the source.
 std::optional<FlatFilling> fill_missing_end(const topology::OpenVolume& volume, const RunContext& context);
 
 /// Whether a loop is flat.

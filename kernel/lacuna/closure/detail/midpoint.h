@@ -14,12 +14,13 @@ namespace lacuna::closure {
 /// lines run from the middles of edges to the middles of their faces, and from these to the middle of the
 /// volume.
 ///
-/// Middles start at centroids and are moved on their face, or in space, while the corners of the blocks
-/// become better. Given faces are split along plane sections; void faces between two blocks are bilinear.
-/// A volume whose vertices have other numbers of edges than three, or whose blocks would be folded, is first
-/// divided into cones from its centroid over triangles: its three-sided faces, and the others split from
-/// their vertices to their centroids. Each cone is then divided with the middles of its faces at their
-/// centroids.
+/// Middles start at centroids and are moved on their face, or in space, as long as this improves the corners
+/// of the blocks. Given faces are split along plane sections; void faces between two blocks are bilinear.
+///
+/// If a vertex does not have three edges, or if a block would be folded, the volume is first divided into
+/// cones from its centroid over triangles. Three-sided faces are such triangles; other faces are split into
+/// triangles by lines from their vertices to their centroid. Each cone is then divided, with the middles of
+/// its faces at their centroids.
 /// @param most  number of blocks.
 /// @return  the blocks, whose faces are walls; empty if a face is not bounded by one loop of at least three
 ///          edges between different faces or keeps a mesh, if there would be more blocks, if a line would

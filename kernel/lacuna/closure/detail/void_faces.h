@@ -14,8 +14,9 @@ topology::Loop reversed(const topology::Rim& rim);
 /// at a free half on the source rim, turn at each vertex to the half that leaves it. One loop per void face,
 /// with the face on its left.
 ///
-/// At a vertex with several halves, a void edge comes first after a given one; if that does not decide, the
-/// half with the shortest path back, which keeps the loop four-sided.
+/// At a vertex with several halves, the walk goes from a given edge to a void edge, and from a void edge to a
+/// given one, if it can. If several halves remain, it takes the one with the shortest path back to the start,
+/// which keeps the loop four-sided.
 /// @throw NotClosed  a walk that does not return to its start; names the edge.
 std::vector<topology::Loop> void_loops(const topology::OpenVolume& volume,
                                        const std::vector<EdgeId>& void_edges);

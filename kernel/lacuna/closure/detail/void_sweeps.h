@@ -13,7 +13,8 @@ namespace lacuna::closure {
 /// fewest irregular nodes first, then those with the most even cells.
 std::vector<topology::RoleCandidate> best_sweeps(const topology::Model& skin, const RunContext& context);
 
-/// Of all candidates, including unlikely ones, the first for which `suits` is true and those about as likely.
+/// Search the unlikely candidates too. Return the first one for which `suits` is true, followed by those
+/// about as likely, for which `suits` is not asked; empty if none suits.
 /// @param most  number of candidates that are checked in full
 std::vector<topology::RoleCandidate> less_likely(
     const topology::Model& model, const std::vector<FaceId>& faces, std::size_t most,
@@ -30,7 +31,8 @@ void set_ends(topology::OpenVolume& volume, const topology::Roles& roles);
 std::optional<Reading> read(const topology::Model& model, const std::vector<Void>& likelier, Void& found,
                             const RunContext& context);
 
-/// Record in a reading whether holes of a given face may extend to a missing end.
+/// If a given face has holes that may or may not extend to a missing end, record the face and the ambiguity
+/// in the reading.
 /// @param through  the end that was moved with its holes, if there is one
 /// @param given    the faces of `model` that come first in the sealed volume
 void note_hole(const topology::Model& model, FaceId through, const std::vector<FaceId>& given,

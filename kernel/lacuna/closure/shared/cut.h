@@ -24,8 +24,8 @@ namespace lacuna::closure {
 /// @return  pieces behind the plane first.
 /// @throw NotSweepable "closure.cut_misses"  the plane crosses nothing; names the faces it touches or the
 ///         distance. "closure.cut_apart"  the volume stays connected, such as a ring cut once.
-///         "closure.cut_touches"  the plane runs along faces nearly in it. "closure.cut_gaps"  open ends of
-///         walls that cannot be joined without crossings.
+///         "closure.cut_touches"  the plane runs along faces that nearly lie in it. "closure.cut_gaps"  open
+///         ends of walls that cannot be joined without crossings.
 /// @throw InvalidInput  as `topology::imprint_walks()`.
 /// @note  O(facets log facets).
 std::vector<StepPiece> cut_by_plane(const topology::OpenVolume& volume, const geometry::Plane& plane,

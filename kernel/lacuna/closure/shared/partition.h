@@ -17,16 +17,21 @@ using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 ///
 /// Cut surfaces are those of `cut_planes()`: planes of flat faces beside concave edges, each only as far as
 /// it reaches from these edges into the volume, planes between features, and planes through the axes of
-/// crossing bores. A piece is cut where that leaves the least length of bends, beyond those that one sweep
-/// follows, in pieces without ends to sweep between, and these are cut in turn. Ends are those of
-/// `read_ends()`, or of the directions in which the closed skin can be swept, if `can_sweep` agrees. Cutting
-/// stops where no cut reduces that length, and cuts that do not help any piece are undone. If a piece is left
-/// without ends, the volume is made one piece whose rounds at the rims of its ends are divided where they
-/// are as steep as flat, or cut in steps between all flat faces that face along an axis (`cut_steps()`), or
-/// divided at its middle (`midpoint_blocks()`), or if that is not possible either, each piece without ends
-/// is.
+/// crossing bores.
+///
+/// The best cut of a piece leaves the least length still to cut (`length_to_cut()`) in pieces without ends,
+/// which are then cut in turn. A piece has ends if `read_ends()` finds them, or if its closed skin has a
+/// sweep direction, and `can_sweep` accepts them. Cutting stops where no cut reduces that length. Cuts are
+/// undone if each of the resulting pieces lacks ends and still needs cuts.
+///
+/// If a piece is left without ends, the whole volume is tried in three other ways, in this order:
+/// - as one piece with ends along an axis, the rounds at their rims divided (`split_round_rims()`);
+/// - cut in steps between all faces that face along an axis (`cut_steps()`);
+/// - divided at its middle (`midpoint_blocks()`).
+///
+/// If none of these succeeds, each piece without ends is divided at its own middle where that is possible.
 /// @return  pieces with their ends; those without ends cannot be swept. The volume itself if no cut helps.
-/// @note  At most 200 cuts are tried, and 64 pieces made. O(facets log facets) for each cut.
+/// @note  Cutting stops after 200 trial cuts or at 64 pieces. O(facets log facets) for each cut.
 std::vector<StepPiece> partition(const topology::OpenVolume& volume, const CanSweep& can_sweep,
                                  const RunContext& context = {});
 

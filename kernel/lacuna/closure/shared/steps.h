@@ -23,10 +23,11 @@ struct StepPiece {
 /// Cut a volume whose source, target or both are at several heights into pieces that can be swept.
 ///
 /// Where the walls at a rim of an end lead away from the opposite end, void faces are extruded from the rim
-/// along the sweep to that end, whose faces are split there; first from the source, then from the target.
-/// Rims that end at other walls are cut by the planes of their flat walls; pieces shorter than others have
-/// higher levels. If no face can be extruded, as where one rim lies above another, the planes of all flat
-/// steps cut the volume into layers. If the opposite end is missing, the only open loop is filled to make it.
+/// along the sweep to the opposite end, whose faces are split there. The rims of the source come first, then
+/// those of the target. If a rim ends at other walls, the planes of its flat walls cut the volume instead,
+/// and the shorter pieces get the higher levels. If no face can be extruded, as where one rim lies above
+/// another, the planes of all flat steps cut the volume into layers. A missing opposite end is first made by
+/// filling the only open loop.
 /// The pieces keep the given faces with their tags and share the void faces between them, so that
 /// `sweep::sweep_assembly()` makes one mesh. They are open volumes; the caller classifies, closes and sweeps
 /// each of them.

@@ -9,10 +9,10 @@
 
 namespace lacuna::closure {
 
-/// Make lines across a flat face straight: drop the points inside their edges, and triangulate the parts of
-/// the face anew, without points inside. A mesh with fewer nodes than these points would fold facets.
-/// @param parts  of the face. @param plane  the face's. @param lines  between the parts; their edges are
-///               straight.
+/// Remove the intermediate points of straight lines across a flat face, and triangulate the parts of the face
+/// anew, without interior points. A line with more points than its mesh has nodes would fold facets.
+/// @param parts  of the face. @param plane  the face's. @param lines  between the parts; each of their edges
+///               is straight.
 void straighten_lines(topology::Model& model, const std::vector<FaceId>& parts, const geometry::Plane& plane,
                       const std::vector<std::vector<topology::EdgeUse>>& lines, const RunContext& context);
 

@@ -9,8 +9,9 @@
 
 namespace lacuna::io {
 
-/// The middle node that elements of the deck have between two positions, each of which may have several nodes
-/// of the deck, as a point [the deck's length × scale]; NaN if there is none. O(elements + pairs).
+/// For each pair of positions: the point of the middle node that elements of the deck have between them
+/// [the deck's length × scale]; NaN if there is none. Several nodes of the deck may lie at one position.
+/// O(elements + pairs).
 /// @param tolerance  as in `nodes_at()`
 std::vector<Vec3> middles_between(const Deck& deck, std::span<const Vec3> from, std::span<const Vec3> to,
                                   double tolerance, double scale = 1);

@@ -28,8 +28,8 @@ struct NumberedTets {
 Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedTets> tets, std::size_t nodes,
              MeshDeckOptions options, bool interfaces, const RunContext& context = {});
 
-/// Add cells between nodes that a deck has, which it numbers in order, with a region and a set of them.
-/// @param cells    hexahedra, and wedges as `mesh::is_wedge()` says
+/// Append cells between existing nodes of a deck, in a new region and a new set (Nastran: region only).
+/// @param cells    hexahedra and wedges (`mesh::is_wedge()`), as indices in `Deck::points`
 /// @param element  Abaqus name of the hexahedra: "COH3D8"
 void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region, const std::string& element);
 

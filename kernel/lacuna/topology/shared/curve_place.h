@@ -13,8 +13,8 @@ struct CurvePlace {
     Vec3 place;
 };
 
-/// The place of an edge's exact curve beside a place of one of its chords: their difference is square to the
-/// chord. Two models that get a vertex at one place of a curve get it there exactly, whatever their chords.
+/// The point of an edge's exact curve that lies perpendicular to a chord from a given point of that chord.
+/// Models with different chords thus place a shared vertex at the same point of the exact curve.
 /// @param segment  of the chord. @param fraction  of its length, in [0, 1].
 /// @pre  the edge has a curve and parameters.
 CurvePlace curve_beside(const Model& model, const Edge& edge, std::size_t segment, double fraction);
