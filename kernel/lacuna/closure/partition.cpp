@@ -275,13 +275,15 @@ std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_s
         if (pieces.empty()) pieces = divided_at_middle(volume, kMostPieces, can_sweep, context);
     }
     if (!pieces.empty()) return pieces;
+    std::size_t left = parts.size();
     for (CutPart& part : parts) {
+        const std::size_t others = pieces.size() + --left;
         std::vector<StepPiece> blocks;
         if (!part.has_ends) {
             std::ranges::fill(part.piece.volume.role, Role::wall);
             if (parts.size() > 1)
-                blocks = divided_at_middle(part.piece.volume, kMostPieces - pieces.size(), can_sweep,
-                                           context);
+                blocks = divided_at_middle(part.piece.volume, kMostPieces - std::min(kMostPieces, others),
+                                           can_sweep, context);
         }
         if (blocks.empty()) blocks.push_back(std::move(part.piece));
         std::ranges::move(blocks, std::back_inserter(pieces));
