@@ -260,7 +260,8 @@ check.write(params.scratch .. "/coupled.inp", [[
 *KINEMATIC COUPLING, REF NODE=9
 5, 1, 3
 ]])
-check.that(said('lacuna.load("coupled.inp", { without = "plug" })'):find("and 4 nodes", 1, true), "a coupling")
+local coupled = said 'lacuna.load("coupled.inp", { without = "plug" })'
+check.that(coupled:find("and 4 nodes", 1, true), coupled)
 
 -- Refused, by name.
 do

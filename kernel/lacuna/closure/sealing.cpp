@@ -63,7 +63,8 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
             if (first && *first <= pair) return true;
             const Triangle& mine = made.triangles[index(a)];
             const Triangle& theirs = others.triangles[index(b)];
-            // Neighbours along a shared side can only fold onto each other, which the enclosed volume reveals.
+            // Neighbours along a shared side can only fold onto each other, which the enclosed volume
+            // reveals.
             if (shared_points(mine, theirs) < 2 &&
                 geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance))
                 first = pair;
