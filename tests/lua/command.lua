@@ -268,7 +268,8 @@ for _, ending in ipairs { "msh", "vtu", "vtk", "inp", "bdf", "nas", "dat", "unv"
     local found = json_of { "check", path, "--json" }
     check.equal(field(found, "hexes"), field(good, "hexes"), path)
     check.near(field(found, "volume"), field(good, "volume"), 1e-5 * field(good, "volume"))
-    expect({ "check", path }, 0, { "caled" }, {})
+    local said = ending:match("^vt") and { "note: ", "groups of VTK files are not read" } or {}
+    expect({ "check", path }, 0, { "caled" }, said)
   end
   -- Solids are shown as they are in every format; faces on demand.
   for option, shown in pairs { ["--quiet"] = true, ["--faces"] = false } do
