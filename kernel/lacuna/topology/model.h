@@ -177,16 +177,9 @@ public:
     [[nodiscard]] Model finish() &&;
 
 private:
-    /// The next free tag of void entities of one list, and how many of the list it takes account of.
-    struct VoidTags {
-        int next = 1;
-        std::size_t counted = 0;
-        template <class Entity>
-        int take(const std::vector<Entity>& all);
-    };
-
     Model made_{{std::shared_ptr<const ModelParts>(), this}}; ///< a view of the parts made so far
-    VoidTags edge_tags_, face_tags_;
+    std::pair<int, std::size_t> edge_tag_{1, 0}; ///< next free tag of void edges, edges it takes account of
+    std::pair<int, std::size_t> face_tag_{1, 0};
 };
 
 // --- derived facts --------------------------------------------------------------------------------
