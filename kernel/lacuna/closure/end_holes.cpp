@@ -8,6 +8,7 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace lacuna::closure {
@@ -40,13 +41,17 @@ std::vector<EndHole> holes_without_walls(const OpenVolume& volume)
 std::vector<FaceId> cover_holes(OpenVolume& volume, const std::vector<EndHole>& holes,
                                 const RunContext& context)
 {
-    std::vector<VoidFilling> fillings;
-    for (const EndHole& hole : holes) {
-        fillings.push_back(fill(volume, {reversed(hole.rim)}, nullptr,
-                                {"the cover of a hole of ", {entity_of(volume.model, hole.face)}}, context));
+    std::vector<FaceId> covers;
+    for (const Role end : {Role::source, Role::target}) {
+        std::vector<VoidFilling> fillings;
+        for (const EndHole& hole : holes) {
+            if (hole.end != end) continue;
+            fillings.push_back(fill(volume, {reversed(hole.rim)}, nullptr,
+                                    {"the cover of a hole of ", {entity_of(volume.model, hole.face)}},
+                                    context));
+        }
+        std::ranges::copy(add_void_faces(volume, std::move(fillings), end), std::back_inserter(covers));
     }
-    std::vector<FaceId> covers = add_void_faces(volume, std::move(fillings), Role::wall);
-    for (std::size_t i = 0; i < holes.size(); ++i) volume.role[covers[i].index()] = holes[i].end;
     return covers;
 }
 

@@ -6,7 +6,6 @@
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -32,7 +31,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
         std::vector<Triangle> triangles;
         std::vector<std::size_t> face;
     } made, given;
-    const auto collect = [&](Facets& into, bool are_made, const std::function<bool(const Triangle&)>& taken) {
+    const auto collect = [&](Facets& into, bool are_made, const auto& taken) {
         for (std::size_t f = 0; f < model.faces.size(); ++f) {
             if ((model.faces[f].origin == Origin::made_void) != are_made) continue;
             check_cancelled(context);

@@ -289,21 +289,11 @@ VertexId ModelBuilder::add_void_vertex(Index point)
     return VertexId(vertices.size() - 1);
 }
 
-/// The next free tag of void entities. `known` is the last answer, and how many entities it takes account of.
-template <class Entity>
-static int free_void_tag(const std::vector<Entity>& all, std::pair<int, std::size_t>& known)
-{
-    for (; known.second < all.size(); ++known.second) {
-        const Entity& one = all[known.second];
-        if (one.origin == Origin::made_void) known.first = std::max(known.first, one.tag + 1);
-    }
-    return known.first;
-}
-
 EdgeId ModelBuilder::add_void_edge(VertexId from, VertexId to, std::vector<Index> chain)
 {
     Edge edge;
-    edge.tag = free_void_tag(edges, edge_tag_);
+    edge.tag = edge_tag_ = next_tag(edges, Origin::made_void, std::exchange(tagged_edges_, edges.size()),
+                                    edge_tag_);
     edge.origin = Origin::made_void;
     edge.from = from;
     edge.to = to;
@@ -315,7 +305,8 @@ EdgeId ModelBuilder::add_void_edge(VertexId from, VertexId to, std::vector<Index
 FaceId ModelBuilder::add_void_face(Geometry geometry)
 {
     Face face;
-    face.tag = free_void_tag(faces, face_tag_);
+    face.tag = face_tag_ = next_tag(faces, Origin::made_void, std::exchange(tagged_faces_, faces.size()),
+                                    face_tag_);
     face.origin = Origin::made_void;
     face.geometry = geometry;
     face.kind = "void";

@@ -178,8 +178,8 @@ public:
 
 private:
     Model made_{{std::shared_ptr<const ModelParts>(), this}}; ///< a view of the parts made so far
-    std::pair<int, std::size_t> edge_tag_{1, 0}; ///< next free tag of void edges, edges it takes account of
-    std::pair<int, std::size_t> face_tag_{1, 0};
+    int edge_tag_ = 1, face_tag_ = 1; ///< next free tags of void entities, as far as the lists were searched
+    std::size_t tagged_edges_ = 0, tagged_faces_ = 0;
 };
 
 // --- derived facts --------------------------------------------------------------------------------

@@ -10,12 +10,13 @@
 namespace lacuna::topology {
 
 /// The next free tag of the entities of an origin.
+/// @param first  the entity to start at
+/// @param tag    the next free tag of those before it
 template <class Entity>
-int next_tag(const std::vector<Entity>& all, Origin origin)
+int next_tag(const std::vector<Entity>& all, Origin origin, std::size_t first = 0, int tag = 1)
 {
-    int tag = 1;
-    for (const Entity& one : all)
-        if (one.origin == origin) tag = std::max(tag, one.tag + 1);
+    for (std::size_t i = first; i < all.size(); ++i)
+        if (all[i].origin == origin) tag = std::max(tag, all[i].tag + 1);
     return tag;
 }
 
