@@ -142,6 +142,22 @@ local _, coil = sweep(open(regular(16), { helix = { origin, Z, 3, 5 } }, { 4, 0,
   shapes[4].area / 0.75 * 4 * 10 * pi, 0.03)
 check.that(coil.min_scaled_jacobian > 0.3)
 
+-- Both hands of a helix advance by the pitch; a negative pitch goes back.
+for _, case in ipairs { { 3, 0.25 }, { 3, -0.25 }, { -3, 0.25 }, { -3, -0.25 } } do
+  local pitch, turns = table.unpack(case)
+  local volume = open(regular(4), { helix = { origin, Z, pitch, turns } }, { 4, 0, 0 }, X, Z)
+  local mesh = volume:sweep { size = 0.6 }
+  local x, y, z = 0, 0, 0
+  local row = mesh.nodes // (mesh.layers + 1)
+  for i = mesh.nodes - row + 1, mesh.nodes do
+    local px, py, pz = mesh:node(i)
+    x, y, z = x + px / row, y + py / row, z + pz / row
+  end
+  check.near(x, 0, 1e-12)
+  check.that(y * turns > 0)
+  check.near(z, pitch / 4, 0.2) -- the mean of the section's nodes is near its centroid
+end
+
 -- --- normals and faces -----------------------------------------------------------------------------------
 
 -- A quarter of a cylinder of radius 2 and height 1, and an offset of it.

@@ -513,7 +513,9 @@ struct MotionMaker {
         if (along.turns == 0)
             throw InvalidInput("closure.along_turns", "along: a helix needs 'turns' other than {}", found(0));
         check_axis(swept.source.model, along.point, axis);
-        return distorted(geometry::screw(along.point, axis, along.turns * kFullTurn, along.pitch), centre,
+        // A screw that is turned back goes down: the same helix.
+        const double pitch = along.turns < 0 ? -along.pitch : along.pitch;
+        return distorted(geometry::screw(along.point, axis, along.turns * kFullTurn, pitch), centre,
                          start_of_turn(along.point, axis, centre), by);
     }
     geometry::Motion operator()(const Along::Path& along) const
