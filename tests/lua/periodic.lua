@@ -9,7 +9,8 @@ local function read(path)
   return file:read("a")
 end
 
--- The nodes of an ASCII MSH 2.2 file, and its $Periodic: { affine = 16 numbers, { slave, master }, … } each.
+-- The nodes of an ASCII MSH 2.2 file, its $Periodic: { slave = entity, master = entity, affine = 16 numbers,
+-- { slave, master }, … } each, and its text.
 local function periodic_of(mesh, name)
   local path = params.scratch .. "/" .. name .. ".msh"
   mesh:write(path, { version = 2.2, binary = false })
@@ -24,14 +25,14 @@ local function periodic_of(mesh, name)
     local numbers = {}
     for word in line:gmatch("%S+") do numbers[#numbers + 1] = tonumber(word) end
     if #numbers == 3 then
-      links[#links + 1] = {}
+      links[#links + 1] = { slave = numbers[2], master = numbers[3] }
     elseif #numbers == 16 then
       links[#links].affine = numbers
     elseif #numbers == 2 then
       table.insert(links[#links], numbers)
     end
   end
-  return nodes, links
+  return nodes, links, text
 end
 
 -- The image of a point under an affine map, and whether it is a translation.
@@ -136,6 +137,173 @@ do
       { "left_z1", "right_z1" }, translate = { 0, 0, 1 } } } }
   check.that(mesh:quality().certified)
   check.that(check_pairs(mesh, "boxes", 5, 2) > 100)
+end
+
+-- A unit cube, whose faces in `given` have kept quads: { across, up, bend = how far nodes inside are moved,
+-- rim = how far those of the first row are }.
+local cube_faces = {
+  source = function(s, t) return { s, t, 0 } end, target = function(s, t) return { s, t, 1 } end,
+  wall_1 = function(s, t) return { s, 0, t } end, wall_2 = function(s, t) return { 1, s, t } end,
+  wall_3 = function(s, t) return { s, 1, t } end, wall_4 = function(s, t) return { 0, s, t } end }
+local function given_quads(place, given)
+  local across, up = given[1], given[2]
+  local points, cells = {}, {}
+  for j = 0, up do
+    for i = 0, across do
+      local s, t = i / across, j / up
+      local bend = (given.bend or 0) * s * (1 - s) * t * (1 - t)
+      local rim = (given.rim or 0) * s * (1 - s) * (1 - t)
+      points[#points + 1] = place(s + bend * math.sin(7 * s + 3 * t) + rim, t + bend * math.cos(5 * s - t))
+    end
+  end
+  for j = 0, up - 1 do
+    for i = 1, across do
+      local a = j * (across + 1) + i
+      cells[#cells + 1] = { a, a + 1, a + across + 2, a + across + 1 }
+    end
+  end
+  return points, cells
+end
+local function cube(given)
+  local model = lacuna.model()
+  for _, name in ipairs { "source", "target", "wall_1", "wall_2", "wall_3", "wall_4" } do
+    local place = cube_faces[name]
+    local points, cells = { place(0, 0), place(1, 0), place(1, 1), place(0, 1) }, { { 1, 2, 3 }, { 1, 3, 4 } }
+    if given[name] then points, cells = given_quads(place, given[name]) end
+    model:add_face { name = name, points = points, cells = cells, keep_mesh = given[name] ~= nil }
+  end
+  return model:open_volume { source = "source", target = "target", walls = "auto" }
+end
+
+-- A quad by its nodes, whichever is the first and whichever way round they go.
+local function quad_key(a, b, c, d)
+  local nodes = { a, b, c, d }
+  table.sort(nodes)
+  return table.concat(nodes, " ")
+end
+local function place_key(p) return ("%a,%a,%a"):format(p[1] + 0.0, p[2] + 0.0, p[3] + 0.0) end
+local function quad_of(a, b, c, d)
+  return quad_key(place_key(a), place_key(b), place_key(c), place_key(d))
+end
+
+-- Given quads of one face, or the same ones of both: they stay bit for bit, and the image has them too.
+for _, ends in ipairs { { "source", "target", 4, 3 }, { "wall_1", "wall_3", 3, 4 },
+  { "wall_1", "wall_2", 4, 3 } } do -- the last by a turn about their common edge
+  for _, faces in ipairs { { 1 }, { 2 }, { 1, 2 } } do
+    local given = {}
+    for _, f in ipairs(faces) do given[ends[f]] = { ends[3], ends[4], bend = 0.8 } end
+    -- Between walls that meet, the image of a bent grid runs the other way across: not the same quads.
+    if not (ends[2] == "wall_2" and #faces == 2) then
+      local name = ("given_%s_%s_%d"):format(ends[1], ends[2], #faces == 1 and faces[1] or 12)
+      local mesh = cube(given):sweep { size = 0.5, layers = ends[1] == "source" and 3 or nil,
+        periodic = { { ends[1], ends[2] } } }
+      check.that(mesh:quality().certified)
+      check.equal(check_pairs(mesh, name, 1, 3 ^ 0.5), (ends[3] + 1) * (ends[4] + 1), name)
+      local nodes, links, text = periodic_of(mesh, name)
+      local quads, places = {}, {}
+      for entity, a, b, c, d in text:gmatch("\n%d+ 3 %d+ %d+ (%d+) (%d+) (%d+) (%d+) (%d+)") do
+        a, b, c, d = tonumber(a), tonumber(b), tonumber(c), tonumber(d)
+        entity = tonumber(entity)
+        quads[entity] = quads[entity] or {}
+        table.insert(quads[entity], { a, b, c, d })
+        places[quad_of(nodes[a], nodes[b], nodes[c], nodes[d])] = true
+      end
+      local image, images = {}, {}
+      for _, pair in ipairs(links[1]) do image[pair[2]] = pair[1] end
+      for _, q in ipairs(quads[links[1].slave]) do images[quad_key(q[1], q[2], q[3], q[4])] = true end
+      check.equal(#quads[links[1].slave], ends[3] * ends[4], name)
+      check.equal(#quads[links[1].master], ends[3] * ends[4], name)
+      for _, q in ipairs(quads[links[1].master]) do
+        check.that(images[quad_key(image[q[1]], image[q[2]], image[q[3]], image[q[4]])], name)
+      end
+      for _, f in ipairs(faces) do
+        local points, cells = given_quads(cube_faces[ends[f]], given[ends[f]])
+        for _, c in ipairs(cells) do
+          check.that(places[quad_of(points[c[1]], points[c[2]], points[c[3]], points[c[4]])],
+            name .. ": a given quad is lost")
+        end
+      end
+    end
+  end
+end
+
+-- Given quads that differ inside, in number, or on the rim; quads of one face that the other cannot have.
+do
+  local function fails(given, pair, options, ...)
+    options.periodic = { pair }
+    local message = check.fails(function() cube(given):sweep(options) end, ...)
+    check.that(not message:find("mixed", 1, true), "is refused with 'periodic': " .. message)
+  end
+  local ends, walls = { "source", "target" }, { "wall_1", "wall_3" }
+  fails({ source = { 4, 4, bend = 0.8 }, target = { 4, 4, bend = 0.5 } }, ends, { size = 0.5, layers = 3 },
+    '"source"', '"target"', "keep_mesh = false", "[sweep.periodic_given]")
+  fails({ source = { 4, 4 }, target = { 5, 4 } }, ends, { size = 0.5, layers = 3 }, "5 given nodes",
+    "6 others", "keep_mesh = false", "[sweep.periodic_given]")
+  fails({ wall_1 = { 4, 3, bend = 0.8 }, wall_3 = { 4, 3 } }, walls, { size = 0.5 }, '"wall_1"', '"wall_3"',
+    "[sweep.periodic_given]")
+  fails({ wall_1 = { 4, 3 }, wall_3 = { 4, 4 } }, walls, { size = 0.5 }, "given nodes",
+    "[sweep.periodic_given]")
+  fails({ wall_1 = { 4, 3, rim = 0.2 }, wall_3 = { 4, 3 } }, walls, { size = 0.5 }, "given nodes",
+    "[sweep.periodic_given]")
+  fails({}, { "source", "wall_1" }, { size = 0.2, rows = 2, row_height = 0.05 }, '"source"', '"wall_1"',
+    "[sweep.periodic_unlike]")
+  fails({}, { "source", "wall_1" }, { quads = "paved", size = function(x, y) return 0.1 + 0.3 * (x + y) end },
+    '"source"', '"wall_1"', 'quads = "mapped"', "[sweep.periodic_unlike]")
+end
+
+-- A sector in two members, whose cut sides are one of each: equal under the turn of the whole.
+do
+  local function sector(angle, centre)
+    local model = lacuna.model()
+    local function at(r, k, z)
+      local turn = math.rad(k * angle / 2)
+      return { centre[1] + r * math.cos(turn), centre[2] + r * math.sin(turn), z }
+    end
+    local function face(name, ...)
+      model:add_face { name = name, points = { ... }, cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+    end
+    for k = 0, 2 do face("cut_" .. k, at(1, k, 0), at(2.5, k, 0), at(2.2, k, 1), at(1.2, k, 1)) end
+    for k = 0, 1 do
+      local n = k + 1
+      face("low_" .. n, at(1, k, 0), at(2.5, k, 0), at(2.5, n, 0), at(1, n, 0))
+      face("high_" .. n, at(1.2, k, 1), at(2.2, k, 1), at(2.2, n, 1), at(1.2, n, 1))
+      face("in_" .. n, at(1, k, 0), at(1, n, 0), at(1.2, n, 1), at(1.2, k, 1))
+      face("out_" .. n, at(2.5, k, 0), at(2.5, n, 0), at(2.2, n, 1), at(2.2, k, 1))
+    end
+    local members = {}
+    for n = 1, 2 do
+      members[n] = model:open_volume { name = "part_" .. n, source = "low_" .. n, target = "high_" .. n,
+        walls = { "cut_" .. n - 1, "cut_" .. n, "in_" .. n, "out_" .. n } }
+    end
+    return lacuna.assembly(members)
+  end
+  for _, angle in ipairs { 40, 51.7, 90 } do
+    for _, centre in ipairs { { 0, 0 }, { 37, -12 } } do
+      for order = 1, 2 do
+        local turn = { { centre[1], centre[2], 0 }, { 0, 0, 1 }, angle }
+        local pair = { "cut_0", "cut_2", rotate = order == 2 and turn or nil } -- found or given
+        local mesh = sector(angle, centre):sweep { size = 0.3, order = order, periodic = { pair } }
+        check.that(mesh:quality().certified)
+        local low, high = { math.huge, math.huge, math.huge }, { -math.huge, -math.huge, -math.huge }
+        local nodes, links = periodic_of(mesh, "sector")
+        for _, p in pairs(nodes) do
+          for i = 1, 3 do low[i], high[i] = math.min(low[i], p[i]), math.max(high[i], p[i]) end
+        end
+        local diagonal = ((high[1] - low[1]) ^ 2 + (high[2] - low[2]) ^ 2 + (high[3] - low[3]) ^ 2) ^ 0.5
+        check.that(check_pairs(mesh, "sector", 1, diagonal) >= 20)
+        -- Under the exact turn, from one cut side to the other.
+        local c, s = math.cos(math.rad(angle)), math.sin(math.rad(angle))
+        for _, link in ipairs(links[1]) do
+          local from, to = nodes[link[2]], nodes[link[1]]
+          local x, y = from[1] - centre[1], from[2] - centre[2]
+          check.near(y, 0, 1e-12 * diagonal)
+          check.near(to[1], centre[1] + c * x - s * y, 1e-12 * diagonal)
+          check.near(to[2], centre[2] + s * x + c * y, 1e-12 * diagonal)
+          check.near(to[3], from[3], 1e-12 * diagonal)
+        end
+      end
+    end
+  end
 end
 
 -- What the other formats say: sets in the order of the pairs, equations, a cyclic symmetry.

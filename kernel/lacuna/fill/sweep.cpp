@@ -337,7 +337,9 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
 
 Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& options)
 {
-    if (options.fallback == sweep::Fallback::mixed || !options.tet_mesher) return why;
+    // Faces of tetrahedra cannot be periodic.
+    if (options.fallback == sweep::Fallback::mixed || !options.tet_mesher || !options.periodic.empty())
+        return why;
     return why.remedy("{}try {}fallback = \"mixed\"", why.remedy().empty() ? "" : why.remedy() + ", or ",
                       options.layered ? "sweep with " : "");
 }
