@@ -368,6 +368,102 @@ do
   check.fails(function() mesh:write(base .. ".msh", { orientation = true }) end, "orientation")
 end
 
+-- Directions of cells along helices about a slanted axis: those of the exact curves, and at right angles.
+do
+  local u, v, w = { 2 / 3, -2 / 3, 1 / 3 }, { 1 / 3, 2 / 3, 2 / 3 }, { -2 / 3, -1 / 3, 2 / 3 }
+  local origin = { 5, -3, 2 }
+  local function dot(a, b) return a[1] * b[1] + a[2] * b[2] + a[3] * b[3] end
+  local function cross(a, b)
+    return { a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1] }
+  end
+  local function unit(a)
+    local length = dot(a, a) ^ 0.5
+    return { a[1] / length, a[2] / length, a[3] / length }, length
+  end
+  local function same(found, exact, tolerance)
+    for i = 1, 3 do check.near(found[i], exact[i], tolerance) end
+  end
+  local function numbers(text)
+    local found = {}
+    for word in text:gmatch("%S+") do found[#found + 1] = tonumber(word) end
+    return found
+  end
+
+  local function check_helix(radius, pitch, turns, layers)
+    local model, points = lacuna.model(), {}
+    for k = 1, 4 do
+      local a = math.pi / 2 * k + 0.3
+      local x, z = radius + 0.5 * math.cos(a), 0.5 * math.sin(a)
+      points[k] = {}
+      for i = 1, 3 do points[k][i] = origin[i] + x * u[i] + z * w[i] end
+    end
+    model:add_face { name = "source", points = points, cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+    local mesh = model:open_volume { source = "source",
+      along = { helix = { origin, w, pitch, turns } } }:sweep { size = 0.3, layers = layers }
+    local path = params.scratch .. "/helix.vtk"
+    mesh:write(path, { orientation = true, binary = false })
+    local text = read(path)
+    local nodes = numbers(text:match("POINTS %d+ double\n(.-)\n%u"))
+    local cells = numbers(text:match("\nCELLS %d+ %d+\n(.-)\n%u"))
+    local fields = {}
+    for _, name in ipairs { "column", "axis", "radial", "tangential" } do
+      fields[name] = numbers(text:match("VECTORS " .. name .. " double\n([^%u]*)"))
+    end
+    local function from_axis(p) return { dot(p, u), dot(p, v), dot(p, w) } end
+    local way = turns > 0 and 1 or -1
+    local step = 2 * math.pi * turns / mesh.layers
+    -- The tangent of the helix through a point, which turns one way and rises.
+    local function tangent(p) return (unit { -way * p[2], way * p[1], pitch / (2 * math.pi) }) end
+    local at, cell, checked = 1, 0, 0
+    while at <= #cells do
+      cell = cell + 1
+      if cells[at] == 8 then
+        checked = checked + 1
+        local function direction(name)
+          local f = fields[name]
+          return from_axis { f[3 * cell - 2], f[3 * cell - 1], f[3 * cell] }
+        end
+        local low = { -dot(origin, u), -dot(origin, v), -dot(origin, w) }
+        for k = 1, 4 do
+          local n = 3 * cells[at + k]
+          local p = from_axis { nodes[n + 1], nodes[n + 2], nodes[n + 3] }
+          for i = 1, 3 do low[i] = low[i] + p[i] / 4 end
+        end
+        -- The section was in a half plane through the axis: its angle is that of each of its points.
+        local angle = math.atan(low[2], low[1])
+        local full = math.floor((2 * math.pi * low[3] / pitch * way - angle) / (2 * math.pi) + 0.5)
+        local half = angle + step / 2
+        local r = (low[1] ^ 2 + low[2] ^ 2) ^ 0.5
+        local middle = { r * math.cos(half), r * math.sin(half),
+          low[3] + math.abs(step) / 2 * pitch / (2 * math.pi) }
+        local centre = { radius * math.cos(half), radius * math.sin(half),
+          way * (half + 2 * math.pi * full) * pitch / (2 * math.pi) }
+        local axis = tangent(centre)
+        local arm = { middle[1] - centre[1], middle[2] - centre[2], middle[3] - centre[3] }
+        local along = dot(arm, axis)
+        for i = 1, 3 do arm[i] = arm[i] - along * axis[i] end
+        local radial, length = unit(arm)
+        same(direction "column", tangent(middle), 1e-12)
+        same(direction "axis", axis, 1e-12)
+        check.that(length > 0.05, "a cell at the centroid has any radial direction")
+        same(direction "radial", radial, 1e-12)
+        same(direction "tangential", cross(axis, radial), 1e-12)
+        check.near(dot(direction "column", direction "column"), 1, 1e-12)
+        local own = { direction "axis", direction "radial", direction "tangential" }
+        for i = 1, 3 do
+          for j = 1, 3 do check.near(dot(own[i], own[j]), i == j and 1 or 0, 1e-12) end
+        end
+      end
+      at = at + cells[at] + 1
+    end
+    check.equal(checked, mesh.hexes)
+  end
+  check_helix(2, 3, 1.3, 40)
+  check_helix(2, 3, 1.3, 13)
+  check_helix(4, 1.6, 3.1)
+  check_helix(3, 2, -0.7, 30) -- left-handed
+end
+
 -- What is refused says why.
 do
   local part = lacuna.synthetic.prism { sides = 4, radius = 1, height = 1, taper = 0.8 }
