@@ -68,7 +68,7 @@ std::uint64_t CadSource::handle_in(const std::shared_ptr<Worker>& worker, const 
     if (held_.worker == worker) return held_.handle;
     const Held before = held_;
     held_ = load_again(worker,
-                       Message("cad.file_changed", "{} had to be loaded again for its exact geometry", path_),
+                       Message("cad.file_changed", "{} must be loaded again for its exact geometry", path_),
                        context);
     before.worker->release(before.handle);
     return held_.handle;
@@ -100,8 +100,7 @@ CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Mess
     } catch (const Error& error) {
         trouble = error.message();
     }
-    throw BackendError(Message("cad.file_changed", "{}, and the file could not be read again: {}",
-                               why.parts(), trouble.parts())
+    throw BackendError(Message("cad.file_changed", "{}, and that failed: {}", why.parts(), trouble.parts())
                            .remedy("restore the file, or load the model from it again"));
 }
 

@@ -46,8 +46,8 @@ std::string words_for(const ClosedSkin& skin)
 void check_closed(const ClosedSkin& skin, const std::vector<SkinSide>& sides)
 {
     const auto open = [&](Index at) {
-        throw InvalidInput("cad.skin_open", "{} is open or twisted near {}", words_for(skin),
-                           place_with_digits(skin.points[index(at)], 6));
+        throw InvalidInput("cad.skin_open", "{} is not closed, or its sides are not oriented alike, near {}",
+                           words_for(skin), place_with_digits(skin.points[index(at)], 6));
     };
     std::map<std::pair<Index, Index>, int> balance;
     for (const SkinSide& s : sides) {

@@ -112,7 +112,7 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
         throw NotSweepable(Message("cad.odd_rim",
                                    "a region with {} boundary sides cannot be filled with quads",
                                    found(sides))
-                               .remedy("their number must be even and 4 at least"));
+                               .remedy("change the number with 'intervals': it must be even, and 4 or more"));
     }
     // Gmsh crashes on loops that intersect.
     quads::check(region);

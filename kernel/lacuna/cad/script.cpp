@@ -54,11 +54,9 @@ public:
 private:
     static bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-    [[noreturn]] void refuse(const std::string& what) const
+    [[noreturn]] void refuse(const std::string& what, Format<0> remedy) const
     {
-        throw InvalidInput(
-            Message("cad.script", "{}, line {}: {}", path_, line_, what)
-                .remedy("a script may only make geometry, and include or merge files from its own folder"));
+        throw InvalidInput(Message("cad.script", "{}, line {}: {}", path_, line_, what).remedy(remedy));
     }
     void step()
     {
@@ -102,7 +100,9 @@ private:
         // "Print.Background" is an option, and scripts may set options.
         if (at_ < text_.size() && text_[at_] == '.') return;
         for (const Word& refused : kRefused)
-            if (found == refused.word) refuse(formatted("{} {}", found, refused.does));
+            if (found == refused.word)
+                refuse(formatted("{} {}", found, refused.does),
+                       "remove it: a script may only make geometry, and include files from its own folder");
         const auto is_one_of = [between = formatted(" {} ", found)](std::string_view words) {
             return words.find(between) != std::string_view::npos;
         };
@@ -140,12 +140,14 @@ private:
         if (!leaves) return;
         if (at_ < text_.size()) return content_.skipped.push_back({word, line, from, ++at_});
         line_ = line;
-        refuse(formatted("{} has no ';' at its end", word));
+        refuse(formatted("{} has no ';' at its end", word), "add the ';'");
     }
     /// Remove everything from `from` on: Gmsh does not execute it.
     void end_at(std::size_t from)
     {
-        if (depth_ != 0) refuse("Exit within If, For or a macro ends Gmsh at a place that is not known");
+        if (depth_ != 0)
+            refuse("where Exit within If, For or a macro ends the script is not known",
+                   "move Exit out of the block, or remove it");
         content_.skipped.push_back({"Exit", line_, from, text_.size()});
         at_ = text_.size();
     }
@@ -160,9 +162,11 @@ private:
         std::string name;
         if (at_ < text_.size() && (text_[at_] == '"' || text_[at_] == '\'')) name = quoted();
         if (name.starts_with("./")) name.erase(0, 2);
-        if (name.empty()) refuse(formatted("{} needs the name of a file in quotes", found));
+        if (name.empty())
+            refuse(formatted("{} needs the name of a file in quotes", found), "write the name in quotes");
         if (name.find_first_of("/\\") != std::string::npos || name == "..")
-            refuse(formatted("{} names {}, which is in another folder", found, name));
+            refuse(formatted("{} names {}, which is in another folder", found, name),
+                   "copy that file to the folder of the script");
         content_.files.push_back({name, line});
     }
 

@@ -168,7 +168,7 @@ pid_t spawn(const std::string& program, int socket, int words)
     ::posix_spawn_file_actions_destroy(&files);
     ::posix_spawnattr_destroy(&attributes);
     if (error != 0)
-        throw BackendError("cad.no_worker", "the CAD process {} does not start: {}", program,
+        throw BackendError("cad.no_worker", "the CAD process {} could not be started: {}", program,
                            std::strerror(error));
     return pid;
 }
@@ -358,8 +358,10 @@ void Worker::give_up(const Task& task, const ProtocolError& error)
 std::unique_lock<std::timed_mutex> Worker::enter(const Task& task)
 {
     if (owner_ != ::getpid())
-        throw WorkerGone("cad.worker_ended",
-                         "{}: the CAD process belongs to the process this one was forked from", task.subject);
+        throw WorkerGone(Message("cad.worker_ended",
+                                 "{}: this process was forked, and the CAD process belongs to its parent",
+                                 task.subject)
+                             .remedy("load the CAD file in this process"));
     std::unique_lock lock(busy_, std::defer_lock);
     constexpr auto kTick = std::chrono::milliseconds(50);
     while (!lock.try_lock_for(kTick))

@@ -339,8 +339,8 @@ std::vector<Vec3> unit_offsets(const Model& model)
         Eigen::MatrixXd rows(std::ssize(sums), 3);
         for (std::size_t i = 0; i < sums.size(); ++i)
             rows.row(static_cast<Eigen::Index>(i)) = sums[i].stableNormalized().transpose();
-        // Two unit normals that differ by the crease angle, 30°, have singular values in the ratio
-        // tan 15° = 0.27.
+        // A threshold for pivots: those of two unit normals that differ by the crease angle are 1 and
+        // sin 30° = 0.5.
         constexpr double kDependent = 0.1;
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
         solver.setThreshold(kDependent);

@@ -84,9 +84,9 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
     if (value == VolumeClass::V && options.cap == Cap::flat) return;
     if (value == VolumeClass::V)
         throw InvalidInput(Message("closure.cap_unused",
-                                   "cap = \"parallel\" moves a given end's shape to the "
-                                   "missing one, and both are missing (class V)")
-                               .remedy("use \"flat\", or name the source"));
+                                   "cap = \"parallel\" copies the shape of the given end, but both ends are "
+                                   "missing (class V)")
+                               .remedy("use cap = \"flat\", or name the source"));
     throw InvalidInput(Message("closure.cap_unused",
                                "the option cap shapes a missing end, but {} and {} are both given",
                                entity_of(volume.model, volume.faces(Role::source).front()),

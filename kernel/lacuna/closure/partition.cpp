@@ -137,7 +137,7 @@ public:
         check_cancelled(context_);
         std::vector<CutPart> made;
         if (tried_ < kMostCuts && pieces_ < kMostPieces) made = best_cut(part, tried_, can_sweep_, context_);
-        if (made.empty()) return {std::move(part)};
+        if (made.empty() || pieces_ + made.size() > kMostPieces + 1) return {std::move(part)};
         pieces_ += made.size() - 1;
         std::vector<CutPart> all;
         for (CutPart& own : made) {

@@ -225,8 +225,7 @@ FilledParts split_interface(FilledParts mesh, const InterfaceFaces& faces, const
     const bool is_thin = element.starts_with("COH3D8") || element.starts_with("GK3D8");
     if (!is_thin)
         throw InvalidInput(Message("fill.interface_element",
-                                   "split_interface: element = \"{}\": expected cells that "
-                                   "may have no thickness",
+                                   "split_interface: cells of element = \"{}\" cannot have zero thickness",
                                    found(element))
                                .remedy("use COH3D8 or GK3D8"));
     if (!mesh.interfaces.empty())

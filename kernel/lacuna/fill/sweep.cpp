@@ -211,9 +211,10 @@ FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPie
         }
     }
     if (const double off = off_by(mesh); off > kVolumeNoted)
-        throw NotSweepable("sweep.volume",
-                           "the pieces have {:.2g} % more or less volume than the sealed skin",
-                           found(100 * off));
+        throw NotSweepable(
+            "sweep.volume",
+            "the volume of the pieces' meshes differs by {:.2g} % from that of the sealed skin",
+            found(100 * off));
     return mesh;
 }
 

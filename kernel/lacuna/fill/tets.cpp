@@ -166,8 +166,11 @@ surface::FixedFace cells_on(const FilledTets& mesh, FaceId there, FaceId own)
 FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options, const RunContext& context)
 {
     if (!options.tet_mesher)
-        throw InvalidInput(Message("fill.no_tets", "{}: this host has no mesher for tetrahedra", what.region)
-                               .remedy("set SweepOptions::tet_mesher, to cad::fill_skin for example"));
+        throw InvalidInput(
+            Message("fill.no_tets",
+                    "{}: it must be filled with tetrahedra, and this host gives no mesher for them",
+                    what.region)
+                .remedy("set SweepOptions::tet_mesher, for example to cad::fill_skin"));
     FilledTets tets;
     tets.region = what.region;
     tets.report.push_back(formatted("fallback: filled with tetrahedra, because {}", what.why.text()));

@@ -209,9 +209,10 @@ GrownFace grow_face(const topology::Model& model, const Vec3& near, std::span<co
     for (std::size_t f = 0; f < model.faces.size(); ++f)
         if (model.faces[f].surface)
             throw InvalidInput(
-                "healing.exact_faces",
-                "{} is an exact CAD surface and cannot be split; only faces of facets can be grown",
-                entity_of(model, FaceId(f)));
+                Message("healing.exact_faces",
+                        "{} has an exact CAD surface and cannot be split: only faces of facets can",
+                        entity_of(model, FaceId(f)))
+                    .remedy("select it as it is"));
     Grower grower(model, options.angle);
     const std::vector<bool> grown = grower.grow(near, among, context);
     const Index seed = grower.seed_face();

@@ -166,11 +166,12 @@ public:
         if (const DeckShape shape = parts_.cells()[0].shape;
             (shape == DeckShape::hex27 || shape == DeckShape::pyramid14) &&
             !format_of(options_.format).has_hex27)
-            throw InvalidInput(Message("io.no_such_element", "{} has no hexahedron of 27 nodes{}",
-                                       format_of(options_.format).word,
-                                       shape == DeckShape::hex27 ? "" : " and no pyramid of 14")
-                                   .remedy("sweep with order = 2, serendipity = true for 20 nodes{}",
-                                           shape == DeckShape::hex27 ? "" : " and 13"));
+            throw InvalidInput(
+                Message("io.no_such_element", "{} has no hexahedron of 27 nodes{}",
+                        format_of(options_.format).word,
+                        shape == DeckShape::hex27 ? "" : " and no pyramid of 14")
+                    .remedy("sweep with order = 2 and serendipity = true: hexahedra then have 20 nodes{}",
+                            shape == DeckShape::hex27 ? "" : ", pyramids 13"));
         if (abaqus) check_element();
         texts_ = numbers_in_text(deck_);
         first_set_ = deck_.sets.size();

@@ -22,7 +22,7 @@ using mesh::MeshView;
         Message("io.too_many_parts",
                 "partitions = {}: the mesh has {} layers, and each partition needs at least one",
                 found(parts), needed(layers))
-            .remedy("ask for no more than that"));
+            .remedy("use partitions = {} or fewer", layers));
 }
 
 /// Number of parts of each mesh if there are more parts than meshes, in proportion to its cells.

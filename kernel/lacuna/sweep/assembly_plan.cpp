@@ -437,7 +437,7 @@ private:
                     "intervals: matching edges cannot have both {} sides ({}: {}) and {} ({}: {})",
                     lacuna::found(sides.count), sides.region, sides.name, needed(before.count), before.region,
                     before.name)
-                .remedy("volumes that share an edge need the same number there"));
+                .remedy("ask for the same number in both"));
     }
 
     /// Opposite edges of walls have equal numbers because walls have rows and columns; so have those of an
@@ -658,11 +658,13 @@ private:
             const auto [found, fresh] = asked.try_emplace(classes_.find(number(m, sides.front().edge)), m);
             const AssemblyMember &a = members_[found->second], &b = members_[m];
             if (fresh || layers_asked(found->second) == layers_asked(m)) continue;
-            throw NotSweepable("assembly.layers",
-                               "{} and {} lie side by side and are swept in the same direction, so they need "
-                               "equal layers, but {} and {} are asked for",
-                               a.region, b.region, lacuna::found(layers_asked(found->second)),
-                               lacuna::found(layers_asked(m)));
+            throw NotSweepable(
+                Message("assembly.layers",
+                        "{} and {} lie side by side and are swept in the same direction, so they "
+                        "need equal layers, but {} and {} are asked for",
+                        a.region, b.region, lacuna::found(layers_asked(found->second)),
+                        lacuna::found(layers_asked(m)))
+                    .remedy("ask for the same number in both"));
         }
         ask_sides();
         for (const auto& [of, m] : asked)

@@ -185,15 +185,13 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                                    overlap->b.on / face_area(other.model(), other.face)) < kMostly;
         constexpr const char* kCode = "assembly.overlap";
         common.refusal =
-            part ? Message(
-                       kCode,
-                       "{:.3g} % of {} of {} lies on {} of {}, and {:.3g} % of that face on the first, with "
-                       "both volumes on the same side: volumes of an assembly may touch, but not overlap",
-                       found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
-                 : Message(kCode,
-                           "{} of {} and {} of {} are one face, with both volumes on the same side: volumes "
-                           "of an assembly may touch, but not overlap",
-                           entity_a, a.region, entity_b, b.region);
+            (part ? Message(kCode,
+                            "{:.3g} % of {} of {} lies on {} of {}, and {:.3g} % of that face on the first, "
+                            "with both volumes on the same side",
+                            found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
+                  : Message(kCode, "{} of {} and {} of {} are one face, with both volumes on the same side",
+                            entity_a, a.region, entity_b, b.region))
+                .remedy("separate the volumes: they may touch, but not overlap");
         return common;
     }
     common.any = true;

@@ -339,8 +339,9 @@ Scene scene_of(const DeckCells& deck, const PictureOptions& options, const RunCo
 {
     if (options.layers || options.colour == ColourBy::layer)
         throw InvalidInput(
-            Message("view.layers", "picture: a mesh with tetrahedra, or of a file, has no layers")
-                .remedy("leave out 'layers', and colour it by quality, groups or region"));
+            Message("view.layers",
+                    "picture: only swept meshes have layers, not those read from a file or with tetrahedra")
+                .remedy("leave out 'layers', and colour by quality, groups or region"));
     Scene scene;
     Colours colours;
     colours.by = options.colour;
