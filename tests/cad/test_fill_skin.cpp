@@ -362,10 +362,10 @@ TEST_CASE("a skin that encloses no volume is refused by name")
     CHECK(refused({}, {"without faces"}) == "cad.skin_open");
     ClosedSkin open = cube;
     open.triangles.pop_back();
-    CHECK(refused(open, {"open", "near ("}) == "cad.skin_open");
+    CHECK(refused(open, {"not closed", "near ("}) == "cad.skin_open");
     ClosedSkin twisted = cube;
     std::swap(twisted.quads[0][1], twisted.quads[0][3]);
-    CHECK(refused(twisted, {"twisted"}) == "cad.skin_open");
+    CHECK(refused(twisted, {"oriented"}) == "cad.skin_open");
     ClosedSkin wild = cube;
     wild.triangles[0][0] = 4711;
     CHECK(refused(wild, {}) == "cad.skin_open");
