@@ -310,6 +310,21 @@ if caught > most_caught then
   wrong = wrong + 1
   print(("errors of the project are caught in %d places, %d at most"):format(caught, most_caught))
 end
+-- What the top level holds; test runs must leave nothing that is then committed.
+local top = {}
+for name in ([[.ci .clang-format .clang-tidy .editorconfig .gitignore ARCHITECTURE.md CHANGELOG.md
+    CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE LICENSES README.md benchmarks cmake docs hosts kernel
+    lua mkdocs.yml python scripts tests]]):gmatch "%S+" do
+  top[name] = true
+end
+local tracked = assert(io.popen("git -C '" .. root .. "' ls-files 2>/dev/null"))
+for path in tracked:lines() do
+  if not top[path:match "^[^/]+"] then
+    wrong = wrong + 1
+    print(path .. ": the top level has no place for it")
+  end
+end
+tracked:close()
 if files == 0 then wrong = wrong + 1; print("no file found under " .. root .. "/kernel/lacuna") end
 print(("%d files, %d faults"):format(files, wrong))
 os.exit(wrong == 0)
