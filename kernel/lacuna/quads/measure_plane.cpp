@@ -140,7 +140,7 @@ bool may_be_good(double angle, Index quads)
 
 bool may_be_good(double angle)
 {
-    constexpr Index kMostQuads = 4; // in a full turn
+    constexpr Index kMostQuads = 4; // right angles in a full turn
     for (Index quads = 1; quads <= kMostQuads; ++quads) {
         if (may_be_good(angle, quads)) return true;
     }

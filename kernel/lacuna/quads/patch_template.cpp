@@ -225,7 +225,7 @@ private:
         return points;
     }
 
-    /// left--top-->     bottom and top run in the same direction; left and right too
+    /// Fill a grid between four chains. Bottom and top run in the same direction; left and right too.
     void grid(const Chain& bottom, const Chain& right, const Chain& top, const Chain& left)
     {
         const std::size_t m = bottom.size() - 1, n = left.size() - 1;

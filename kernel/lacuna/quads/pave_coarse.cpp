@@ -19,7 +19,8 @@ namespace {
 /// Number of quads from which a coarse region is coarsened again: it bounds the time of paving the coarsest
 /// region.
 constexpr double kManyStill = 8000;
-/// Limit of sides that may be divided for that. Each leaves a triangle with a few irregular nodes.
+/// Limit of sides that may be divided to make all runs even. Each leaves a triangle with a few irregular
+/// nodes.
 constexpr std::size_t kMostDivided = 8;
 
 /// The sides to divide so that every run from corner to corner, and every loop without corners, has an even
@@ -57,7 +58,7 @@ PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunC
         report = std::move(attempt.report);
         return std::move(attempt.mesh);
     }
-    // Many quads of a pattern are stretched where few irregular nodes cost little.
+    // Patterns are not tried: they stretch many quads to save irregular nodes, which cost little here.
     auto [mesh, other] = pave(region, {.grids = false}, context);
     report = std::move(other);
     return std::move(mesh);

@@ -58,7 +58,7 @@ private:
     std::vector<Vec2> points_, inner_;
     std::vector<Quad> quads_;
     Marks in_reach_;                      ///< quads of the patch and its surroundings
-    Numbers number_;                      ///< in `points_`
+    Numbers number_;                      ///< number of each point in `points_`
     std::vector<Index> staying_, moving_; ///< points of the patch's loop and its surroundings
 };
 

@@ -111,7 +111,7 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
         const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
         const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
         const double ab = cross(a, b), ac = cross(a, c), db = cross(d, b);
-        // Without a square root or a division: clearly below.
+        // A test without square roots and divisions, for corners clearly below the floor.
         const double squared = (1 - kRoundoff) * floor * floor;
         const bool below = floor >= 0 && (std::min({ab, ac, db}) <= 0 || ab * ab < squared * aa * bb ||
                                           ac * ac < squared * aa * cc || db * db < squared * dd * bb);

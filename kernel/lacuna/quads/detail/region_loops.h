@@ -73,7 +73,7 @@ struct RegionWithin {
 RegionWithin region_within(std::span<const Vec2> points, const std::vector<Cycle>& loops,
                            const SizeField& size = {});
 
-/// Add quads over such a region to the mesh.
+/// Add quads over a region made by `region_within()` to the mesh.
 /// @param own    the mesh's numbers of the region's points.
 /// @param inner  the further points of the quads, which are added.
 void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std::vector<Index>& own,
