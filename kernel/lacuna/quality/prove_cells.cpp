@@ -110,7 +110,8 @@ private:
         if (++steps_ % kCheckEvery == 0) check_cancelled(context_);
     }
 
-    /// Find the skin: the sides that one cell has; the others must be those of two cells.
+    /// Find the skin: the sides of one cell only. Every other side must belong to two cells, in opposite
+    /// directions.
     Found pair_sides()
     {
         Found fault;
@@ -142,8 +143,8 @@ private:
         return fault;
     }
 
-    /// Check that no quad of the skin has a triangle of the skin on three of its corners: there a quad of one
-    /// cell lies against triangles of others.
+    /// Check that no triangle of the skin has its corners on a quad of the skin: there a quad of one cell
+    /// lies against triangles of others.
     Found check_joints()
     {
         Found fault;

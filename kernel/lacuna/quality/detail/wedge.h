@@ -24,7 +24,7 @@ struct WedgeValues {
     double scaled = 0;
     double smallest = 0; ///< smallest coefficient: a lower bound of J
     double volume = 0;
-    std::array<std::array<double, 3>, 3> coefficients{}; ///< [i][power of w]
+    std::array<std::array<double, 3>, 3> coefficients{}; ///< [i][coefficient along w]
 };
 
 WedgeValues evaluate_wedge(std::span<const Vec3, 6> corners);

@@ -11,8 +11,8 @@ namespace lacuna::quality {
 
 /// Result of the proof of a list of cells.
 struct CellsProof : Proof {
-    /// The sides that one cell alone has, oriented outward, in an order that depends on the cells alone; a
-    /// triangle is {a, b, c, c}. Empty if a fault was found.
+    /// The sides that belong to one cell only, oriented outward, in an order that depends on the cells alone;
+    /// a triangle is {a, b, c, c}. Empty if a fault was found.
     std::vector<Quad> skin;
 };
 
