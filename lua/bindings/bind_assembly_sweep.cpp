@@ -14,8 +14,8 @@ namespace lacuna::lua {
 
 namespace {
 
-/// The options of one volume: those for all, which have words as keys, and what [volume] says over them. Left
-/// on the stack. The member learns which of those that name faces are its own.
+/// Push the options of one volume: those for all volumes, which have words as keys, overridden by those at
+/// [volume]. The member learns which options that name faces are its own.
 void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume, fill::Member& member)
 {
     lua_newtable(L);
@@ -42,8 +42,8 @@ void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume, fi
     }
 }
 
-/// Refuse keys that are neither words nor volumes of the assembly, and keys of a volume's options that are no
-/// words.
+/// Refuse keys that are neither words nor volumes of the assembly, and keys of a volume's options that are
+/// not words.
 void check_volume_keys(lua_State* L, int index, const char* call, const AssemblyState& assembly)
 {
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
@@ -65,8 +65,8 @@ void check_volume_keys(lua_State* L, int index, const char* call, const Assembly
 }
 
 /// Sweep the assembly that is the first argument with the options at `index`, nil or a table.
-/// @param file  null: its mesh is pushed; else the report of the file
-/// @param crew  of a mesh that need not hold its nodes; null: nobody
+/// @param file  null: push the mesh; otherwise write the file and push its report
+/// @param crew  processes that share a mesh written by layers; null: this process alone
 int push_swept_assembly(lua_State* L, int index, const char* call, const SweepFile* file, bool layered,
                         const Crew* crew)
 {

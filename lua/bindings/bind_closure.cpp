@@ -103,7 +103,7 @@ int is_watertight(lua_State* L)
 
 // --- cutting ------------------------------------------------------------------------------------------
 
-/// What a volume is cut by.
+/// What cuts a volume.
 struct CutArguments {
     const Box<ModelState>* model = nullptr; ///< the volume's own faces; held by the call
     std::optional<geometry::Plane> plane;
@@ -169,7 +169,7 @@ int volume_model(lua_State* L)
     return 1;
 }
 
-/// { volume, ... } = volume:cut { plane = | face = }; without options where the volume has to be
+/// { volume, ... } = volume:cut { plane = | face = }; without options, where the volume needs cuts
 int cut(lua_State* L)
 {
     lua_settop(L, 2);

@@ -12,9 +12,9 @@ namespace lacuna::lua {
 namespace {
 
 struct CopyArguments {
-    /// Lua aligns its memory less than Eigen would.
+    /// Without alignment: Lua aligns its memory less than Eigen requires.
     std::optional<Eigen::Transform<double, 3, Eigen::Affine, Eigen::DontAlign>> by;
-    const char* key = nullptr; ///< the option that gives it
+    const char* key = nullptr; ///< the option that gave the motion
     fill::PatternOptions pattern;
     bool has_count = false;
     std::string name;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Volume: what topology/open_volume.h knows of it. Matching, closing and sweeping add their methods to the
-// class.
+// Volume: opening, classes and free edges (topology/open_volume.h). Matching, closing and sweeping add their
+// methods to the class.
 #include "bindings/faces.h"
 #include "bindings/names.h"
 
@@ -61,7 +61,7 @@ void read_name(lua_State* L, int index, const Where& where, RoleArguments& argum
     guard(L, [&] { arguments.name = name; });
 }
 
-/// A name, as Abaqus has them, or a number, as Nastran has.
+/// A name, as in Abaqus, or a number, as in Nastran.
 void read_material(lua_State* L, int index, const Where& where, RoleArguments& arguments)
 {
     if (lua_type(L, index) == LUA_TNUMBER) {
@@ -98,7 +98,7 @@ struct Function {
         keep_callback_error(state);
         throw CallbackFailed{};
     }
-    /// A result that is no number is not a number to the kernel either, which refuses it.
+    /// A result, or NaN if it is not a number; the kernel refuses NaN.
     [[nodiscard]] double take(int index) const
     {
         return lua_type(state, index) == LUA_TNUMBER ? lua_tonumber(state, index) : std::nan("");
@@ -139,7 +139,7 @@ struct AlongArguments {
     std::optional<bool> fixed;
 };
 
-/// The path of an option; there is one.
+/// Set the path to the kind that an option gives; only one option may give a path.
 template <class Course>
 Course& set_course(lua_State* L, const Where& where, AlongArguments& arguments)
 {
@@ -162,7 +162,7 @@ void read_along_vector(lua_State* L, int index, const Where& where, AlongArgumen
     set_course<Along::Vector>(L, where, arguments).way = read_vector(L, index, where);
 }
 
-/// A path round a line, given by an array of a point, a direction and what else it has.
+/// Read a path around a line, given by an array of `size` elements: a point, a direction and the others.
 template <class Course>
 Course& read_line(lua_State* L, int index, const Where& where, AlongArguments& arguments, std::size_t size,
                   const char* expected)

@@ -24,14 +24,14 @@ const char kRingKey = 0;
 const char kTemporaryKey = 0;
 const char kShareKey = 0;
 
-/// The ring's `__gc`. Lua finalizes in the reverse order of making, so all others of the bindings came first;
-/// those made meanwhile are still there.
+/// The ring's `__gc`. Lua finalizes objects in the reverse order of their creation, so all other objects of
+/// the bindings were finalized before. Those made meanwhile are still in the ring.
 int empty_ring(lua_State* L)
 {
     auto& ring = *static_cast<Living*>(lua_touserdata(L, 1));
     while (ring.after != &ring) ring.after->release();
     lua_pushboolean(L, 0);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey); // a key that is there: no allocation
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey); // the key exists: no allocation
     return 0;
 }
 
@@ -39,7 +39,7 @@ int empty_ring(lua_State* L)
 
 const char kErrorMeta[] = "lacuna.Error";
 
-/// Fields `file` and `line` of the error on top: the innermost frame that is the person's own Lua.
+/// Set the fields `file` and `line` of the error on top: the innermost frame of the user's own Lua.
 void set_where(lua_State* L)
 {
     lua_Debug frame;
@@ -178,7 +178,7 @@ void push_values(lua_State* L, const std::vector<MessageValue>& values)
 
 // --- classes ------------------------------------------------------------------------------------------
 
-/// Push the strings of the array at `index`, by alphabet, with commas between them.
+/// Push the strings of the array at `index`, in alphabetical order, with commas between them.
 const char* push_sorted_names(lua_State* L, int index)
 {
     auto& names = temporary<std::vector<std::string>>(L);

@@ -9,8 +9,8 @@ namespace lacuna::lua {
 
 namespace {
 
-/// The splitter meets triangles before quads; give each face the number of its label.
-/// @pre a face a label.
+/// Put faces in the order of their labels: the splitter makes those of triangles before those of quads.
+/// @pre one face for each label.
 void put_in_order_of_adding(topology::ModelBuilder& model, const healing::FacetSoup& soup)
 {
     std::vector<topology::Face> faces(model.faces.size());

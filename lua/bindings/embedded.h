@@ -12,10 +12,10 @@ struct EmbeddedChunk {
     const char* source;
 };
 
-/// Of the module: run in this order as it is opened.
+/// Chunks of the module, run in this order when it is opened.
 extern const EmbeddedChunk kEmbeddedChunks[];
 extern const std::size_t kEmbeddedChunkCount;
-/// Of the program alone: its commands, its prompt, and the stub, which `help` reads.
+/// Chunks of the program only: its commands, its prompt, and the stub, which `help` reads.
 extern const EmbeddedChunk kProgramChunks[];
 extern const std::size_t kProgramChunkCount;
 

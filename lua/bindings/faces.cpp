@@ -143,7 +143,7 @@ const Option<Selector> kSelectorOptions[] = {
     {"within", positive<&Selector::within>},
 };
 
-/// Distance from a place to the facets of a face.
+/// Squared distance from a place to the facets of a face.
 double distance(const topology::Model& model, FaceId face, const Vec3& place)
 {
     double least = std::numeric_limits<double>::infinity();
@@ -166,7 +166,7 @@ bool bounds(const topology::Face& face, const std::string& region)
         face.regions, [&](const auto& names) { return std::ranges::find(names, region) != names.end(); });
 }
 
-/// Whether all of a face is in a box, but for the model's tolerance.
+/// Whether all of a face is in a box, within the model's tolerance.
 bool lies_in(const topology::Model& model, const topology::Face& face, const Eigen::AlignedBox3d& box)
 {
     const Vec3 slack = Vec3::Constant(model.tolerance);
@@ -176,7 +176,7 @@ bool lies_in(const topology::Model& model, const topology::Face& face, const Eig
     });
 }
 
-/// The edges of the faces that `touching` means, none of which is selected itself.
+/// The faces that `touching` names, which are not selected themselves, and their edges.
 struct Touched {
     std::vector<bool> face, edge;
 };
@@ -233,7 +233,8 @@ bool matches(const topology::Model& model, FaceId id, const Selector& selector)
     return area >= selector.area[0] && area <= selector.area[1];
 }
 
-/// Append what `pick` returns. If that is nothing, raises an error that says why and lists the model's faces.
+/// Append the faces that `pick` returns. If there are none, raise an error with the reason and the model's
+/// faces.
 /// @param tag  of the face that is missing, if one is wanted by its tag.
 template <class Pick>
 void append(lua_State* L, const Where& where, const topology::Model& model, std::vector<FaceId>& faces,
@@ -262,7 +263,7 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
 {
     push_text(L, [&] {
         std::string best;
-        std::size_t least = std::strlen(wanted) / 2 + 1; // as many letters may differ
+        std::size_t least = std::strlen(wanted) / 2 + 1; // fewer letters than this may differ
         for (const topology::Face& face : model.faces) {
             const std::size_t apart = edit_distance(wanted, face.name.c_str());
             if (face.name.empty() || apart >= least) continue;
@@ -274,7 +275,7 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
     return lua_tostring(L, -1);
 }
 
-/// Push why there is no face of a tag: what loading says of it, where it does.
+/// Push the reason why there is no face with a tag: the note of loading about it, if there is one.
 const char* push_why_missing(lua_State* L, const topology::Model& model, int tag)
 {
     push_text(L, [&] {
@@ -328,7 +329,7 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     append(L, where, model, faces, none, missing, [&] { return select(model, wanted); });
 }
 
-/// Field of the metatable of an array that a selector found nothing for: the selector, in words.
+/// Metatable field of an array that a selector returned empty: the selector as text.
 constexpr const char* kFoundNothing = "lacuna.found_nothing";
 
 struct GrowArguments {
@@ -458,8 +459,7 @@ void mark_found_nothing(lua_State* L, int selector)
 
 Vec3 mean_normal(const topology::Model& model, FaceId face)
 {
-    // Of the area: what is left of a sum that cancels, on a skin that goes all the way round, is noise of its
-    // facets.
+    // Share of the area below which the summed normals are noise: around a closed skin they cancel.
     constexpr double kRounding = 1e-2;
     const Vec3 vector = topology::face_area_vector(model, face);
     return vector.norm() > kRounding * topology::face_area(model, face) ? Vec3(vector.normalized())

@@ -22,7 +22,7 @@ io::OutputPath output_path(const Host& host, const std::string& path)
 void check_input_path(const Host& host, const std::string& path)
 {
     if (!host.sandboxed) return;
-    // A .geo is a program. It is confined where it runs, and the sandbox runs none but the recipe.
+    // A .geo file is a program, and the sandbox runs no program but the recipe.
     const std::string ending = io::ending_of(path);
     if (ending == ".geo" || ending == ".geo_unrolled")
         throw InvalidInput("sandbox.script",
