@@ -51,14 +51,14 @@ void check_volume_keys(lua_State* L, int index, const char* call, const Assembly
         const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
         const auto is_key = [key](const AssemblyState::Entry& entry) { return entry.volume == *key; };
         if (key == nullptr || !*key || std::ranges::none_of(assembly.entries, is_key))
-            fail(L, "%s: the keys of the options are words, or volumes of the assembly", call);
+            fail(L, "%s: the keys of the options must be names of options, or volumes of the assembly", call);
         if (lua_type(L, -1) != LUA_TTABLE) fail_value(L, {call, "[volume]"}, "a table of options", -1);
         const int own = lua_gettop(L);
         for (lua_pushnil(L); lua_next(L, own) != 0; lua_pop(L, 1)) {
             if (lua_type(L, -2) == LUA_TSTRING) continue;
             fail(L,
-                 "%s: the keys of one volume's options are words; found a %s: give each volume's options "
-                 "in the table of the whole",
+                 "%s: the keys of one volume's options must be names of options, found a %s; give "
+                 "[volume] = { ... } for each volume in the table of the call",
                  call, test_box<VolumeState>(L, -2) != nullptr ? "volume" : luaL_typename(L, -2));
         }
     }

@@ -149,9 +149,9 @@ void require_defined(const FieldArguments& of)
     using enum quality::Metric;
     if (of.corners == 8 || of.metric == scaled_jacobian || of.metric == jacobian || of.metric == volume)
         return;
-    throw InvalidInput(Message("lua.bad_value", "field: '{}' is defined for hexahedra alone",
-                               quality::metric_name(of.metric))
-                           .remedy("take \"scaled_jacobian\", \"jacobian\" or \"volume\""));
+    throw InvalidInput(
+        Message("lua.bad_value", "field: '{}' is defined for hexahedra only", quality::metric_name(of.metric))
+            .remedy("use \"scaled_jacobian\", \"jacobian\" or \"volume\""));
 }
 
 /// buffer = mesh:field([metric [, kind]]): the metric's value for every row of mesh:cells(kind)

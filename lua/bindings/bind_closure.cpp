@@ -179,8 +179,8 @@ int cut(lua_State* L)
         arguments.model = &push_model(L, state);
         read_options(L, 2, "cut", kClosureCutOptions, arguments);
         if (arguments.plane.has_value() + (arguments.of != nullptr) + arguments.automatic != 1)
-            fail(L,
-                 "cut: give either 'plane', 'face' or auto = true, or no options, for a volume with steps");
+            fail(L, "cut: give one of 'plane', 'face' and auto = true; for a volume with steps, give no "
+                    "options");
     }
     RunContext& context = push_context(L);
     auto& pieces = temporary<std::vector<Box<VolumeState>>>(L);

@@ -124,7 +124,9 @@ template <class State>
 int pattern(lua_State* L)
 {
     const auto& arguments = push_arguments(L, "pattern", kPatternOptions, "'translate' or 'rotate'");
-    if (!arguments.has_count) fail(L, "pattern: give 'count', the number of copies with the mesh itself");
+    if (!arguments.has_count)
+        fail(L, "pattern: option 'count' is missing: the number of copies, "
+                "including the mesh itself");
     const State& state = hold<State>(L, 1);
     RunContext& context = push_context(L);
     return push_swept(L, {}, "pattern", nullptr, context, [&] {

@@ -391,8 +391,10 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
 {
     const io::Format& format = io::needed_mesh_format("write", path.text());
     if (!state.interfaces.empty() && (format.is_folder || !arguments.with.empty()))
-        throw InvalidInput(Message("lua.split_write", "write: a mesh with cells of no thickness is {}",
-                                   format.is_folder ? "no polyMesh" : "not joined to a deck")
+        throw InvalidInput(Message("lua.split_write",
+                                   "write: a mesh with cells of no thickness cannot be "
+                                   "{}",
+                                   format.is_folder ? "written as polyMesh" : "joined to a deck")
                                .remedy("{}", format.is_folder ? "write another format" : "leave out 'with'"));
     if (arguments.partitions_given || is_pieces(format))
         throw InvalidInput(
@@ -620,7 +622,9 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     guard(L, [&] {
         const io::Format* const format = io::find_format(path.text());
         if (format == nullptr || !format->streamed)
-            throw InvalidInput("lua.not_layered", "sweep_to: {}: files written a layer at a time end in {}",
+            throw InvalidInput("lua.not_layered",
+                               "sweep_to: {} cannot be written a layer at a time; such "
+                               "files end in {}",
                                path.text(), io::endings_of([](const io::Format& of) { return of.streamed; }));
         format_of(path.text(), arguments); // refuses options that the format does not have
     });
@@ -677,7 +681,8 @@ void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, Wr
     count_parts(arguments, path, crew);
     arguments.msh.unit = state.unit;
     for (const sweep::LeftOut& out : state.left_out)
-        log_line(context, formatted("note: {} has a hole: left out is {}", path.text(), out.message.text()));
+        log_line(context, formatted("note: {} has a hole, because a volume was left out: {}", path.text(),
+                                    out.message.text()));
     write_parts(state, path, arguments, crew, context);
 }
 

@@ -351,12 +351,12 @@ int open_volume(lua_State* L)
         fail(L, "open_volume: name either the roles (source, target, walls) or 'faces', whose roles are then "
                 "found; not both");
     if (request.roles && request.reading > 1)
-        fail(L, "open_volume: 'reading' is the number of one that was found; with roles named there is one, "
-                "and reading = 1 takes it where its shape is a guess");
+        fail(L, "open_volume: 'reading' selects one of the readings that were found; with named roles "
+                "there is only reading = 1, which accepts a guessed shape");
     const bool ends = request.roles && (!request.roles->source.empty() || !request.roles->target.empty());
     if (request.full_turn && (request.find_walls || ends || request.override_class || request.reading > 0))
-        fail(L, "open_volume: with full_turn = true there are walls alone, no source, target, class or "
-                "reading: name the walls by their tags or names, or none, for all faces");
+        fail(L, "open_volume: full_turn = true takes walls only, no source, target, class or reading; "
+                "name the walls by tag or name, or give none for all faces");
     RunContext& context = push_context(L);
     auto& box = new_box<VolumeState>(L);
     guard(L, [&] {

@@ -28,7 +28,7 @@ QualitySource& check_source(lua_State* L)
     luaL_getmetatable(L, kQualityMeta);
     lua_getfield(L, -1, "sources"); // weak, by table
     lua_pushvalue(L, 1);
-    if (lua_rawget(L, -2) != LUA_TUSERDATA) fail(L, "this table is no Quality");
+    if (lua_rawget(L, -2) != LUA_TUSERDATA) fail(L, "this table is not a Quality");
     return temporary_at<QualitySource>(L, -1);
 }
 

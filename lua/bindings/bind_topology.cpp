@@ -185,7 +185,7 @@ int face(lua_State* L)
     auto& found = temporary<std::vector<FaceId>>(L);
     read_faces(L, 2, {"face", nullptr}, state, found);
     if (found.size() != 1)
-        fail(L, "face: one face is wanted, and %d fit: %s; say more, or take model:faces(...)",
+        fail(L, "face: the argument must mean one face, but %d fit: %s; narrow it, or use model:faces(...)",
              static_cast<int>(found.size()), push_names(L, state->model, found));
     push_face(L, state, found.front());
     return 1;

@@ -184,7 +184,7 @@ Touched touched(const topology::Model& model, const Selector& selector)
 {
     Touched found{std::vector<bool>(model.faces.size()), std::vector<bool>(model.edges.size())};
     if (selector.touching_model && &selector.touching_model->model != &model)
-        throw InvalidInput("lua.other_model", "touching is a face of another model");
+        throw InvalidInput("lua.other_model", "option 'touching' is a face of another model");
     bool any = false;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const topology::Face& face = model.faces[f];
@@ -196,7 +196,9 @@ Touched touched(const topology::Model& model, const Selector& selector)
         for (const topology::Loop& loop : face.loops)
             for (const topology::EdgeUse& use : loop.uses) found.edge[use.edge.index()] = true;
     }
-    if (!any) throw InvalidInput("lua.no_face", "touching names a face that is not there");
+    if (!any)
+        throw InvalidInput("lua.no_face", "option 'touching' names a face that the model does not "
+                                          "have");
     return found;
 }
 
@@ -364,8 +366,7 @@ FaceId grow_face(lua_State* L, int index, const Box<ModelState>& state)
     read_options(L, index, "face_from", kGrowOptions, arguments);
     if (!arguments.selector.near) fail(L, "face_from: option 'near' is missing: a place, { x, y, z }");
     if (state->hand_made)
-        fail(L, "face_from: faces are grown in a model that was loaded; those of this one are as the recipe "
-                "adds them");
+        fail(L, "face_from: needs a loaded model; the faces of this one were added by the recipe");
     RunContext& context = push_context(L);
     FaceId face;
     guard(L, [&] {
@@ -417,8 +418,7 @@ void read_faces(lua_State* L, int index, const Where& where, const Box<ModelStat
         if (array) {
             if (empty && luaL_getmetafield(L, index, kFoundNothing) != LUA_TNIL)
                 fail_option(L, where,
-                            "is what model:faces{ %s } found, which is nothing; a role that none "
-                            "shall have is {}",
+                            "is the empty result of model:faces{ %s }; for a role without faces, give {}",
                             lua_tostring(L, -1));
             read_array(L, index, where, "", [&](int element, const Where& at) {
                 if (lua_type(L, element) == LUA_TTABLE && lua_rawlen(L, element) > 0)

@@ -14,7 +14,7 @@ io::OutputPath output_path(const Host& host, const std::string& path)
 {
     if (!host.sandboxed) return path;
     if (!host.output_folder)
-        throw InvalidInput(Message("sandbox.no_output", "the sandbox writes no file")
+        throw InvalidInput(Message("sandbox.no_output", "the sandbox does not write files")
                                .remedy("allow it with --output-dir FOLDER"));
     return io::OutputPath::below(host.output_folder, path);
 }

@@ -54,8 +54,9 @@ Found check_sizes(const mesh::HexMesh& mesh, std::size_t nodes)
                            entity("source quad", q));
         for (const Index node : mesh.quads[q]) {
             if (node < 0 || node >= mesh.nodes_per_layer)
-                return Finding(Fault::unknown_node, "{} has node number {} of {}", entity("source quad", q),
-                               found(static_cast<long long>(node) + 1), needed(mesh.nodes_per_layer));
+                return Finding(Fault::unknown_node, "{} refers to node {}, but the nodes are 1 to {}",
+                               entity("source quad", q), found(static_cast<long long>(node) + 1),
+                               needed(mesh.nodes_per_layer));
         }
     }
     return std::nullopt;

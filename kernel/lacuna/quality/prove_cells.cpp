@@ -71,8 +71,8 @@ private:
             for (std::size_t k = 0; k < corners.size(); ++k) {
                 const Index node = cells_[c][corners[k]];
                 if (node < 0 || index(node) >= nodes_.size())
-                    return Finding(Fault::unknown_node, "{} has node number {} of {}", cell_name(c),
-                                   found(std::int64_t(node) + 1), needed(nodes_.size()));
+                    return Finding(Fault::unknown_node, "{} refers to node {}, but the nodes are 1 to {}",
+                                   cell_name(c), found(std::int64_t(node) + 1), needed(nodes_.size()));
                 for (std::size_t other = 0; other < k; ++other)
                     if (cells_[c][corners[other]] == node)
                         return Finding(Fault::collapsed_side, "{} has {} at two corners", cell_name(c),
