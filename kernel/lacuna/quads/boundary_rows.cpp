@@ -26,7 +26,7 @@ struct Front {
     std::vector<int> table; ///< table of the side from each node to the next
 };
 
-/// Consecutive sides with the same table: a piece of a front between two ends of rows.
+/// A run: consecutive sides of a front with the same table, between two ends of rows.
 struct Run {
     /// Position in the front and number of sides. A run of all the front's sides is closed.
     std::size_t first = 0, sides = 0;

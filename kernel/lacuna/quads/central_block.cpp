@@ -63,7 +63,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
         angle += kPi / 4;
         std::swap(free[0], free[1]);
     }
-    // Distance of a side's middle if the corners have distance one.
+    // Distance from the centre to the middle of a side if the corners are at distance 1.
     const double half = std::numbers::sqrt2 / 2, middle = half * (1 + std::tan(kBulge / 2));
     const double reach = std::min(kCornerReach * free[0], kSideReach * free[1] / middle);
     if (!(reach > 0) || !std::isfinite(reach)) return std::nullopt;

@@ -58,7 +58,7 @@ Verdict Trial::run(const TemplateMesh& filling, int sweeps, double hopeless)
     return Verdict::good;
 }
 
-/// Whether the present loss of the first quads and of the surroundings exceeds `most`.
+/// Whether the loss of the first `filled` quads plus that of the surroundings exceeds `most`.
 bool Trial::exceeds(std::size_t filled, double most) const
 {
     double loss = loss_around_;

@@ -102,7 +102,8 @@ struct Pairing {
 void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pairing& now, Pairing& best)
 {
     const std::size_t runs = left.size();
-    // Runs in reverse, because the outer loop's runs, which may have many whole sides, come last.
+    // Runs are paired in reverse order, so that those of the outer loop, which may have many whole sides,
+    // come last.
     std::size_t r = runs;
     while (r > 0 && left[r - 1] == 0) --r;
     if (r == 0) {

@@ -33,7 +33,7 @@ struct Halved {
     PlanarRegion region;
     std::vector<int> segment;   ///< segment of the side from each node to the next
     std::vector<Index> next;    ///< successor of each node in its loop
-    std::vector<double> weight; ///< length of that side in sides of the region: 1 or ½
+    std::vector<double> weight; ///< 1, or ½ for half a side of the region
     [[nodiscard]] int segment_at(Index p) const { return segment[index(p)]; }
 };
 

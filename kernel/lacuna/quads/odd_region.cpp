@@ -184,7 +184,7 @@ struct Window {
 /// @param middle   the added node; the nodes before it are the region's.
 Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle)
 {
-    // The reach of the rows, the rings around them, and the cells of their nodes.
+    // Rings to take: the reach of the rows, the rings around them, and the cells of their nodes.
     constexpr std::size_t kReach = kMostSteps + kRings + 2;
     const mesh::Incidence at = mesh::quads_at_nodes(mesh.quads, mesh.points.size());
     std::vector<Index> number(mesh.points.size(), -1);

@@ -18,7 +18,7 @@ namespace {
 /// average; more are tried because other loops may stand between.
 constexpr std::size_t kNearest = 16;
 
-/// Lines are tried from every n-th node of a loop with this n.
+/// Step between the nodes of a loop from which lines are tried.
 std::size_t stride_of(std::size_t n)
 {
     constexpr std::size_t kMost = 48; // limit of the nodes of a loop that are tried
@@ -153,7 +153,7 @@ private:
         std::ranges::for_each(of_lines_, add);
         std::optional<Bridge> best;
         Cut place;
-        // Only bridges cheaper than the cheapest so far are checked; none costs less than its length.
+        // Only lines cheaper than the cheapest so far are checked; none costs less than its length.
         const auto consider = [&](std::size_t i, std::size_t j) {
             const Vec2 along = partial_.at(two[j]) - partial_.at(one[i]);
             const double length = along.norm();

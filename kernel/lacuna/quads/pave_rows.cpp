@@ -77,7 +77,8 @@ private:
     [[nodiscard]] int kind(std::size_t i) const { return std::min(quads_in(angles_[i % n_]), kMostQuads); }
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    /// Each end removes a node from the sides before and after it, so sides of at least three edges keep one.
+    /// Whether ends are at least three edges apart. Each end removes a node from the sides before and after
+    /// it, so a side of three edges keeps one.
     [[nodiscard]] bool ends_far_apart() const
     {
         constexpr std::size_t kApart = 3; // edges between two ends

@@ -251,7 +251,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
                 if (closed->loops.size() > 1 && !closed->grids.empty()) {
                     centre_holes(task, closed->loops, closed->grids.front());
                     all.back().sides = counts_of(task, closed->loops);
-                    // `best_filled()` decides between both.
+                    // `best_filled()` chooses between the numbers with and without centred holes.
                     if (may_be_tried(task, options)) all.push_back(std::move(counts));
                 }
             }

@@ -14,7 +14,8 @@ namespace {
 /// Cuts that slant more than this are excluded: 0 is square to the outline, 1 along it.
 constexpr double kMostSlant = 0.7;
 
-/// Twice the foot that `spoke_feet()` finds for side i: the alternating sum of every second side's length.
+/// Twice the foot that `spoke_feet()` finds for side i: the sum of the edges of sides i, i + 2, i + 4 …, with
+/// alternating signs.
 int twice_foot(const SideCounts& counts, std::size_t i)
 {
     const std::size_t n = counts.count;

@@ -49,8 +49,8 @@ enum class WholeSides {
 std::optional<CoarseRegion> coarse_region(const PlanarRegion& region,
                                           WholeSides sides = WholeSides::of_odd_runs);
 
-/// Select the whole sides of every run that has any, so that a row of quads leads from each of them to one of
-/// another run and the rows are shortest in sum. Without such runs there is nothing to select.
+/// Select the whole sides of the runs that have any: a row of quads leads from each of them to a whole side
+/// of another run, and the sum of the rows' lengths is least. Without such runs there is nothing to select.
 /// @param coarse  quads and triangles of the coarse region, its points first.
 /// @return for each side of these cells (`mesh::opposite_sides()`), 1 if it stays whole because such a row
 ///         crosses it, else 0. Empty if there are no such rows.

@@ -12,8 +12,8 @@
 
 namespace lacuna::quads {
 
-/// Angles of symmetries that differ by less are equal: far above the accuracy of nodes, far below the angle
-/// between two symmetries [radian].
+/// Symmetries whose angles differ by less are the same [radian]. The bound is far above the accuracy of nodes
+/// and far below the angle between two symmetries.
 inline constexpr double kSameAngle = 1e-5;
 
 /// A rotation about a centre. If `mirrors`, a reflection that reverses y is applied before it.

@@ -22,11 +22,12 @@ struct RingWidths {
     /// narrow part, so that all rows are about equally high; 0 if `measure_plane()` accepts the heights of a
     /// constant number of rows.
     [[nodiscard]] int steps(double height) const;
-    /// Mean number of rows of the given height, minus one: the rows in which sides may be added or removed.
+    /// Number of rows of the given height in which sides may be added or removed: the mean number of rows,
+    /// minus one.
     [[nodiscard]] int changing(double height) const;
 };
 
-/// @pre  the loops have a node each. O(outer nodes × inner nodes).
+/// @pre  each loop has a node. O(outer nodes × inner nodes).
 RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& outer,
                        const std::vector<Index>& inner);
 

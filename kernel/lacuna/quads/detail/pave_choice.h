@@ -88,7 +88,7 @@ private:
         double score;
         PlaneQuality quality; ///< not measured if quads count as folded
     };
-    /// The score of an attempt; one with a fault is marked as such.
+    /// The score of an attempt. If its mesh has a fault, `made.worst` is set to -1.
     Judged judge_score(Attempt& made) const;
     [[nodiscard]] bool is_small() const;
     [[nodiscard]] bool is_good_enough() const;

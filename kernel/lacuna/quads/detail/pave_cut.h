@@ -10,7 +10,7 @@ namespace lacuna::quads::paving {
 
 /// A straight line across a part, between two nodes of its outline, or between two loops.
 struct Cut {
-    std::size_t from = 0, to = 0; ///< positions in the cycle; for a bridge, in the first and the second one
+    std::size_t from = 0, to = 0; ///< positions in the cycle, or in the two loops that the line joins
     std::size_t edges = 1;        ///< mesh edges along the line
 };
 

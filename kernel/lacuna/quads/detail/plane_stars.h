@@ -97,8 +97,8 @@ inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Sta
 }
 
 /// Least sine, at most 1, of the corners that change when a point moves to `x`, if it exceeds `floor`;
-/// otherwise some number up to `floor`. The search stops at the first corner that does not exceed the floor,
-/// which in most trials is the same as in the trial before.
+/// otherwise some number up to `floor`. The search stops at the first corner that does not exceed the floor.
+/// In most trials this is the same corner as in the trial before.
 /// @param first  position in the star to begin with; set to the one that did not exceed the floor
 inline double least_sine_above(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
                                double floor, std::size_t& first)
