@@ -287,8 +287,8 @@ constexpr bool is_high(std::size_t c, std::size_t d)
     return ((d == 0 ? c + 1 : c) & (d == 2 ? 4u : 2u)) != 0;
 }
 
-/// Vectors from the middles of the edges to the middle nodes; last, the vector to the centre of the base from
-/// where the corners and middle nodes of the base put it, 0 if there is no such node.
+/// For each edge, the vector from its middle to its middle node. Last, for the centre of the base, the vector
+/// from the place that the corners and middle nodes of the base give it; 0 if there is no such node.
 std::array<Vec3, 13> deviations(std::span<const Vec3> nodes)
 {
     std::array<Vec3, 13> all;

@@ -284,7 +284,7 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
             take(std::array<Index, 2>{(*pair)[0] + before, (*pair)[1] + before});
         }
     }
-    // Bends where slabs touch are rare, so one process searches all of them.
+    // Bends at which distant slabs touch are rare, so one process searches all of them.
     if (begin == 0)
         take(FarPairs(layered, slabs, {places.begin(), places.end()}, bounds, tolerance, context).first());
     Writer own_pair;

@@ -12,7 +12,7 @@ namespace lacuna::quality {
 namespace {
 
 constexpr std::size_t kCheckEvery =
-    1 << 16; ///< cells or groups between two looks at the cancel flag: milliseconds
+    1 << 16; ///< cells or groups between two checks for cancellation: some milliseconds
 
 /// The sides of a kind of cell as corners of `Hex`, oriented outward; the fourth is -1 for a triangle.
 std::vector<Quad> sides_of(CellKind kind)
@@ -104,7 +104,7 @@ private:
         return a == b;
     }
 
-    /// Look at the cancel flag now and then.
+    /// Check for cancellation in every kCheckEvery-th call.
     void count_step()
     {
         if (++steps_ % kCheckEvery == 0) check_cancelled(context_);

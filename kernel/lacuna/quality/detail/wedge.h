@@ -30,7 +30,8 @@ struct WedgeValues {
 WedgeValues evaluate_wedge(std::span<const Vec3, 6> corners);
 
 /// The coefficients as those of a cell over the unit cube, whose square is mapped to the triangle by
-/// collapsing one side to the third corner. They are positive everywhere if and only if the wedge's are.
+/// collapsing one side to the third corner. The Jacobian is positive everywhere in the one if and only if it
+/// is in the other.
 Coefficients over_cube(const WedgeValues& values);
 
 } // namespace lacuna::quality
