@@ -213,7 +213,7 @@ int mesh_report(lua_State* L)
     return 1;
 }
 
-/// { volume=, sealed_volume=, max_distance=, mean_distance=, regions = { [region] = as of one Mesh } }
+/// { volume=, sealed_volume=, max_distance=, mean_distance=, regions = { [region] = the same for one } }
 int mesh_fidelity(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);

@@ -61,7 +61,7 @@ BufferState cells_of(const mesh::HexMesh& mesh, std::size_t corners)
     return of_wholes(std::move(nodes), columns);
 }
 
-/// buffer = mesh:coordinates(): of every node x, y, z
+/// buffer = mesh:coordinates(): x, y, z of every node
 int coordinates(lua_State* L)
 {
     lua_settop(L, 1);
@@ -134,7 +134,7 @@ struct FieldArguments {
     std::size_t corners = 8; ///< of the kind of cells
 };
 
-/// [metric [, kind]], at 2 and 3
+/// Read the arguments [metric [, kind]] at index 2 and 3.
 FieldArguments read_field(lua_State* L)
 {
     FieldArguments read;

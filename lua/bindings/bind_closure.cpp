@@ -105,7 +105,7 @@ int is_watertight(lua_State* L)
 
 /// What cuts a volume.
 struct CutArguments {
-    const Box<ModelState>* model = nullptr; ///< the volume's own faces; held by the call
+    const Box<ModelState>* model = nullptr; ///< the volume's own faces; on the stack during the call
     std::optional<geometry::Plane> plane;
     bool automatic = false;
     Box<ModelState> of; ///< the model of `face`

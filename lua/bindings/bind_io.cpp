@@ -37,7 +37,7 @@ struct WriteArguments {
     bool renumber = false, renumber_given = false;
     bool gmsh_options = false;                         ///< also write a file beside a .msh with Gmsh's
                                                        ///< display options
-    bool groups_given = false;                         ///< of a .msh
+    bool groups_given = false;                         ///< the option `groups` of a .msh was given
     bool partitions_given = false, by_process = false; ///< by_process: one part for each process
 };
 
@@ -411,7 +411,7 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
     io::write_deck(deck, format, path, context, arguments.msh);
 }
 
-/// Write the mesh of an assembly, in parts where these are asked for.
+/// Write the mesh of an assembly, in parts if asked to.
 void write_parts(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,
                  const Crew* crew, const RunContext& context)
 {

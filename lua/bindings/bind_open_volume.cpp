@@ -28,7 +28,7 @@ const Word<VolumeClass> kClasses[] = {
 // --- roles ----------------------------------------------------------------------------------------------
 
 struct RoleArguments : fill::RoleRequest {
-    const Box<ModelState>* model = nullptr; ///< held by the call
+    const Box<ModelState>* model = nullptr; ///< on the stack during the call
     int functions = 0;                      ///< index of a table that keeps functions for the call
     Box<ModelState> of;                     ///< the model of the face that `along` leads to
 };

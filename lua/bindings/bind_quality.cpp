@@ -26,13 +26,13 @@ QualitySource& check_source(lua_State* L)
 {
     luaL_checktype(L, 1, LUA_TTABLE);
     luaL_getmetatable(L, kQualityMeta);
-    lua_getfield(L, -1, "sources"); // weak, by table
+    lua_getfield(L, -1, "sources"); // weak table from a Quality to its source
     lua_pushvalue(L, 1);
     if (lua_rawget(L, -2) != LUA_TUSERDATA) fail(L, "this table is not a Quality");
     return temporary_at<QualitySource>(L, -1);
 }
 
-/// Measure all metrics, unless that is done.
+/// Measure all metrics, unless they were measured before.
 void measure_metrics(lua_State* L, QualitySource& source)
 {
     RunContext& context = push_context(L);

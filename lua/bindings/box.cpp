@@ -63,7 +63,7 @@ int error_to_string(lua_State* L)
     for (const char* field : {"file", "line", "message", "code"}) {
         lua_pushstring(L, field);
         lua_rawget(L, 1);
-        luaL_tolstring(L, -1, nullptr); // whatever a recipe put there
+        luaL_tolstring(L, -1, nullptr); // a recipe may have put anything there
         lua_remove(L, -2);
     }
     lua_pushstring(L, "file");
@@ -211,7 +211,7 @@ int index_class(lua_State* L)
     lua_settop(L, 2);
     if (lua_type(L, 2) != LUA_TSTRING)
         fail_as(L, "lua.unknown_field", "a %s is not an array", lua_tostring(L, lua_upvalueindex(1)));
-    // Names of both lists, for the nearest one.
+    // The names of both lists, to find the nearest.
     lua_newtable(L);
     for (int list : {lua_upvalueindex(2), lua_upvalueindex(3)}) {
         for (lua_pushnil(L); lua_next(L, list); lua_pop(L, 1)) {
@@ -315,7 +315,7 @@ Living& ring(lua_State* L)
         lua_pop(L, 1); // the registry keeps it
         return ring;
     }
-    constexpr int kUnfinished = 1; // the key is there, and the ring is not: making it failed
+    constexpr int kUnfinished = 1; // the key exists but the ring does not: its creation failed before
     if (found == LUA_TBOOLEAN && lua_toboolean(L, -1) != kUnfinished)
         luaL_error(L, "lacuna: the Lua state is being closed"); // an error of ours would need the ring
     lua_pop(L, 1);

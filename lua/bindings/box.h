@@ -142,7 +142,7 @@ struct Failure {
     std::string message, code, remedy;
     std::vector<NamedEntity> entities; ///< that the message names
     std::vector<MessageValue> found, needed;
-    std::vector<MessageParts> attempts; ///< that failed; each with its whole text
+    std::vector<MessageParts> attempts; ///< failed attempts, each with its whole text
     bool from_callback = false;
     /// @param said  the message of a kernel error; null: none
     void keep(const char* its_code, const char* what, const Message* said = nullptr) noexcept;

@@ -224,7 +224,7 @@ int report_to_string(lua_State* L)
     for (lua_Integer i = 1; i <= count; ++i) {
         if (i > 1) luaL_addchar(&buffer, '\n');
         lua_rawgeti(L, 1, i);
-        luaL_tolstring(L, -1, nullptr); // whatever a recipe put there
+        luaL_tolstring(L, -1, nullptr); // a recipe may have put anything there
         lua_remove(L, -2);
         luaL_addvalue(&buffer);
     }

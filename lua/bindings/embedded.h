@@ -6,7 +6,7 @@
 
 namespace lacuna::lua {
 
-/// A Lua source that travels inside the binary; see lua/embed.cmake.
+/// A Lua source that is embedded in the binary; see lua/embed.cmake.
 struct EmbeddedChunk {
     const char* name; ///< file name without its ending
     const char* source;

@@ -31,7 +31,7 @@ public:
     StageClock(const StageClock&) = delete;
     StageClock& operator=(const StageClock&) = delete;
 
-    /// Of all stages until now.
+    /// The seconds of all stages so far.
     StageSeconds seconds()
     {
         add();

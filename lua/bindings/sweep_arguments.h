@@ -24,7 +24,7 @@ SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, 
 
 /// Options of model:quads.
 struct QuadsArguments : SweepArguments {
-    const Box<ModelState>* model = nullptr; ///< held by the call
+    const Box<ModelState>* model = nullptr; ///< on the stack during the call
     std::optional<std::vector<FaceId>> faces;
 };
 
