@@ -11,7 +11,7 @@ CAD files are read by the program lacuna-cad, which the environment variable LAC
 }
 dependencies = { "lua >= 5.4, < 5.5" }
 external_dependencies = { EIGEN = { header = "eigen3/Eigen/src/Core/util/Macros.h" } }
--- The module alone: luarocks takes what else would be installed for modules of Lua.
+-- Only the module is installed: luarocks would take other installed files for Lua modules.
 build = {
   type = "command",
   build_command = "cmake -S . -B build.luarocks -DCMAKE_BUILD_TYPE=Release -DLACUNA_WITH_CAD=OFF "

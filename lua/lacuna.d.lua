@@ -573,7 +573,6 @@ function Mesh:view(path, options) end
 ---@param options? lacuna.PictureOptions
 function Mesh:picture(path, options) end
 
---- Several volumes to be meshed as one.
 --- Quads on faces, without layers.
 ---@class lacuna.QuadMesh
 ---@field nodes integer
@@ -618,6 +617,7 @@ function QuadMesh:view(path, options) end
 ---@param options? lacuna.FacePictureOptions
 function QuadMesh:picture(path, options) end
 
+--- Several volumes to be meshed as one.
 ---@class lacuna.Assembly
 local Assembly = {}
 --- Options for all volumes; `[volume] = options` lays those of one over them.
@@ -795,7 +795,7 @@ function lacuna.assembly(volumes) end
 ---@param options lacuna.InterfaceOptions
 ---@return lacuna.AssemblyMesh
 function lacuna.split_interface(mesh, options) end
---- Quality of the hexahedra of a mesh or deck in any format that is read.
+--- Quality of the solids of a mesh or deck in any format that is read.
 ---@param path string
 ---@return lacuna.Quality
 function lacuna.check(path) end

@@ -213,13 +213,13 @@ int mesh_report(lua_State* L)
     return 1;
 }
 
-/// { volume=, sealed_volume=, max_distance=, mean_distance=, regions = { [region] = a Mesh's } }
+/// { volume=, sealed_volume=, max_distance=, mean_distance=, regions = { [region] = the same for one } }
 int mesh_fidelity(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);
     const std::vector<fill::Region>& regions = push_regions(L, state);
     push_fidelity(L, fill::fidelity(state));
-    lua_pushnil(L); // tags of faces are each volume's own
+    lua_pushnil(L); // face tags are unique only within a volume
     lua_setfield(L, -2, "faces");
     lua_createtable(L, 0, static_cast<int>(regions.size()));
     for (const fill::Region& region : regions) {
@@ -239,14 +239,14 @@ int node(lua_State* L)
     return 3;
 }
 
-/// The call that gives a cell of a shape.
+/// Name of the method that returns a cell of a shape, for messages.
 template <mesh::CellShape Shape>
 constexpr const char* kCellCall = Shape == mesh::CellShape::hex8       ? "hex"
                                   : Shape == mesh::CellShape::wedge6   ? "wedge"
                                   : Shape == mesh::CellShape::pyramid5 ? "pyramid"
                                                                        : "tet";
 
-/// n1, ... = mesh:hex(i), and of wedges, pyramids and tetrahedra; the parts' one after the other
+/// n1, ... = mesh:hex(i), mesh:wedge(i), mesh:pyramid(i) or mesh:tet(i); cells are numbered part by part
 template <mesh::CellShape Shape>
 int cell(lua_State* L)
 {

@@ -14,8 +14,8 @@ namespace lacuna::lua {
 
 namespace {
 
-/// The options of one volume: those for all, which have words as keys, and what [volume] says over them. Left
-/// on the stack. The member learns which of those that name faces are its own.
+/// Push the options of one volume: those for all volumes, which have words as keys, overridden by those at
+/// [volume]. The member learns which options that name faces are its own.
 void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume, fill::Member& member)
 {
     lua_newtable(L);
@@ -42,8 +42,8 @@ void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume, fi
     }
 }
 
-/// Refuse keys that are neither words nor volumes of the assembly, and keys of a volume's options that are no
-/// words.
+/// Refuse keys that are neither words nor volumes of the assembly, and keys of a volume's options that are
+/// not words.
 void check_volume_keys(lua_State* L, int index, const char* call, const AssemblyState& assembly)
 {
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
@@ -51,22 +51,22 @@ void check_volume_keys(lua_State* L, int index, const char* call, const Assembly
         const Box<VolumeState>* const key = test_box<VolumeState>(L, -2);
         const auto is_key = [key](const AssemblyState::Entry& entry) { return entry.volume == *key; };
         if (key == nullptr || !*key || std::ranges::none_of(assembly.entries, is_key))
-            fail(L, "%s: the keys of the options are words, or volumes of the assembly", call);
+            fail(L, "%s: the keys of the options must be names of options, or volumes of the assembly", call);
         if (lua_type(L, -1) != LUA_TTABLE) fail_value(L, {call, "[volume]"}, "a table of options", -1);
         const int own = lua_gettop(L);
         for (lua_pushnil(L); lua_next(L, own) != 0; lua_pop(L, 1)) {
             if (lua_type(L, -2) == LUA_TSTRING) continue;
             fail(L,
-                 "%s: the keys of one volume's options are words; found a %s: give each volume's options "
-                 "in the table of the whole",
+                 "%s: the keys of one volume's options must be names of options, found a %s; give "
+                 "[volume] = { ... } for each volume in the table of the call",
                  call, test_box<VolumeState>(L, -2) != nullptr ? "volume" : luaL_typename(L, -2));
         }
     }
 }
 
 /// Sweep the assembly that is the first argument with the options at `index`, nil or a table.
-/// @param file  null: its mesh is pushed; else the report of the file
-/// @param crew  of a mesh that need not hold its nodes; null: nobody
+/// @param file  null: push the mesh; otherwise write the file and push its report
+/// @param crew  processes that share a mesh written by layers; null: this process alone
 int push_swept_assembly(lua_State* L, int index, const char* call, const SweepFile* file, bool layered,
                         const Crew* crew)
 {

@@ -18,7 +18,7 @@ static_assert(sizeof(Index) == 4, "hosts are told of int32");
 
 BufferState of_wholes(std::vector<Index> numbers, std::size_t columns)
 {
-    static constexpr Index kNone = 0; // a place for no numbers: that there is one tells the type
+    static constexpr Index kNone = 0; // address for an empty buffer: any but null marks whole numbers
     const auto kept = std::make_shared<const std::vector<Index>>(std::move(numbers));
     return {kept, nullptr, kept->empty() ? &kNone : kept->data(), kept->size(), columns};
 }
@@ -61,7 +61,7 @@ BufferState cells_of(const mesh::HexMesh& mesh, std::size_t corners)
     return of_wholes(std::move(nodes), columns);
 }
 
-/// buffer = mesh:coordinates(): of every node x, y, z
+/// buffer = mesh:coordinates(): x, y, z of every node
 int coordinates(lua_State* L)
 {
     lua_settop(L, 1);
@@ -69,7 +69,7 @@ int coordinates(lua_State* L)
     auto& box = new_box<BufferState>(L);
     guard(L, [&] {
         const mesh::HexMesh& hexes = mesh->swept.mesh;
-        if (hexes.middles.empty()) { // as they lie in the mesh, which stays
+        if (hexes.middles.empty()) { // the memory of the mesh, which the buffer keeps alive
             box = std::make_shared<BufferState>(
                 BufferState{mesh, hexes.nodes.empty() ? nullptr : hexes.nodes.front().data(), nullptr,
                             3 * hexes.nodes.size(), 3});
@@ -134,7 +134,7 @@ struct FieldArguments {
     std::size_t corners = 8; ///< of the kind of cells
 };
 
-/// [metric [, kind]], at 2 and 3
+/// Read the arguments [metric [, kind]] at index 2 and 3.
 FieldArguments read_field(lua_State* L)
 {
     FieldArguments read;
@@ -143,18 +143,18 @@ FieldArguments read_field(lua_State* L)
     return read;
 }
 
-/// Refuse metrics that `measure_metrics()` has of hexahedra alone: their values would be 0.
+/// Refuse metrics that are defined for hexahedra only: their values for other cells would be 0.
 void require_defined(const FieldArguments& of)
 {
     using enum quality::Metric;
     if (of.corners == 8 || of.metric == scaled_jacobian || of.metric == jacobian || of.metric == volume)
         return;
-    throw InvalidInput(Message("lua.bad_value", "field: '{}' is defined for hexahedra alone",
-                               quality::metric_name(of.metric))
-                           .remedy("take \"scaled_jacobian\", \"jacobian\" or \"volume\""));
+    throw InvalidInput(
+        Message("lua.bad_value", "field: '{}' is defined for hexahedra only", quality::metric_name(of.metric))
+            .remedy("use \"scaled_jacobian\", \"jacobian\" or \"volume\""));
 }
 
-/// buffer = mesh:field([metric [, kind]]): its value for every row of mesh:cells(kind)
+/// buffer = mesh:field([metric [, kind]]): the metric's value for every row of mesh:cells(kind)
 int field(lua_State* L)
 {
     lua_settop(L, 3);
@@ -253,7 +253,7 @@ int row(lua_State* L)
     return push_row(L, buffer, check_number(L, "row", buffer.rows()));
 }
 
-/// Upvalues: the buffer, the row that was last.
+/// Upvalues: the buffer; the number of the last row, 0 at the start.
 int next_row(lua_State* L)
 {
     const BufferState& buffer = check<BufferState>(L, lua_upvalueindex(1));
@@ -274,7 +274,7 @@ int each(lua_State* L)
     return 1;
 }
 
-/// text = buffer:bytes(): as they lie in memory, for string.unpack and files
+/// text = buffer:bytes(): the numbers as in memory, for string.unpack and files
 int bytes(lua_State* L)
 {
     const BufferState& buffer = check<BufferState>(L, 1);

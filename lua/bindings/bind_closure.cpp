@@ -103,9 +103,9 @@ int is_watertight(lua_State* L)
 
 // --- cutting ------------------------------------------------------------------------------------------
 
-/// What a volume is cut by.
+/// What cuts a volume.
 struct CutArguments {
-    const Box<ModelState>* model = nullptr; ///< the volume's own faces; held by the call
+    const Box<ModelState>* model = nullptr; ///< the volume's own faces; on the stack during the call
     std::optional<geometry::Plane> plane;
     bool automatic = false;
     Box<ModelState> of; ///< the model of `face`
@@ -169,7 +169,7 @@ int volume_model(lua_State* L)
     return 1;
 }
 
-/// { volume, ... } = volume:cut { plane = | face = }; without options where the volume has to be
+/// { volume, ... } = volume:cut { plane = | face = }; without options, where the volume needs cuts
 int cut(lua_State* L)
 {
     lua_settop(L, 2);
@@ -179,8 +179,8 @@ int cut(lua_State* L)
         arguments.model = &push_model(L, state);
         read_options(L, 2, "cut", kClosureCutOptions, arguments);
         if (arguments.plane.has_value() + (arguments.of != nullptr) + arguments.automatic != 1)
-            fail(L,
-                 "cut: give either 'plane', 'face' or auto = true, or no options, for a volume with steps");
+            fail(L, "cut: give one of 'plane', 'face' and auto = true; for a volume with steps, give no "
+                    "options");
     }
     RunContext& context = push_context(L);
     auto& pieces = temporary<std::vector<Box<VolumeState>>>(L);

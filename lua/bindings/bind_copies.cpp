@@ -12,9 +12,9 @@ namespace lacuna::lua {
 namespace {
 
 struct CopyArguments {
-    /// Lua aligns its memory less than Eigen would.
+    /// Without alignment: Lua aligns its memory less than Eigen requires.
     std::optional<Eigen::Transform<double, 3, Eigen::Affine, Eigen::DontAlign>> by;
-    const char* key = nullptr; ///< the option that gives it
+    const char* key = nullptr; ///< the option that gave the motion
     fill::PatternOptions pattern;
     bool has_count = false;
     std::string name;
@@ -124,7 +124,9 @@ template <class State>
 int pattern(lua_State* L)
 {
     const auto& arguments = push_arguments(L, "pattern", kPatternOptions, "'translate' or 'rotate'");
-    if (!arguments.has_count) fail(L, "pattern: give 'count', the number of copies with the mesh itself");
+    if (!arguments.has_count)
+        fail(L, "pattern: option 'count' is missing: the number of copies, "
+                "including the mesh itself");
     const State& state = hold<State>(L, 1);
     RunContext& context = push_context(L);
     return push_swept(L, {}, "pattern", nullptr, context, [&] {

@@ -14,7 +14,7 @@ namespace lacuna::lua {
 
 namespace {
 
-/// As many faces, edges and gaps are listed one by one in the text; more are grouped or counted. A choice.
+/// Up to this number of faces, edges or gaps, the text lists each one; more are grouped or counted. A choice.
 constexpr std::size_t kMostLines = 60;
 
 using Info = closure::ModelFacts;
@@ -23,7 +23,7 @@ using Info = closure::ModelFacts;
 
 std::string number(double value) { return with_digits(value, 4); }
 
-/// What is nothing but rounding beside `scale` is written as 0.
+/// A point as text. Coordinates below 1e-9 times `scale` are rounding and are written as 0.
 std::string place(const Vec3& p, double scale)
 {
     std::string text;
@@ -230,7 +230,7 @@ int info(lua_State* L)
     const Box<ModelState>& state = hold_model(L, 1);
     RunContext& context = push_context(L);
     auto& found = temporary<Info>(L);
-    auto& model = temporary<topology::Model>(L); // a finalizer may grow a face meanwhile
+    auto& model = temporary<topology::Model>(L); // a copy: a finalizer may change the model meanwhile
     guard(L, [&] {
         model = state->model;
         found = closure::model_facts(model, context);

@@ -31,18 +31,20 @@ struct WriteArguments {
     bool quality_given = false;
     io::MeshDeckOptions deck;
     bool element_given = false;
-    std::vector<Box<ModelState>> with; ///< the first is the volume's; empty: the mesh alone
-    std::vector<std::string> without;  ///< parts of these that the mesh stands for
+    std::vector<Box<ModelState>> with; ///< models whose decks the mesh joins, the volume's first; empty: the
+                                       ///< mesh alone
+    std::vector<std::string> without;  ///< parts of these decks that the mesh replaces
     bool renumber = false, renumber_given = false;
-    bool gmsh_options = false;                         ///< a file beside a .msh that says how Gmsh shows it
-    bool groups_given = false;                         ///< of a .msh
-    bool partitions_given = false, by_process = false; ///< a part for each process
+    bool gmsh_options = false;                         ///< also write a file beside a .msh with Gmsh's
+                                                       ///< display options
+    bool groups_given = false;                         ///< the option `groups` of a .msh was given
+    bool partitions_given = false, by_process = false; ///< by_process: one part for each process
 };
 
 namespace {
 
-/// Metrics to be written. Version 2.2 is for readers that know no other, some of which (meshio 5) refuse a
-/// file with $ElementData: there only where it is asked for.
+/// Metrics to write. Version 2.2 is for readers that know no other version. Some of these (meshio 5) refuse a
+/// file with $ElementData, so such a file gets metrics only on request.
 std::vector<quality::Metric> metrics_of(const WriteArguments& arguments)
 {
     if (!arguments.quality_given && arguments.msh.version == 2.2) return {};
@@ -165,13 +167,13 @@ void read_groups(lua_State* L, int index, const Where& where, WriteArguments& ar
     arguments.groups_given = true;
 }
 
-/// Whether a mesh is always written in pieces.
+/// Whether a format always writes a mesh in pieces, as .pvtu does.
 bool is_pieces(const io::Format& format)
 {
     return format.has_option("partitions") && !format.has_option("version");
 }
 
-/// As many parts as processes, where that is asked for or a .pvtu leaves it open.
+/// Set the number of parts to the number of processes, if asked to or if a .pvtu is written without a number.
 void count_parts(WriteArguments& arguments, const io::OutputPath& path, const Crew* crew)
 {
     const bool open = !arguments.partitions_given && is_pieces(io::needed_mesh_format("write", path.text()));
@@ -196,7 +198,7 @@ const Option<WriteArguments> kIoWriteOptions[] = {
     {"groups", read_groups},
 };
 
-/// Of files that are written a layer at a time.
+/// Options of files that are written a layer at a time.
 const Option<WriteArguments> kLayeredOptions[] = {
     {"version", read_version},
     {"binary", read_binary},
@@ -208,7 +210,7 @@ const Option<WriteArguments> kLayeredOptions[] = {
     {"groups", read_groups},
 };
 
-/// The decks that models were read from as one; `merged` holds it where there are several.
+/// The decks from which models were read, as one deck. If there are several, `merged` holds the result.
 const io::Deck& deck_with(const WriteArguments& arguments, io::Deck& merged, const RunContext& context)
 {
     std::vector<io::DeckInScale> decks;
@@ -231,7 +233,7 @@ struct JoinedMesh {
     std::string material;
 };
 
-/// The decks of `with`, less the parts of `without`, and meshes that fill their voids.
+/// The decks of `with` without the parts of `without`, joined with the meshes that fill their voids.
 io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& arguments,
                      const RunContext& context)
 {
@@ -273,7 +275,7 @@ void write_mesh(const io::Format& format, const mesh::HexMesh& mesh, const io::O
     io::write_deck(joined_deck({&one, 1}, all, context), format, path, context, arguments.msh);
 }
 
-/// An option that was given and that the format does not have; null: none.
+/// An option that was given but that the format does not have; null: none.
 const char* idle_option(const io::Format& format, const WriteArguments& arguments)
 {
     const bool joins = !arguments.with.empty(), numbered = format.is_numbered || joins;
@@ -298,7 +300,7 @@ const char* idle_option(const io::Format& format, const WriteArguments& argument
         const bool first = std::string_view(name).starts_with("first");
         if (given && !(first ? numbered : joins)) return name;
     }
-    // Parts of an .msh are asked for; pieces are parts by themselves.
+    // Ghosts need parts: those asked for in an .msh, or the pieces of a format that always writes pieces.
     const bool parted = arguments.partitions_given || is_pieces(format);
     return arguments.msh.partition.ghosts > 0 && !parted ? "ghosts" : nullptr;
 }
@@ -315,7 +317,7 @@ const io::Format& format_of(const std::string& path, const WriteArguments& argum
                            .remedy("leave it out"));
 }
 
-/// The scaled Jacobian of some cells: as they were proved, where that was kept.
+/// The scaled Jacobian of some cells: the value that the proof kept, otherwise computed.
 void copy_scaled_jacobians(const sweep::Swept& swept, std::span<const std::uint32_t> cells, double* out)
 {
     const std::vector<float>* kept = swept.quality.of_cells.get();
@@ -324,7 +326,7 @@ void copy_scaled_jacobians(const sweep::Swept& swept, std::span<const std::uint3
     for (const std::uint32_t cell : cells) *out++ = static_cast<double>((*kept)[cell]);
 }
 
-/// The fields asked for of the cells of a mesh; decks have none.
+/// Add the fields asked for, one value per cell; decks have none.
 void add_fields(const sweep::Swept& swept, const io::Format& format, WriteArguments& arguments,
                 const RunContext& context)
 {
@@ -333,7 +335,8 @@ void add_fields(const sweep::Swept& swept, const io::Format& format, WriteArgume
     for (const quality::Metric metric : metrics_of(arguments)) {
         io::CellField& field = arguments.msh.fields.emplace_back();
         field.name = quality::metric_name(metric);
-        // What every file has is made while another thread writes, and takes no memory.
+        // The scaled Jacobian, which every file has, is computed while another thread writes, and takes no
+        // memory.
         if (metric == quality::Metric::scaled_jacobian && mesh.order() == 1)
             field.make = [&swept](std::span<const std::uint32_t> cells, double* out) {
                 copy_scaled_jacobians(swept, cells, out);
@@ -369,7 +372,7 @@ int write(lua_State* L)
     return 0;
 }
 
-/// The deck of an assembly's mesh with the decks that it fills voids of.
+/// The deck of an assembly's mesh, joined with the decks whose voids it fills.
 io::Deck joined_deck(const fill::FilledParts& state, const WriteArguments& arguments,
                      const RunContext& context)
 {
@@ -388,8 +391,10 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
 {
     const io::Format& format = io::needed_mesh_format("write", path.text());
     if (!state.interfaces.empty() && (format.is_folder || !arguments.with.empty()))
-        throw InvalidInput(Message("lua.split_write", "write: a mesh with cells of no thickness is {}",
-                                   format.is_folder ? "no polyMesh" : "not joined to a deck")
+        throw InvalidInput(Message("lua.split_write",
+                                   "write: a mesh with cells of no thickness cannot be "
+                                   "{}",
+                                   format.is_folder ? "written as polyMesh" : "joined to a deck")
                                .remedy("{}", format.is_folder ? "write another format" : "leave out 'with'"));
     if (arguments.partitions_given || is_pieces(format))
         throw InvalidInput(
@@ -406,7 +411,7 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
     io::write_deck(deck, format, path, context, arguments.msh);
 }
 
-/// Write the mesh of an assembly, in parts where these are asked for.
+/// Write the mesh of an assembly, in parts if asked to.
 void write_parts(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,
                  const Crew* crew, const RunContext& context)
 {
@@ -449,7 +454,7 @@ int write_assembly(lua_State* L)
     return 0;
 }
 
-/// Of quads without layers.
+/// Options of meshes of quads.
 const Option<WriteArguments> kQuadsWriteOptions[] = {
     {"version", read_version},
     {"binary", read_binary},
@@ -554,7 +559,7 @@ int load(lua_State* L)
     const Host& lent = host(L);
     arguments.limits.may_raise = !lent.sandboxed;
     RunContext& context = push_context(L);
-    lua_gc(L, LUA_GCCOLLECT); // to Lua a model is a few bytes: it would let old ones pile up
+    lua_gc(L, LUA_GCCOLLECT); // for Lua a model is a few bytes, so it would let unused models pile up
     auto& box = new_box<ModelState>(L);
     guard(L, [&] {
         for (const std::string& path : paths) check_input_path(lent, path);
@@ -617,9 +622,11 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
     guard(L, [&] {
         const io::Format* const format = io::find_format(path.text());
         if (format == nullptr || !format->streamed)
-            throw InvalidInput("lua.not_layered", "sweep_to: {}: files written a layer at a time end in {}",
+            throw InvalidInput("lua.not_layered",
+                               "sweep_to: {} cannot be written a layer at a time; such "
+                               "files end in {}",
                                path.text(), io::endings_of([](const io::Format& of) { return of.streamed; }));
-        format_of(path.text(), arguments); // refuses options that it has not
+        format_of(path.text(), arguments); // refuses options that the format does not have
     });
     return arguments;
 }
@@ -670,11 +677,12 @@ void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, Wr
         throw InvalidInput(
             Message("lua.idle_option", "write: meshes of assemblies are written without 'quality'")
                 .remedy("leave it out"));
-    static_cast<void>(format_of(path.text(), arguments)); // refuses what the format has not
+    static_cast<void>(format_of(path.text(), arguments)); // refuses options that the format does not have
     count_parts(arguments, path, crew);
     arguments.msh.unit = state.unit;
     for (const sweep::LeftOut& out : state.left_out)
-        log_line(context, formatted("note: {} has a hole: left out is {}", path.text(), out.message.text()));
+        log_line(context, formatted("note: {} has a hole, because a volume was left out: {}", path.text(),
+                                    out.message.text()));
     write_parts(state, path, arguments, crew, context);
 }
 

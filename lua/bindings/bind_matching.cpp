@@ -14,7 +14,7 @@ using matching::MatchOptions;
 const Word<matching::Method> kMatchingMethods[] = {{"aligned", matching::Method::aligned},
                                                    {"nearest", matching::Method::nearest}};
 
-/// Pairs of whole numbers from `smallest`, each less by `offset`.
+/// Pairs of whole numbers from 1, each reduced by `Offset`.
 template <auto Member, int Offset>
 void read_pairs(lua_State* L, int index, const Where& where, MatchOptions& options)
 {
@@ -81,7 +81,8 @@ int match(lua_State* L)
     auto& options = temporary<MatchOptions>(L);
     read_options(L, 2, "match", kMatchOptions, options);
     RunContext& context = push_context(L);
-    auto& found = temporary<matching::Match>(L); // a finalizer may match anew while this one is pushed
+    auto& found = temporary<matching::Match>(L); // a copy: a finalizer may match anew while this one is
+                                                 // pushed
     guard(L, [&] {
         const Busy busy(state, "match");
         state = fill::match(state, asked ? std::optional(options) : std::nullopt, context);

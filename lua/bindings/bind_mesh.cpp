@@ -56,7 +56,7 @@ int mesh_fidelity(lua_State* L)
     return 1;
 }
 
-/// mesh.regions: the one volume's name
+/// mesh.regions: an array with the name of the one volume
 int mesh_regions(lua_State* L)
 {
     const auto& groups = hold<MeshState>(L, 1).swept.mesh.volume_groups;
@@ -76,7 +76,7 @@ int node(lua_State* L)
     return 3;
 }
 
-/// n1, ..., n8 = mesh:hex(i): the corners, whatever the order
+/// n1, ..., n8 = mesh:hex(i): the corners, of cells of any order
 int hex(lua_State* L)
 {
     lua_settop(L, 2);
@@ -109,7 +109,7 @@ int mesh_to_string(lua_State* L)
 const luaL_Reg kMeshMeshMethods[] = {
     {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", mesh_groups<MeshState>}, {nullptr, nullptr}};
 const luaL_Reg kMeshMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
-/// { }: what a volume alone cannot mesh is an error
+/// mesh.left_out, always empty: a volume that cannot be meshed is an error
 int mesh_left_out(lua_State* L)
 {
     check<MeshState>(L, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Volume: what topology/open_volume.h knows of it. Matching, closing and sweeping add their methods to the
-// class.
+// Volume: opening, classes and free edges (topology/open_volume.h). Matching, closing and sweeping add their
+// methods to the class.
 #include "bindings/faces.h"
 #include "bindings/names.h"
 
@@ -28,7 +28,7 @@ const Word<VolumeClass> kClasses[] = {
 // --- roles ----------------------------------------------------------------------------------------------
 
 struct RoleArguments : fill::RoleRequest {
-    const Box<ModelState>* model = nullptr; ///< held by the call
+    const Box<ModelState>* model = nullptr; ///< on the stack during the call
     int functions = 0;                      ///< index of a table that keeps functions for the call
     Box<ModelState> of;                     ///< the model of the face that `along` leads to
 };
@@ -61,7 +61,7 @@ void read_name(lua_State* L, int index, const Where& where, RoleArguments& argum
     guard(L, [&] { arguments.name = name; });
 }
 
-/// A name, as Abaqus has them, or a number, as Nastran has.
+/// A name, as in Abaqus, or a number, as in Nastran.
 void read_material(lua_State* L, int index, const Where& where, RoleArguments& arguments)
 {
     if (lua_type(L, index) == LUA_TNUMBER) {
@@ -98,7 +98,7 @@ struct Function {
         keep_callback_error(state);
         throw CallbackFailed{};
     }
-    /// A result that is no number is not a number to the kernel either, which refuses it.
+    /// A result, or NaN if it is not a number; the kernel refuses NaN.
     [[nodiscard]] double take(int index) const
     {
         return lua_type(state, index) == LUA_TNUMBER ? lua_tonumber(state, index) : std::nan("");
@@ -139,7 +139,7 @@ struct AlongArguments {
     std::optional<bool> fixed;
 };
 
-/// The path of an option; there is one.
+/// Set the path to the kind that an option gives; only one option may give a path.
 template <class Course>
 Course& set_course(lua_State* L, const Where& where, AlongArguments& arguments)
 {
@@ -162,7 +162,7 @@ void read_along_vector(lua_State* L, int index, const Where& where, AlongArgumen
     set_course<Along::Vector>(L, where, arguments).way = read_vector(L, index, where);
 }
 
-/// A path round a line, given by an array of a point, a direction and what else it has.
+/// Read a path around a line, given by an array of `size` elements: a point, a direction and the others.
 template <class Course>
 Course& read_line(lua_State* L, int index, const Where& where, AlongArguments& arguments, std::size_t size,
                   const char* expected)
@@ -351,12 +351,12 @@ int open_volume(lua_State* L)
         fail(L, "open_volume: name either the roles (source, target, walls) or 'faces', whose roles are then "
                 "found; not both");
     if (request.roles && request.reading > 1)
-        fail(L, "open_volume: 'reading' is the number of one that was found; with roles named there is one, "
-                "and reading = 1 takes it where its shape is a guess");
+        fail(L, "open_volume: 'reading' selects one of the readings that were found; with named roles "
+                "there is only reading = 1, which accepts a guessed shape");
     const bool ends = request.roles && (!request.roles->source.empty() || !request.roles->target.empty());
     if (request.full_turn && (request.find_walls || ends || request.override_class || request.reading > 0))
-        fail(L, "open_volume: with full_turn = true there are walls alone, no source, target, class or "
-                "reading: name the walls by their tags or names, or none, for all faces");
+        fail(L, "open_volume: full_turn = true takes walls only, no source, target, class or reading; "
+                "name the walls by tag or name, or give none for all faces");
     RunContext& context = push_context(L);
     auto& box = new_box<VolumeState>(L);
     guard(L, [&] {

@@ -90,7 +90,7 @@ int quad_mesh_node(lua_State* L)
     return 3;
 }
 
-/// n1, ..., n4 = mesh:quad(i): the corners, whatever the order
+/// n1, ..., n4 = mesh:quad(i): the corners, of quads of any order
 int quad_mesh_quad(lua_State* L)
 {
     lua_settop(L, 2);
@@ -131,7 +131,7 @@ int quad_mesh_quality(lua_State* L)
     return 1;
 }
 
-/// model = mesh:model(): the quads as faces that keep them
+/// model = mesh:model(): a model whose faces keep the quads
 int quad_mesh_model(lua_State* L)
 {
     const auto& state = hold<QuadMeshState>(L, 1);

@@ -10,7 +10,8 @@ namespace {
 
 constexpr const char* kQualityMeta = "Quality";
 
-/// A cell, its layer where it has one, its centre, and its value of `name`. Of a WorstCell or MetricSummary.
+/// Push the cell of a WorstCell or MetricSummary: its number, its layer if it has one, its centre, and its
+/// value under `name`.
 void push_cell(lua_State* L, std::size_t cell, int layer, const Vec3& centre, const char* name, double value)
 {
     lua_createtable(L, 0, 4);
@@ -25,13 +26,13 @@ QualitySource& check_source(lua_State* L)
 {
     luaL_checktype(L, 1, LUA_TTABLE);
     luaL_getmetatable(L, kQualityMeta);
-    lua_getfield(L, -1, "sources"); // weak, by table
+    lua_getfield(L, -1, "sources"); // weak table from a Quality to its source
     lua_pushvalue(L, 1);
-    if (lua_rawget(L, -2) != LUA_TUSERDATA) fail(L, "this table is no Quality");
+    if (lua_rawget(L, -2) != LUA_TUSERDATA) fail(L, "this table is not a Quality");
     return temporary_at<QualitySource>(L, -1);
 }
 
-/// Measure all metrics, unless that is done.
+/// Measure all metrics, unless they were measured before.
 void measure_metrics(lua_State* L, QualitySource& source)
 {
     RunContext& context = push_context(L);
@@ -65,7 +66,7 @@ void push_metric(lua_State* L, const quality::MetricSummary& summary)
     lua_setfield(L, -2, "worst");
 }
 
-/// Put the rows into the field `metrics` of the Quality at index 1, in order and by name, and push them.
+/// Push the metrics, in order and by name, and store them in the field `metrics` of the Quality at index 1.
 void push_metrics(lua_State* L)
 {
     lua_pushliteral(L, "metrics");
@@ -107,7 +108,7 @@ int quality_pairs(lua_State* L)
     return 3;
 }
 
-/// Counts, histogram, a line a metric. Left out are a second name and the edge ratio of VTK.
+/// Counts, a histogram and a line for each metric, except for a metric's second name and VTK's edge ratio.
 int quality_to_string(lua_State* L)
 {
     lua_settop(L, 1);

@@ -12,16 +12,16 @@
 
 namespace lacuna::lua {
 
-/// What a Quality of Lua was measured on, so that metrics are measured when they are asked for.
+/// The mesh that a Quality of Lua describes; its metrics are measured when they are first asked for.
 struct QualitySource {
     quality::Quality quality;
-    std::shared_ptr<MeshState> mesh; ///< or, where null, the cells of a file
+    std::shared_ptr<MeshState> mesh; ///< null: the nodes and cells below
     std::vector<Vec3> nodes;
     std::vector<Hex> hexes; ///< corners
     std::optional<std::vector<quality::MetricSummary>> metrics;
 };
 
-/// Push a Quality: a table of what was measured that prints as a table.
+/// Push a Quality: a table of the measured values, which prints as text.
 /// @param source  index of a `temporary<QualitySource>`
 void push_quality(lua_State* L, int source);
 

@@ -19,7 +19,7 @@ namespace {
 struct AddedFace {
     std::string name;
     std::vector<Vec3> points;
-    std::vector<std::array<int, 4>> cells; ///< numbers of points from 1; the fourth 0 in a triangle
+    std::vector<std::array<int, 4>> cells; ///< numbers of points, from 1; the fourth is 0 for a triangle
     bool keep_mesh = false;
 };
 
@@ -71,11 +71,12 @@ const Option<AddedFace> kAddFaceOptions[] = {
     {"keep_mesh", boolean<&AddedFace::keep_mesh>},
 };
 
-/// The two triangles of a quad, along the diagonal that folds it less, then the shorter one.
+/// Divide a quad into two triangles along the diagonal on which they do not fold; if both or neither fold,
+/// along the shorter diagonal.
 std::array<Triangle, 2> halves(const Quad& q, const std::vector<Vec3>& points)
 {
     const auto at = [&](int i) { return points[static_cast<std::size_t>(q[static_cast<std::size_t>(i)])]; };
-    const auto fold = [&](int a, int b, int c, int d) { // cosine between the halves on the diagonal a-c
+    const auto fold = [&](int a, int b, int c, int d) { // whether the halves on the diagonal a-c fold
         const Vec3 one = (at(b) - at(a)).cross(at(c) - at(a)), two = (at(c) - at(a)).cross(at(d) - at(a));
         return one.dot(two) <= 0;
     };
@@ -184,7 +185,7 @@ int face(lua_State* L)
     auto& found = temporary<std::vector<FaceId>>(L);
     read_faces(L, 2, {"face", nullptr}, state, found);
     if (found.size() != 1)
-        fail(L, "face: one face is wanted, and %d fit: %s; say more, or take model:faces(...)",
+        fail(L, "face: the argument must mean one face, but %d fit: %s; narrow it, or use model:faces(...)",
              static_cast<int>(found.size()), push_names(L, state->model, found));
     push_face(L, state, found.front());
     return 1;
@@ -227,7 +228,7 @@ const Field kModelFields[] = {
 
 // --- Face -----------------------------------------------------------------------------------------------
 
-/// The face at index 1, held, its model up to date.
+/// The Face at index 1, held until the call ends, and its model, brought up to date.
 struct HeldFace {
     const topology::Model& model;
     FaceId face;
@@ -286,7 +287,7 @@ int face_has_mesh(lua_State* L)
     return 1;
 }
 
-/// A field of the shape that is fitted to the face's facets; nil where none fits.
+/// Push a property of the sphere or cylinder that fits a face's facets; nil if none fits.
 template <class Push>
 int fitted(lua_State* L, const Push& push)
 {

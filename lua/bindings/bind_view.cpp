@@ -27,7 +27,7 @@ void read_title(lua_State* L, int index, const Where& where, Options& options)
 
 const Option<view::PageOptions> kPageOptions[] = {{"title", read_title}};
 
-/// Where a page or picture goes, as a temporary. Raises where the ending is another.
+/// The output path of a page or picture, as a temporary. Raises an error if it has another ending.
 const io::OutputPath& push_path(lua_State* L, int index, const char* call, const char* ending)
 {
     const io::OutputPath& path = push_output_path(L, index, call);
@@ -38,7 +38,7 @@ const io::OutputPath& push_path(lua_State* L, int index, const char* call, const
     });
     return path;
 }
-/// One file by its name: what a recipe on the page can load.
+/// The file that a recipe on the page can load; empty if there is not exactly one.
 std::string loadable(const ModelState& state)
 {
     return state.hand_made || state.decks.size() > 1 ? "" : state.model.source;
@@ -168,7 +168,7 @@ const Option<view::PictureOptions> kPictureOptions[] = {
     {"legend", boolean<&view::PictureOptions::legend>},
     {"title", read_title},
 };
-/// Of faces, which have no cells.
+/// Options for pictures of faces, which have no cells.
 const Option<view::PictureOptions> kFacePictureOptions[] = {
     {"width", count<&view::PictureOptions::width>},
     {"height", count<&view::PictureOptions::height>},
@@ -247,14 +247,14 @@ bool is_deck(const std::string& file)
     return format != nullptr && format->is_read && format->is_mesh;
 }
 
-/// @return  whether the page shows cells, else faces
+/// @return  true if the page shows cells, false if it shows faces
 bool view_file(const std::string& file, const io::OutputPath& path, ViewFile& options,
                const cad::Limits& limits, const RunContext& context)
 {
     if (options.page.title.empty()) options.page.title = file.substr(file.rfind('/') + 1);
     if (options.show == Show::cells || (options.show == Show::automatic && is_deck(file))) {
         const io::Deck deck = io::read_deck(file, context);
-        // A mesh is shown as one, whatever format it has.
+        // A deck with solid elements is shown as a mesh, whatever its format.
         if (options.show == Show::cells || deck.element_count(3) > 0) {
             view::write_page(deck, path, options.page, context);
             return true;

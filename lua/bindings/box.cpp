@@ -24,14 +24,14 @@ const char kRingKey = 0;
 const char kTemporaryKey = 0;
 const char kShareKey = 0;
 
-/// The ring's `__gc`. Lua finalizes in the reverse order of making, so all others of the bindings came first;
-/// those made meanwhile are still there.
+/// The ring's `__gc`. Lua finalizes objects in the reverse order of their creation, so all other objects of
+/// the bindings were finalized before. Those made meanwhile are still in the ring.
 int empty_ring(lua_State* L)
 {
     auto& ring = *static_cast<Living*>(lua_touserdata(L, 1));
     while (ring.after != &ring) ring.after->release();
     lua_pushboolean(L, 0);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey); // a key that is there: no allocation
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey); // the key exists: no allocation
     return 0;
 }
 
@@ -39,7 +39,7 @@ int empty_ring(lua_State* L)
 
 const char kErrorMeta[] = "lacuna.Error";
 
-/// Fields `file` and `line` of the error on top: the innermost frame that is the person's own Lua.
+/// Set the fields `file` and `line` of the error on top: the innermost frame of the user's own Lua.
 void set_where(lua_State* L)
 {
     lua_Debug frame;
@@ -63,7 +63,7 @@ int error_to_string(lua_State* L)
     for (const char* field : {"file", "line", "message", "code"}) {
         lua_pushstring(L, field);
         lua_rawget(L, 1);
-        luaL_tolstring(L, -1, nullptr); // whatever a recipe put there
+        luaL_tolstring(L, -1, nullptr); // a recipe may have put anything there
         lua_remove(L, -2);
     }
     lua_pushstring(L, "file");
@@ -178,7 +178,7 @@ void push_values(lua_State* L, const std::vector<MessageValue>& values)
 
 // --- classes ------------------------------------------------------------------------------------------
 
-/// Push the strings of the array at `index`, by alphabet, with commas between them.
+/// Push the strings of the array at `index`, in alphabetical order, with commas between them.
 const char* push_sorted_names(lua_State* L, int index)
 {
     auto& names = temporary<std::vector<std::string>>(L);
@@ -211,7 +211,7 @@ int index_class(lua_State* L)
     lua_settop(L, 2);
     if (lua_type(L, 2) != LUA_TSTRING)
         fail_as(L, "lua.unknown_field", "a %s is not an array", lua_tostring(L, lua_upvalueindex(1)));
-    // Names of both lists, for the nearest one.
+    // The names of both lists, to find the nearest.
     lua_newtable(L);
     for (int list : {lua_upvalueindex(2), lua_upvalueindex(3)}) {
         for (lua_pushnil(L); lua_next(L, list); lua_pop(L, 1)) {
@@ -315,7 +315,7 @@ Living& ring(lua_State* L)
         lua_pop(L, 1); // the registry keeps it
         return ring;
     }
-    constexpr int kUnfinished = 1; // the key is there, and the ring is not: making it failed
+    constexpr int kUnfinished = 1; // the key exists but the ring does not: its creation failed before
     if (found == LUA_TBOOLEAN && lua_toboolean(L, -1) != kUnfinished)
         luaL_error(L, "lacuna: the Lua state is being closed"); // an error of ours would need the ring
     lua_pop(L, 1);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Lua is compiled as C: it raises by longjmp, which skips destructors, and no C++ exception may pass through
-// its frames. So every binding goes through the same four steps:
+// Lua is compiled as C: it raises errors by longjmp, which skips destructors, and no C++ exception may pass
+// through its frames. So every binding takes the same four steps:
 //
-//   1. read the arguments     may raise; what needs a destructor lives in a temporary(), which Lua collects;
-//                             lua_settop() first, so that what is pushed never looks like an argument left
-//                             out; hold() what is worked on: any step of Lua may run a finalizer that closes
-//                             it
+//   1. read the arguments     may raise. An object with a destructor lives in a temporary(), which Lua
+//                             collects. lua_settop() comes first, so that no pushed value is taken for an
+//                             argument. hold() keeps the object of the method alive, because any step of Lua
+//                             may run a finalizer that closes it
 //   2. make the userdata      may raise
 //   3. guard(L, [&] {...})    kernel code, no Lua inside; an exception becomes a Lua error
 //   4. push the results       may raise; nothing to destroy
@@ -34,7 +34,7 @@ inline constexpr const char* kClassName = nullptr;
 // --- raising ----------------------------------------------------------------------------------------
 
 // Every error of the bindings is a table { message, code, entities, attempts, file, line }. It prints as one
-// sentence and answers to the methods of strings, so that a recipe may use it as the text it once was.
+// line and has the methods of strings, so that recipes can use it like a text.
 
 /// Raise the message on top of the stack, a string, with the recipe's file and line.
 [[noreturn]] void raise(lua_State* L, const char* code);
@@ -47,9 +47,9 @@ const char* push_found(lua_State* L, int index);
 
 // --- values of C++ inside userdata --------------------------------------------------------------------
 
-/// A value that Lua collects, in the ring of those that live in a state. Lua calls no `__gc` of what is made
-/// while the state closes, as a finalizer may do; the ring destroys what is left in it when all finalizers of
-/// the bindings have run.
+/// A value that Lua collects, linked into the ring of all such values of a state. Lua does not call `__gc`
+/// for objects that a finalizer makes while the state closes. The ring destroys those objects after all
+/// finalizers of the bindings have run.
 struct Living {
     Living* before = this;
     Living* after = this;
@@ -64,14 +64,14 @@ struct Living {
     void release() noexcept;
 };
 
-/// The state's ring, made at first need: before anything of the bindings that Lua finalizes. Raises once it
-/// has been emptied, in finalizers that are older than the bindings.
+/// The state's ring, made at its first use, before any object of the bindings that Lua finalizes. Raises an
+/// error once the ring has been emptied; only finalizers older than the bindings run then.
 Living& ring(lua_State* L);
 void put_in(Living& ring, Living& value) noexcept;
 
-/// `__gc` and `__close` of everything living.
+/// `__gc` and `__close` of every Living.
 int release_living(lua_State* L);
-/// Push the metatable of what no class describes; with `closes` it has `__close` as well.
+/// Push the metatable of values that belong to no class; with `closes` it also has `__close`.
 void push_release_table(lua_State* L, bool closes);
 
 template <class T>
@@ -88,20 +88,20 @@ void release(T& value) noexcept
     value.~T();
 }
 template <class T>
-void release(Box<T>& box) noexcept // a released box is looked at again
+void release(Box<T>& box) noexcept // a released box may still be read
 {
     box.reset();
 }
 
-/// Put a default-made T in the place of its metatable, which is on top of the stack. It is destroyed with the
-/// state at the latest.
+/// Replace the metatable on top of the stack by a new T that has it. The T is destroyed with the state at the
+/// latest.
 template <class T>
 T& push_held(lua_State* L)
 {
     static_assert(alignof(Held<T>) <= alignof(lua_Number), "Lua aligns userdata no further");
     Living& living = ring(L);
     auto* held = new (lua_newuserdatauv(L, sizeof(Held<T>), 0)) Held<T>();
-    // Nothing raises from here on: what is in the ring has its metatable, and leaves when it is collected.
+    // Nothing raises from here on: a value in the ring has its metatable, and leaves when it is collected.
     lua_insert(L, -2);
     lua_setmetatable(L, -2);
     held->destroy = [](Living& value) noexcept { release(static_cast<Held<T>&>(value).value); };
@@ -142,9 +142,9 @@ struct Failure {
     std::string message, code, remedy;
     std::vector<NamedEntity> entities; ///< that the message names
     std::vector<MessageValue> found, needed;
-    std::vector<MessageParts> attempts; ///< that failed; each with its whole text
+    std::vector<MessageParts> attempts; ///< failed attempts, each with its whole text
     bool from_callback = false;
-    /// @param said  the message of an error of the kernel
+    /// @param said  the message of a kernel error; null: none
     void keep(const char* its_code, const char* what, const Message* said = nullptr) noexcept;
 };
 
@@ -172,7 +172,7 @@ bool run_guarded(Failure& failure, Body& body) noexcept
     return false;
 }
 
-/// Tell the host, where it wants to know, that the stage it was told of last is over.
+/// Tell the host that the stage reported last is over, if the host asked for that.
 void end_stage(lua_State* L);
 
 /// Run kernel code; its exceptions become Lua errors. @pre no Lua call inside that may raise.
@@ -199,15 +199,15 @@ void push_text(lua_State* L, Make&& make)
 
 // --- boxes: userdata that share a kernel object -------------------------------------------------------
 
-/// Something a class shows as `object.name`; pushes one value, the object is at index 1.
+/// A field of a class, read as `object.name`. `get` pushes one value; the object is at index 1.
 struct Field {
     const char* name;
     lua_CFunction get;
 };
 
-/// Make the class: its fields, and what Lua calls by itself (`__tostring`, …). Lists end with a null name.
+/// Make a class with its fields and metamethods (`__tostring`, …). Lists end with a null name.
 void make_class(lua_State* L, const char* name, const Field* fields, const luaL_Reg* meta);
-/// Give a class that was made more methods; each kernel folder adds its own.
+/// Add methods to an existing class; each kernel folder adds its own.
 void add_methods(lua_State* L, const char* class_name, const luaL_Reg* methods);
 
 template <class T>
@@ -224,7 +224,7 @@ Box<T>& new_box(lua_State* L)
     return push_held<Box<T>>(L);
 }
 
-/// The box at `index`, null where there is something else.
+/// The box at `index`; null if there is something else.
 template <class T>
 Box<T>* test_box(lua_State* L, int index)
 {
@@ -234,7 +234,7 @@ Box<T>* test_box(lua_State* L, int index)
 
 [[noreturn]] void fail_self(lua_State* L, int index, const char* class_name, bool released);
 
-/// The box at `index`; raises where there is something else, or a released one.
+/// The box at `index`; raises an error if there is something else, or a released box.
 template <class T>
 Box<T>& check_box(lua_State* L, int index)
 {
@@ -243,16 +243,16 @@ Box<T>& check_box(lua_State* L, int index)
     return *box;
 }
 
-/// The object of the box at `index`, for use before Lua runs again: any allocation of Lua's may run a
-/// finalizer, and any function of the recipe may close it. What lives longer is held.
+/// The object of the box at `index`, for use before Lua runs again: any allocation by Lua may run a
+/// finalizer, and any function of the recipe may close the box. For longer use, hold() it.
 template <class T>
 T& check(lua_State* L, int index)
 {
     return *check_box<T>(L, index);
 }
 
-/// A share in the object of the box at `index`, on the stack until the call ends: whatever closes, collects
-/// or replaces the box meanwhile, the object lives.
+/// A shared pointer to the object of the box at `index`, on the stack until the call ends. It keeps the
+/// object alive even if the box is closed, collected or replaced meanwhile.
 template <class T>
 const Box<T>& hold_box(lua_State* L, int index)
 {

@@ -9,8 +9,8 @@ namespace lacuna::lua {
 
 namespace {
 
-/// The splitter meets triangles before quads; give each face the number of its label.
-/// @pre a face a label.
+/// Put faces in the order of their labels: the splitter makes those of triangles before those of quads.
+/// @pre one face for each label.
 void put_in_order_of_adding(topology::ModelBuilder& model, const healing::FacetSoup& soup)
 {
     std::vector<topology::Face> faces(model.faces.size());
@@ -38,7 +38,8 @@ void refresh(ModelState& state, const RunContext& context)
     topology::ModelBuilder model(healing::split_facets(state.added, options, context));
     if (model.faces.size() != static_cast<std::size_t>(state.added_faces))
         throw InvalidInput(Message("lua.face_in_parts",
-                                   "the {} faces added became {}: the cells of one do not hang together",
+                                   "the {} faces added became {}, because the cells of a face are not "
+                                   "connected",
                                    needed(state.added_faces), found(model.faces.size()))
                                .remedy("add each part as a face of its own"));
     put_in_order_of_adding(model, state.added);
@@ -75,8 +76,8 @@ FaceId face_of(const FaceHandle& handle)
     const FaceId face = face_now(handle);
     if (!face.valid())
         throw InvalidInput(
-            Message("lua.face_grown_over", "this face is part of one that face_from grew since")
-                .remedy("take that one, or pick faces after face_from"));
+            Message("lua.face_grown_over", "this face has become part of a face that face_from grew")
+                .remedy("use that face, or pick faces after face_from"));
     return face;
 }
 
@@ -223,7 +224,7 @@ int report_to_string(lua_State* L)
     for (lua_Integer i = 1; i <= count; ++i) {
         if (i > 1) luaL_addchar(&buffer, '\n');
         lua_rawgeti(L, 1, i);
-        luaL_tolstring(L, -1, nullptr); // whatever a recipe put there
+        luaL_tolstring(L, -1, nullptr); // a recipe may have put anything there
         lua_remove(L, -2);
         luaL_addvalue(&buffer);
     }

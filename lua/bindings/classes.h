@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What Lua's objects hold, and the small C++ between them and the kernel. Nothing here knows of Lua but the
-// names.
+// The C++ objects behind Lua's classes, and functions that push values to Lua.
 
 #include "bindings/box.h"
 #include "bindings/stage_clock.h"
@@ -20,46 +19,46 @@
 
 namespace lacuna::lua {
 
-/// A model that was read, or one whose faces a recipe adds: then facets are gathered first and the
-/// topology is made when it is asked for.
+/// A model that was read, or one made by hand, to which a recipe adds faces. The facets of added faces are
+/// collected first; the topology is made when it is needed.
 struct ModelState {
     topology::Model model;
     bool hand_made = false;
-    double tolerance = 0;     ///< with `hand_made`: points closer than this are one; 0: the default
-    healing::FacetSoup added; ///< with `hand_made`: a label a face, in the order of adding
+    double tolerance = 0;     ///< with `hand_made`: points closer than this are merged; 0: the default
+    healing::FacetSoup added; ///< with `hand_made`: facets, one label for each face in the order of adding
     int added_faces = 0;
     bool stale = false;                                 ///< `model` lacks faces of `added`
     std::vector<std::shared_ptr<const io::Deck>> decks; ///< the meshes it was read from
-    double scale = 1;                                   ///< of its coordinates to theirs
+    double scale = 1;                                   ///< model coordinates / coordinates of `decks`
     std::string unit;                                   ///< declared unit of its coordinates; empty: none
-    /// Of each time a face was grown, where each face there was went; not valid: into the grown one.
+    /// For each face that was grown: the new id of every earlier face; not valid: merged into the grown one.
     std::vector<std::vector<FaceId>> moves;
 };
 
 /// Bring `model` up to date with what was added.
-/// @throw InvalidInput  an added face falls apart into several; names it. Cancelled.
+/// @throw InvalidInput  the cells of an added face are not connected. Cancelled.
 void refresh(ModelState& state, const RunContext& context);
 
-/// The same with the host's context, where errors may be raised.
+/// The same with the host's context; raises Lua errors.
 void bring_up_to_date(lua_State* L, ModelState& state);
 /// The Model at `index`, held and brought up to date.
 const Box<ModelState>& hold_model(lua_State* L, int index);
 
 struct FaceHandle {
     std::shared_ptr<ModelState> model;
-    FaceId face;           ///< as its model was
-    std::size_t moves = 0; ///< after so many of the model's
+    FaceId face;           ///< id in the model when the handle was made
+    std::size_t moves = 0; ///< number of the model's `moves` at that time
 };
 
-/// The face a handle means in its model as it is; not valid: it is part of another by now.
+/// The present id of a handle's face; not valid: the face has become part of another.
 FaceId face_now(const FaceHandle& handle);
-/// The same where there must be one.
-/// @throw InvalidInput "lua.face_grown_over"  it is part of another by now.
+/// The same, for a face that must exist.
+/// @throw InvalidInput "lua.face_grown_over"  the face has become part of another.
 FaceId face_of(const FaceHandle& handle);
 
 struct VolumeState : fill::Volume {
     const char* busy = nullptr; ///< the method that works on it; null: none
-    /// Take what a stage made of the volume.
+    /// Take the result of a stage.
     VolumeState& operator=(fill::Volume made)
     {
         fill::Volume::operator=(std::move(made));
@@ -70,7 +69,7 @@ struct VolumeState : fill::Volume {
 /// Marks a volume as worked on, so that a function of the recipe that is called meanwhile cannot change it.
 class Busy {
 public:
-    /// @throw InvalidInput "lua.busy"  it is being worked on.
+    /// @throw InvalidInput "lua.busy"  the volume is marked already.
     Busy(VolumeState& state, const char* method);
     ~Busy() { state_.busy = nullptr; }
     Busy(const Busy&) = delete;
@@ -100,7 +99,7 @@ void push_filled(lua_State* L, fill::Filled& filled, const StageSeconds& seconds
 
 /// Volumes to be meshed as one, and meshes that stay as they are.
 struct AssemblyState {
-    /// One of the three.
+    /// Exactly one of the three is set.
     struct Entry {
         std::shared_ptr<VolumeState> volume;
         std::shared_ptr<MeshState> mesh;
@@ -113,7 +112,8 @@ struct AssemblyState {
 using fill::whole_cells;
 using fill::WholeCells;
 
-/// Push what a mesh's `fidelity` is to recipes: given faces by their tags, void ones by their groups' names.
+/// Push a mesh's `fidelity` as a table. Given faces have their tags as keys, faces of voids the names of
+/// their groups.
 void push_fidelity(lua_State* L, const sweep::Fidelity& fidelity);
 
 template <>
@@ -150,19 +150,19 @@ void set_near_misses(lua_State* L, const fill::FilledParts& mesh);
 void push_face(lua_State* L, const Box<ModelState>& model, FaceId face);
 /// { { name=, dim=, cells= }, ... }
 void push_groups(lua_State* L, const std::vector<fill::Group>& groups);
-/// The array of lines as a report, that of mesh.report.
+/// Push lines as a Report, as mesh.report returns it.
 void push_report(lua_State* L, const std::vector<std::string>& lines, const StageSeconds& seconds);
 
-/// The number at index 2, from 1 to `count`, as an index from 0; raises where it is none.
+/// The number at index 2, from 1 to `count`, as an index from 0; raises an error for other values.
 std::size_t check_number(lua_State* L, const char* call, std::size_t count);
 
-/// Numbers of Lua count from 1, the kernel's from 0: the one place that knows.
+/// Lua numbers from 1, the kernel from 0; only these functions convert.
 inline lua_Integer to_lua(std::size_t index) { return static_cast<lua_Integer>(index) + 1; }
 inline lua_Integer to_lua(Index index) { return static_cast<lua_Integer>(index) + 1; }
 inline std::size_t from_lua(lua_Integer number) { return static_cast<std::size_t>(number - 1); }
 
-/// An array of what `push` leaves on the stack for each item. Items are read one by one: a finalizer may put
-/// others in their place.
+/// Push an array of the values that `push` leaves on the stack, one for each item. Items are read one at a
+/// time, because a finalizer may replace them.
 template <class Items, class Push>
 void push_array(lua_State* L, const Items& items, const Push& push)
 {
@@ -172,7 +172,7 @@ void push_array(lua_State* L, const Items& items, const Push& push)
         lua_rawseti(L, -2, to_lua(i));
     }
 }
-/// A result of a function of Lua. @return  the number of results
+/// Push the result of a Lua function. @return  the number of results
 inline int give(lua_State* L, double value)
 {
     lua_pushnumber(L, value);
@@ -214,7 +214,7 @@ int mesh_groups(lua_State* L)
     return 1;
 }
 
-// --- one a kernel folder: adds its functions to the module's table, which is on top of the stack ------
+// --- one for each kernel folder; each adds its functions to the module's table on top of the stack -----
 
 void bind_topology(lua_State* L);
 void bind_open_volume(lua_State* L);

@@ -6,16 +6,16 @@
 
 namespace lacuna::lua {
 
-/// A Lua source that travels inside the binary; see lua/embed.cmake.
+/// A Lua source that is embedded in the binary; see lua/embed.cmake.
 struct EmbeddedChunk {
     const char* name; ///< file name without its ending
     const char* source;
 };
 
-/// Of the module: run in this order as it is opened.
+/// Chunks of the module, run in this order when it is opened.
 extern const EmbeddedChunk kEmbeddedChunks[];
 extern const std::size_t kEmbeddedChunkCount;
-/// Of the program alone: its commands, its prompt, and the stub, which `help` reads.
+/// Chunks of the program only: its commands, its prompt, and the stub, which `help` reads.
 extern const EmbeddedChunk kProgramChunks[];
 extern const std::size_t kProgramChunkCount;
 

@@ -143,7 +143,7 @@ const Option<Selector> kSelectorOptions[] = {
     {"within", positive<&Selector::within>},
 };
 
-/// Distance from a place to the facets of a face.
+/// Squared distance from a place to the facets of a face.
 double distance(const topology::Model& model, FaceId face, const Vec3& place)
 {
     double least = std::numeric_limits<double>::infinity();
@@ -166,7 +166,7 @@ bool bounds(const topology::Face& face, const std::string& region)
         face.regions, [&](const auto& names) { return std::ranges::find(names, region) != names.end(); });
 }
 
-/// Whether all of a face is in a box, but for the model's tolerance.
+/// Whether all of a face is in a box, within the model's tolerance.
 bool lies_in(const topology::Model& model, const topology::Face& face, const Eigen::AlignedBox3d& box)
 {
     const Vec3 slack = Vec3::Constant(model.tolerance);
@@ -176,7 +176,7 @@ bool lies_in(const topology::Model& model, const topology::Face& face, const Eig
     });
 }
 
-/// The edges of the faces that `touching` means, none of which is selected itself.
+/// The faces that `touching` names, which are not selected themselves, and their edges.
 struct Touched {
     std::vector<bool> face, edge;
 };
@@ -184,7 +184,7 @@ Touched touched(const topology::Model& model, const Selector& selector)
 {
     Touched found{std::vector<bool>(model.faces.size()), std::vector<bool>(model.edges.size())};
     if (selector.touching_model && &selector.touching_model->model != &model)
-        throw InvalidInput("lua.other_model", "touching is a face of another model");
+        throw InvalidInput("lua.other_model", "option 'touching' is a face of another model");
     bool any = false;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const topology::Face& face = model.faces[f];
@@ -196,7 +196,9 @@ Touched touched(const topology::Model& model, const Selector& selector)
         for (const topology::Loop& loop : face.loops)
             for (const topology::EdgeUse& use : loop.uses) found.edge[use.edge.index()] = true;
     }
-    if (!any) throw InvalidInput("lua.no_face", "touching names a face that is not there");
+    if (!any)
+        throw InvalidInput("lua.no_face", "option 'touching' names a face that the model does not "
+                                          "have");
     return found;
 }
 
@@ -233,7 +235,8 @@ bool matches(const topology::Model& model, FaceId id, const Selector& selector)
     return area >= selector.area[0] && area <= selector.area[1];
 }
 
-/// Append what `pick` returns. If that is nothing, raises an error that says why and lists the model's faces.
+/// Append the faces that `pick` returns. If there are none, raise an error with the reason and the model's
+/// faces.
 /// @param tag  of the face that is missing, if one is wanted by its tag.
 template <class Pick>
 void append(lua_State* L, const Where& where, const topology::Model& model, std::vector<FaceId>& faces,
@@ -262,7 +265,7 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
 {
     push_text(L, [&] {
         std::string best;
-        std::size_t least = std::strlen(wanted) / 2 + 1; // as many letters may differ
+        std::size_t least = std::strlen(wanted) / 2 + 1; // fewer letters than this may differ
         for (const topology::Face& face : model.faces) {
             const std::size_t apart = edit_distance(wanted, face.name.c_str());
             if (face.name.empty() || apart >= least) continue;
@@ -274,7 +277,7 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
     return lua_tostring(L, -1);
 }
 
-/// Push why there is no face of a tag: what loading says of it, where it does.
+/// Push the reason why there is no face with a tag: the note of loading about it, if there is one.
 const char* push_why_missing(lua_State* L, const topology::Model& model, int tag)
 {
     push_text(L, [&] {
@@ -328,7 +331,7 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     append(L, where, model, faces, none, missing, [&] { return select(model, wanted); });
 }
 
-/// Field of the metatable of an array that a selector found nothing for: the selector, in words.
+/// Metatable field of an array that a selector returned empty: the selector as text.
 constexpr const char* kFoundNothing = "lacuna.found_nothing";
 
 struct GrowArguments {
@@ -363,8 +366,7 @@ FaceId grow_face(lua_State* L, int index, const Box<ModelState>& state)
     read_options(L, index, "face_from", kGrowOptions, arguments);
     if (!arguments.selector.near) fail(L, "face_from: option 'near' is missing: a place, { x, y, z }");
     if (state->hand_made)
-        fail(L, "face_from: faces are grown in a model that was loaded; those of this one are as the recipe "
-                "adds them");
+        fail(L, "face_from: needs a loaded model; the faces of this one were added by the recipe");
     RunContext& context = push_context(L);
     FaceId face;
     guard(L, [&] {
@@ -416,8 +418,7 @@ void read_faces(lua_State* L, int index, const Where& where, const Box<ModelStat
         if (array) {
             if (empty && luaL_getmetafield(L, index, kFoundNothing) != LUA_TNIL)
                 fail_option(L, where,
-                            "is what model:faces{ %s } found, which is nothing; a role that none "
-                            "shall have is {}",
+                            "is the empty result of model:faces{ %s }; for a role without faces, give {}",
                             lua_tostring(L, -1));
             read_array(L, index, where, "", [&](int element, const Where& at) {
                 if (lua_type(L, element) == LUA_TTABLE && lua_rawlen(L, element) > 0)
@@ -458,8 +459,7 @@ void mark_found_nothing(lua_State* L, int selector)
 
 Vec3 mean_normal(const topology::Model& model, FaceId face)
 {
-    // Of the area: what is left of a sum that cancels, on a skin that goes all the way round, is noise of its
-    // facets.
+    // Share of the area below which the summed normals are noise: around a closed skin they cancel.
     constexpr double kRounding = 1e-2;
     const Vec3 vector = topology::face_area_vector(model, face);
     return vector.norm() > kRounding * topology::face_area(model, face) ? Vec3(vector.normalized())

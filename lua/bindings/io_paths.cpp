@@ -14,7 +14,7 @@ io::OutputPath output_path(const Host& host, const std::string& path)
 {
     if (!host.sandboxed) return path;
     if (!host.output_folder)
-        throw InvalidInput(Message("sandbox.no_output", "the sandbox writes no file")
+        throw InvalidInput(Message("sandbox.no_output", "the sandbox does not write files")
                                .remedy("allow it with --output-dir FOLDER"));
     return io::OutputPath::below(host.output_folder, path);
 }
@@ -22,7 +22,7 @@ io::OutputPath output_path(const Host& host, const std::string& path)
 void check_input_path(const Host& host, const std::string& path)
 {
     if (!host.sandboxed) return;
-    // A .geo is a program. It is confined where it runs, and the sandbox runs none but the recipe.
+    // A .geo file is a program, and the sandbox runs no program but the recipe.
     const std::string ending = io::ending_of(path);
     if (ending == ".geo" || ending == ".geo_unrolled")
         throw InvalidInput("sandbox.script",

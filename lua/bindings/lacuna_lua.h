@@ -22,11 +22,12 @@ struct Host {
     const std::atomic<bool>* cancel = nullptr;              ///< set by the host to stop kernel work
     std::function<void(std::string_view)> log;              ///< notes of the kernel, a line each
     std::function<void(std::string_view, double)> progress; ///< stage, share in [0, 1]
-    std::function<void()> ended;                            ///< the stage told last has ended
-    mutable bool in_stage = false;                          ///< one was told of since
-    int threads = 0;                                        ///< for whom asks for none; 0: all cores
+    std::function<void()> ended;                            ///< called when the stage reported last has ended
+    mutable bool in_stage = false;                          ///< a stage was reported and has not ended
+    int threads = 0;                                        ///< default for calls that ask for no number; 0:
+                                                            ///< all cores
     const Crew* crew = nullptr;                             ///< processes that help; null: there are none
-    bool sandboxed = false;                                 ///< files are written below `output_folder` alone
+    bool sandboxed = false;                                 ///< files are written below `output_folder` only
     std::shared_ptr<const io::Folder> output_folder;        ///< null with `sandboxed`: nothing is written
 };
 
@@ -38,7 +39,7 @@ const Host& host(lua_State* L);
 /// Registry field that is true once the recipe has called lacuna.params().
 inline constexpr const char* kUsedParams = "lacuna.used_params";
 
-/// Chunk name of the Lua sources inside the binary; frames of it are not the recipe's.
+/// Chunk name of the Lua sources inside the binary; stack frames with it do not belong to the recipe.
 inline constexpr const char* kEmbeddedSource = "=lacuna";
 
 } // namespace lacuna::lua

@@ -8,7 +8,7 @@
 
 namespace lacuna::lua {
 
-/// A name that files can hold: not empty, without quotes and ends of lines. Lua's own copy.
+/// Read a name that files can hold: not empty, without quotes and control characters. Lua owns the text.
 inline const char* read_plain_name(lua_State* L, int index, const Where& where)
 {
     const char* const name = read_string(L, index, where);

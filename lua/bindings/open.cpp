@@ -57,7 +57,7 @@ int used_params_from_lua(lua_State* L)
     return 0;
 }
 
-/// cells = triangles(points, loops): of the part of the plane within loops of numbers of points { x, y }
+/// cells = triangles(points, loops): triangulate the inside of loops, arrays of numbers of points { x, y }
 int triangles_from_lua(lua_State* L)
 {
     luaL_checktype(L, 1, LUA_TTABLE);
@@ -113,7 +113,7 @@ const luaL_Reg kInternal[] = {
     {"triangles", triangles_from_lua}, {nullptr, nullptr},
 };
 
-/// Upvalue-free __index of the module: what is asked of Gmsh only when somebody wants to know.
+/// __index of the module: Gmsh is asked for its version at the first access to gmsh_version.
 int index_module(lua_State* L)
 {
     if (lua_type(L, 2) != LUA_TSTRING || std::strcmp(lua_tostring(L, 2), "gmsh_version") != 0) return 0;
@@ -125,7 +125,7 @@ int index_module(lua_State* L)
 
 void run_embedded(lua_State* L, const EmbeddedChunk& chunk)
 {
-    // Stack: module. The mode "t" takes text alone.
+    // Stack: module. The mode "t" takes text only.
     if (luaL_loadbufferx(L, chunk.source, std::strlen(chunk.source), kEmbeddedSource, "t") != LUA_OK)
         lua_error(L);
     lua_pushvalue(L, -2);

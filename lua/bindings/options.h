@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The one way options are read: a table per call that names each key and the reader of its value. What is not
-// in the table is an error that names the nearest key that is; what is of the wrong kind is an error that
-// says which option of which call, what it must be and what was found.
+// The one way to read options: every call has a table with each key and the reader of its value. An unknown
+// key is an error that names the nearest known key. A value of the wrong kind is an error that names the
+// call, the option, what the value must be and what was found.
 
 #include "bindings/box.h"
 
@@ -43,7 +43,7 @@ struct Word {
     Value value;
 };
 
-/// Index of the word at `index` among `words`; raises with the nearest one.
+/// Index of the word at `index` among `words`; for another word, raises an error that names the nearest one.
 std::size_t read_word(lua_State* L, int index, const Where& where, const char* const* words,
                       std::size_t count);
 
@@ -82,7 +82,7 @@ struct Option {
 
 /// @pre the value at `index` is a table. Raises for a key that is not one of `keys`.
 void check_keys(lua_State* L, int index, const char* call, const char* const* keys, std::size_t count);
-/// False where there are no options; raises where there is something that is no table.
+/// False if there are no options; raises an error if they are not a table.
 bool has_options(lua_State* L, int index, const char* call);
 
 template <class Options, std::size_t N>

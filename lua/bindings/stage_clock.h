@@ -12,11 +12,11 @@
 
 namespace lacuna::lua {
 
-/// Seconds by the stage of the kernel's work.
+/// Seconds spent in each stage of the kernel.
 using StageSeconds = std::map<std::string, double>;
 
-/// Measures the stages that a context's progress tells of, and passes them on. The context is as it was when
-/// this ends.
+/// Measures the stages that a context's progress reports, and passes the reports on. The destructor restores
+/// the context.
 class StageClock {
 public:
     explicit StageClock(RunContext& context) : context_(context), passed_on_(std::move(context.progress))
@@ -31,7 +31,7 @@ public:
     StageClock(const StageClock&) = delete;
     StageClock& operator=(const StageClock&) = delete;
 
-    /// Of all stages until now.
+    /// The seconds of all stages so far.
     StageSeconds seconds()
     {
         add();

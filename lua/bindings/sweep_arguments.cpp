@@ -64,7 +64,7 @@ void read_layers(lua_State* L, int index, const Where& where, SweepArguments& ar
 
 // --- size -----------------------------------------------------------------------------------------------
 
-/// A length, or a Lua function of place: where that stands is settled by push_arguments().
+/// A length, or a Lua function of the place; push_field() later puts the function on the stack.
 void read_field(lua_State* L, int index, const Where& where, surface::SizeField& field, int& function)
 {
     if (lua_type(L, index) == LUA_TFUNCTION) {
@@ -285,8 +285,8 @@ void read_periodic(lua_State* L, int index, const Where& where, SweepArguments& 
                [&](int element, const Where& at) { read_periodic_pair(L, element, at, arguments); });
 }
 
-/// Calls back a recipe's function. The kernel samples sizes on the thread that called it; were it ever to ask
-/// from another, Lua, which knows no threads, would be lost: so that is refused.
+/// Calls a function of the recipe. The kernel samples sizes on the thread that called it. A call from another
+/// thread is refused, because Lua is not thread-safe.
 struct LuaSize {
     lua_State* state;
     int function;
@@ -308,7 +308,7 @@ struct LuaSize {
         }
         const double size = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : std::nan("");
         lua_pop(L, 1);
-        return size; // the kernel refuses what is no length
+        return size; // the kernel refuses a result that is not a length
     }
 };
 
@@ -336,7 +336,7 @@ template <class Arguments>
 void read_curvature(lua_State* L, int index, const Where& where, Arguments& arguments)
 {
     arguments.curvature = read_whole(L, index, where, 0);
-    arguments.volume_share = 0; // who names the sides for a turn gets those
+    arguments.volume_share = 0; // a given number of sides for a turn replaces the default
 }
 
 const Word<sweep::Interior> kInteriors[] = {
@@ -400,7 +400,7 @@ const Option<QuadsArguments> kQuadsOptions[] = {
     {"threads", count<&QuadsArguments::threads>},
 };
 
-/// Leave the function of an option on the stack, if it is one, for the field to call.
+/// If an option is a function, leave it on the stack, from where the field calls it.
 void push_field(lua_State* L, int index, const char* option, int function, surface::SizeField& field)
 {
     if (!function) return;
@@ -437,7 +437,7 @@ SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, 
     });
     if (arguments.fallback == sweep::Fallback::mixed && std::string_view(call) == "sweep_to")
         fail(L, "sweep_to: fallback = \"mixed\" needs the whole mesh in memory: use sweep and write");
-    // A height alone stands for one row of it.
+    // A row height without a number of rows means one row.
     if (arguments.row_height && arguments.rows == 0) arguments.rows = 1;
     guard(L, [&] {
         RunContext context;

@@ -14,17 +14,17 @@ struct SweepArguments : sweep::SweepOptions {
     int threads = 0;
     int size_function = 0; ///< stack index of a Lua function, 0 for none
     int row_height_function = 0;
-    const VolumeState* volume = nullptr; ///< that selectors choose the faces of
+    const VolumeState* volume = nullptr; ///< the volume whose faces selectors choose
 };
 
 /// Read the options at `index`, nil or a table, of the method `call`, as a temporary. Leaves the functions
 /// that sizes call on the stack.
-/// @param volume  that selectors choose the faces of; it outlives what is returned.
+/// @param volume  the volume whose faces selectors choose; it outlives what is returned.
 SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, const VolumeState& volume);
 
 /// Options of model:quads.
 struct QuadsArguments : SweepArguments {
-    const Box<ModelState>* model = nullptr; ///< held by the call
+    const Box<ModelState>* model = nullptr; ///< on the stack during the call
     std::optional<std::vector<FaceId>> faces;
 };
 

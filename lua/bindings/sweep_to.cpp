@@ -34,9 +34,8 @@ void push_write_options(lua_State* L, int index)
 namespace {
 
 constexpr const char* kHeldWhole =
-    "sweep_to: the whole mesh was held in memory, since its nodes are more than "
-    "placed layers: moved to improve cells or to make them valid, laid along normals, or of "
-    "boundary layers";
+    "sweep_to: the whole mesh was held in memory, because its nodes are not those of plain layers: they "
+    "were moved to improve cells, offset along normals, or belong to boundary layers";
 
 /// The numbers of a mesh, as fields of the report on top of the stack.
 void set_numbers(lua_State* L, const fill::Filled& filled)
@@ -79,8 +78,8 @@ void write_filled(const Host& lent, SweepRun& run, const SweepFile& file, const 
             mesh.swept.parts, [](const sweep::Swept& part) { return !part.layers.has_value(); });
         if (held > 0)
             mesh.swept.report.push_back(formatted(
-                "sweep_to: {} of {} parts were held in memory, since their nodes are more than placed "
-                "layers, or the file is not written so",
+                "sweep_to: {} of {} parts were held in memory, because their nodes are not those of plain "
+                "layers, or the file cannot be written a layer at a time",
                 held, mesh.swept.parts.size()));
         write_pieces(mesh, *file.path, *file.arguments, lent.crew, context);
         run.report = fill::report(mesh);

@@ -13,7 +13,8 @@ struct lua_State;
 
 namespace lacuna::lua {
 
-/// Take `write` out of a table of options: a copy without it stands at `index` then, and it on top.
+/// Take `write` out of the table of options at `index`: replace the table by a copy without it and push the
+/// value.
 void push_write_options(lua_State* L, int index);
 
 /// A file that a mesh is written to as it is made.
@@ -29,21 +30,21 @@ struct SweepRun {
     std::vector<std::string> report;
 };
 
-/// Write a mesh and note in its report where it was held in memory.
+/// Write a mesh, and note in its report if it was held in memory.
 void write_filled(const Host& lent, SweepRun& run, const SweepFile& file, const RunContext& context);
 
 /// Push the mesh, or the report of its file.
 int push_run(lua_State* L, SweepRun& run, bool has_file);
 
-/// Sweep volumes of a recipe; then push the mesh, or write it and push the report of that. The volumes change
-/// when all is done.
-/// @param volumes  as those of the `fill::Filled` that `sweep()` returns.
+/// Sweep volumes of a recipe; then push the mesh, or write it and push the report of the file. The volumes
+/// change only when everything is done.
+/// @param volumes  in the order of the volumes of the `fill::Filled` that `sweep()` returns.
 /// @param file     null: none
 template <class Sweep>
 int push_swept(lua_State* L, const std::vector<VolumeState*>& volumes, const char* call,
                const SweepFile* file, RunContext& context, const Sweep& sweep)
 {
-    lua_gc(L, LUA_GCCOLLECT); // to Lua a mesh is a few bytes: it would let old ones pile up
+    lua_gc(L, LUA_GCCOLLECT); // for Lua a mesh is a few bytes, so it would let unused meshes pile up
     auto& run = temporary<SweepRun>(L);
     const Host& lent = host(L);
     guard(L, [&] {

@@ -6,7 +6,7 @@
 
 namespace lacuna::lua {
 
-/// What to tell a person of an exception that no code of Lacuna meant to throw, "core.unexpected".
+/// Text of the error "core.unexpected", for an exception that no code of Lacuna throws on purpose.
 std::string unexpected_text(std::string_view what);
 
 } // namespace lacuna::lua

@@ -26,7 +26,7 @@ namespace {
 
 using lacuna::ScriptError;
 
-/// Store an exception as status and error. `error` is empty only if memory was exhausted.
+/// Store the error of a call. `error` of the handle is empty only if memory was exhausted.
 void keep(lacuna_interpreter& handle, ScriptError error) noexcept
 {
     try {

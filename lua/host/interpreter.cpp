@@ -52,7 +52,7 @@ std::string text_at(lua_State* L, int index)
 
 // --- inside protected calls -----------------------------------------------------------------------------
 
-/// Push text, message, code, file and line of the error at index 1; nil if unknown.
+/// Push text, message, code, file, line and entities of the error at index 1; nil if unknown.
 int read_error(lua_State* L)
 {
     lua_settop(L, 1);
@@ -184,7 +184,7 @@ struct Interpreter::State {
             });
     }
 
-    /// For a run: a pending request to stop ends it at once.
+    /// Begin a call. If it is a run, a pending request to stop ends it at once.
     void start(bool is_run);
     void end() noexcept;
     [[noreturn]] void fail(int status);
@@ -306,7 +306,7 @@ int Interpreter::State::print(lua_State* L)
     return 0;
 }
 
-/// Calls a function of the host. Upvalues: where it and its `user` are, its path.
+/// Calls a function of the host. Upvalues: the function, its `user` pointer and its path.
 int Interpreter::State::call_host(lua_State* L)
 {
     constexpr int kMost = 16; // numbers in and out; a function of place takes three
@@ -430,8 +430,8 @@ void Interpreter::State::call(int arguments, int results, bool is_run)
     lua_insert(lua, base);
     const int status = lua_pcall(lua, arguments, results, base);
     lua_remove(lua, base);
-    // A stop was requested during the last instructions, or the recipe caught
-    // the error: the run is incomplete.
+    // A stop was requested during the last instructions, or the recipe caught the error: the run is
+    // incomplete.
     if (is_run && (thrown || stop)) {
         lua_settop(lua, base - 1);
         const bool limited = why == Why::instructions;
@@ -500,7 +500,7 @@ Value Interpreter::run_file(const std::string& path, const std::vector<std::stri
     });
     int loaded = LUA_OK;
     self.protect([&](lua_State* L) {
-        // Bytecode can crash the interpreter.
+        // Bytecode can crash the interpreter, so the sandbox loads text only.
         const char* const mode = self.options.sandbox ? "t" : nullptr;
         loaded = luaL_loadfilex(L, path == "-" ? nullptr : path.c_str(), mode);
         if (loaded != LUA_OK) return;

@@ -10,8 +10,7 @@ lacuna.synthetic = synthetic
 
 local pi, sin, cos = math.pi, math.sin, math.cos
 
--- --- options
--- ---------------------------------------------------------------------------------------------------
+-- --- options ---------------------------------------------------------------------------------------------
 
 -- Kinds of option values: a test and its description.
 local kinds = {
@@ -106,8 +105,7 @@ local function read_drop(call, drop, names)
   return left_out
 end
 
--- --- sections
--- ----------------------------------------------------------------------------------------------------
+-- --- sections --------------------------------------------------------------------------------------------
 
 -- A loop: points {x, y}, and the indices of its corners; there is one wall between consecutive corners. A
 -- loop without corners is one closed wall.
@@ -150,8 +148,7 @@ local function circle(radius, x, y, facets)
   return loop
 end
 
--- --- sweeping a section along
--- ----------------------------------------------------------------------------------------
+-- --- sweeping a section ----------------------------------------------------------------------------------
 
 -- Source and target: the section at t = 0 seen from below, and at t = 1 seen from above.
 local function end_face(section, map, t)
@@ -247,8 +244,7 @@ local function levels_for(length, segment, turn)
   return math.max(1, math.ceil(length / segment), math.ceil(math.abs(turn) / 5))
 end
 
--- --- the volumes
--- -------------------------------------------------------------------------------------------------------
+-- --- the volumes -----------------------------------------------------------------------------------------
 
 -- Regular polygonal holes in a regular prism: one in the centre, or several on a circle.
 local function prism_holes(call, o, cuts)

@@ -324,7 +324,7 @@ void read_action(const std::string& word, Words& words, CommandLine& line)
 
 namespace {
 
-/// The endings of formats in the place of their words.
+/// Replace %MESHES, %READ and %WRITTEN by the endings of these formats.
 std::string with_endings(std::string text)
 {
     const std::pair<std::string_view, std::string> words[] = {

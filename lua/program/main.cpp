@@ -50,8 +50,8 @@ bool may_declare_parameters(lua_State* L, const std::string& recipe)
     return !compiles || code.find("params") != std::string::npos;
 }
 
-/// Run a recipe until it calls lacuna.params, and list the parameters that it declares. One that does not
-/// call it is not run.
+/// Run a recipe until it calls lacuna.params, and list the parameters that it declares. A recipe that does
+/// not name lacuna.params is not run.
 void list_parameters(const std::string& recipe, lacuna::Interpreter& interpreter)
 {
     struct Listing {
@@ -146,7 +146,7 @@ Exit run(const CommandLine& line, const lacuna::Crew* crew)
         explicit Watched(lacuna::Interpreter* own) { watch_interrupts(own); }
         ~Watched() { watch_interrupts(nullptr); }
     } const watched(&interpreter);
-    const auto tell_times = [&] { // of failed runs too
+    const auto tell_times = [&] { // called for failed runs too
         if (line.timing.empty()) return;
         progress.clear();
         times.write(line.timing, line.file.empty() ? line.command : line.file, line.threads);

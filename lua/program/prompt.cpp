@@ -217,7 +217,7 @@ void run_prompt(Interpreter& interpreter, const std::string& history, ProgressLi
         } catch (const Cancelled&) {
             progress.clear();
             std::fflush(stdout);
-            // SIGTERM and SIGHUP end the prompt like a recipe.
+            // SIGTERM and SIGHUP end the prompt as they end a recipe; Ctrl-C ends only the statement.
             if (report_stop(0) != Exit::interrupted) throw Cancelled();
         }
     }

@@ -9,9 +9,10 @@
 
 namespace lacuna::program {
 
-/// Read statements, run them and print the results, until the end of the input.
+/// Read statements, run them and print the results, until the end of the input. A history file that cannot be
+/// written is reported on standard error.
 /// @param history  file for the lines typed; empty: that of LACUNA_HISTORY, else none.
-/// @throw ScriptError  the history file cannot be written.
+/// @throw Cancelled  SIGTERM or SIGHUP ends the prompt.
 void run_prompt(Interpreter& interpreter, const std::string& history, ProgressLine& progress);
 
 } // namespace lacuna::program

@@ -15,7 +15,7 @@ enum class Exit { done = 0, failed = 1, bad_usage = 2, interrupted = 130, termin
 /// From now on Ctrl-C, SIGTERM, SIGHUP and the alarm cancel `interpreter`, and a second signal ends the
 /// process (for Ctrl-C, if it comes at least a second later). Null: Ctrl-C ends the process at once.
 void watch_interrupts(Interpreter* interpreter);
-/// The same signals set `cancel`, in a process that runs no recipe; `cancel` must outlive them.
+/// For a process that runs no recipe: the same signals set `cancel`, which must outlive the handlers.
 void watch_interrupts(std::atomic<bool>& cancel);
 /// Report on standard error why a run was cancelled, and reset the request. `seconds` is the time limit.
 Exit report_stop(double seconds);

@@ -821,6 +821,8 @@ class Mesh(AnyMesh):
 
 
 class Assembly(Object):
+    """Several volumes to be meshed as one."""
+
     __slots__ = ()
 
     def sweep(self, options=None, /, **keywords):
@@ -1114,7 +1116,7 @@ class AssemblyMesh(AnyMesh):
 
 
 class QuadMesh(AnyMesh):
-    """Several volumes to be meshed as one. Quads on faces, without layers."""
+    """Quads on faces, without layers."""
 
     __slots__ = ()
 
@@ -1326,7 +1328,7 @@ def split_interface(mesh, faces, **keywords):
 
 
 def check(path):
-    """Quality of the hexahedra of a mesh or deck in any format that is read."""
+    """Quality of the solids of a mesh or deck in any format that is read."""
     return call("module", "check", path)
 
 

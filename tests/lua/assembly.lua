@@ -99,10 +99,10 @@ check.fails(function() assembly:sweep { size = 0.4, [a] = { layers = 5 }, [b] = 
   "core", "volume_2", "5 and 6", "assembly.layers")
 check.fails(function() assembly:sweep { sise = 0.4 } end, "sise", "size")
 check.fails(function() assembly:sweep { size = 0.4, [a] = { [b] = { layers = 2 } } } end,
-  "one volume", "words")
+  "one volume", "names of options")
 local round = { size = 0.4 }
 round[a] = round
-check.fails(function() assembly:sweep(round) end, "one volume", "words")
+check.fails(function() assembly:sweep(round) end, "one volume", "names of options")
 -- A face that some volume has may be named for all; one that none has may not, nor one of another volume.
 for _, option in ipairs { "boundary_layers", "intervals" } do
   local function of(name)

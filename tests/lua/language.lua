@@ -73,7 +73,7 @@ check.equal(class_of { walls = { 2, 3, 4, 5 } }, "V")
 local nothing = model:faces { kind = "torus", area = { 2, 3 } }
 check.equal(#nothing, 0)
 check.fails(function() return class_of { source = nothing, walls = { 2, 3, 4, 5 } } end, "'source'",
-  'model:faces{ area = …, kind = "torus" }', "found", "{}")
+  'model:faces{ area = …, kind = "torus" }', "empty result", "{}")
 check.fails(function() return class_of { source = 1, walls = nothing } end, "'walls'", '"torus"')
 nothing[1] = added[1]
 check.equal(class_of { source = nothing, walls = "auto" }, "IV")

@@ -48,7 +48,7 @@ for _, name in ipairs(names) do
 end
 check.equal(mesh:field("volume", "wedge").rows, 0)
 check.fails(function() mesh:field "skevv" end, "lua.bad_value", 'did you mean "skew"')
-check.fails(function() mesh:field("skew", "wedge") end, "lua.bad_value", "hexahedra alone", '"volume"')
+check.fails(function() mesh:field("skew", "wedge") end, "lua.bad_value", "hexahedra only", '"volume"')
 check.fails(function() mesh:field("skew", "prism") end, "lua.bad_value")
 
 -- The fields are the same measure as the row.

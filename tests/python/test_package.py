@@ -158,7 +158,7 @@ class Values(unittest.TestCase):
             self.assertLess(abs(each.field("volume") / at_centre - 1).max(), 1e-9)
         with self.assertRaisesRegex(lacuna.Error, 'did you mean "skew"'):
             mesh.field("skevv")
-        with self.assertRaisesRegex(lacuna.Error, "defined for hexahedra alone"):
+        with self.assertRaisesRegex(lacuna.Error, "defined for hexahedra only"):
             mesh.field("skew", "wedge")
         self.assertEqual(mesh.field("volume", "tet").shape, (0,))
 

@@ -26,7 +26,7 @@ struct Front {
     std::vector<int> table; ///< table of the side from each node to the next
 };
 
-/// Consecutive sides with the same table: a piece of a front between two ends of rows.
+/// A run: consecutive sides of a front with the same table, between two ends of rows.
 struct Run {
     /// Position in the front and number of sides. A run of all the front's sides is closed.
     std::size_t first = 0, sides = 0;
@@ -109,7 +109,8 @@ private:
         return partial_.is_fixed(node) ? node : foot_[index(node) - partial_.fixed];
     }
 
-    /// How the front turns at a place. Where the front follows rows, the angle decides.
+    /// How the front turns at a place. The input gives the turn at boundary nodes; at row nodes, and where
+    /// rows take up a part of the angle, the angle of the front decides.
     [[nodiscard]] RowTurn turn_at(const Front& front, std::size_t i) const
     {
         const Index node = front.nodes[i];
@@ -151,14 +152,14 @@ private:
     struct RunEnd {
         /// Nodes on which the rows end, from the lowest; new ones if the rows have a side of their own.
         std::vector<Index> nodes;
-        ///< their own
         std::vector<double> lean; ///< offset of each row's end node along the run [length]
         /// Length from the end over which the rows of the adjacent side cross these rows.
         double block = 0;
         bool own = false; ///< whether the rows end on a side of their own
     };
 
-    /// The run's nodes, with inward normals scaled so that a node has the row's height above both sides.
+    /// The run's nodes and their inward normals. Moving a node by h times its normal puts it at height h
+    /// above both its sides.
     struct Base {
         std::vector<Index> nodes;
         std::vector<Vec2> normal, along;
@@ -205,11 +206,13 @@ private:
         if (turn == RowTurn::smooth && beyond >= 0 && beyond != table)
             return refuse(RowsFinding::Why::unlike, corner, table, heights.front(), 0);
         end.own = turn != RowTurn::inner;
-        // If rows of the adjacent side continue along the new side, it extends that side's line.
+        // If the adjacent side has rows too, they continue along the new side. The new side then extends the
+        // line of the adjacent side.
         Vec2 way = normal;
         if (turn == RowTurn::outer && beyond >= 0) {
             const Vec2 line = (at - partial_.at(front.nodes[(place + (last ? 1 : n - 1)) % n])).normalized();
-            // Least sine between the line and the side; below, the new side is square. Not measured.
+            // Least sine of the angle between this line and the run; with less, the new side is square to the
+            // run. A choice, not measured.
             constexpr double kUpright = 0.5;
             if (line.dot(normal) >= kUpright) way = line;
         }
@@ -244,11 +247,12 @@ private:
         return partial_.add(p);
     }
 
-    /// Share of an end's lean for a node at this distance from it: all of it within the block, then
-    /// decreasing so slowly that nodes keep their order.
+    /// Share of an end's lean that applies to a node at this distance from the end. Within the block it is 1;
+    /// beyond, it decreases so slowly that nodes keep their order.
     static double share_of(const RunEnd& end, double distance, double length)
     {
-        constexpr double kSlowly = 3; // the lean decreases over this multiple of itself; not measured
+        constexpr double kSlowly = 3; // the share falls to 0 over this multiple of the largest lean; a
+                                      // choice, not measured
         const double most = std::ranges::max(end.lean |
                                              std::views::transform([](double x) { return std::abs(x); }));
         if (distance <= end.block) return 1;
@@ -311,7 +315,8 @@ private:
         if (partial_.is_fixed(node)) is_cut_[index(node)] = true;
     }
 
-    /// Mark a node where rows end, now the corner at which the rows of the adjacent side end on these rows.
+    /// Mark the boundary node that is now the corner between the ends of these rows and the adjacent side.
+    /// Rows of the adjacent side will end there on these rows.
     void mark_inner(Index node)
     {
         if (partial_.is_fixed(node)) turn_[index(node)] = RowTurn::inner;
@@ -332,7 +337,8 @@ private:
         const std::size_t rows = level.size() - 1, n = front.nodes.size();
         const std::size_t after = run.first + run.sides; // the place of the last node
         const int before_table = front.table[(run.first + n - 1) % n], after_table = front.table[after % n];
-        // The part not covered: from the last node, or from where the rows end, around to the first.
+        // The part of the front without rows: from the last node, or from where the rows end, around to the
+        // first.
         std::size_t from = after, left = n - run.sides;
         if (end.own) {
             // The rows' end is a side for the rows of the adjacent side.
@@ -376,7 +382,7 @@ private:
     std::vector<RowTurn> turn_;
     std::vector<bool> is_cut_; ///< boundary nodes where the ends of rows take up a part of the angle
     std::vector<Front> fronts_;
-    std::vector<Index> foot_; ///< for each added node
+    std::vector<Index> foot_; ///< boundary node below each added node
     std::optional<RowsFinding> finding_;
 };
 

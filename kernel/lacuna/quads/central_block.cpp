@@ -15,8 +15,8 @@ constexpr double kPi = std::numbers::pi;
 /// corners then have 132°, which leaves 114° for each of the two quads outside, close to the 120° of three
 /// equal quads. A larger bulge flattens the block's own corners.
 constexpr double kBulge = 21 * kPi / 180;
-/// Distances of the block's corners and of the middles of its sides, as shares of the distance to the
-/// boundary. With a half, the quads around the block get about the size of those inside.
+/// Distances from the centre to the block's corners and to the middles of its sides, as shares of the
+/// distance to the boundary. With a half, the quads around the block get about the size of those inside.
 constexpr double kCornerReach = 0.5, kSideReach = 0.5;
 
 /// Distance from the centre to the boundary in a direction: the least within an eighth of a turn on either
@@ -63,7 +63,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
         angle += kPi / 4;
         std::swap(free[0], free[1]);
     }
-    // Distance of a side's middle if the corners have distance one.
+    // Distance from the centre to the middle of a side if the corners are at distance 1.
     const double half = std::numbers::sqrt2 / 2, middle = half * (1 + std::tan(kBulge / 2));
     const double reach = std::min(kCornerReach * free[0], kSideReach * free[1] / middle);
     if (!(reach > 0) || !std::isfinite(reach)) return std::nullopt;

@@ -42,7 +42,7 @@ void PatchGrower::look_for_others(Index seed, std::size_t most)
             see(net.to(side));
             last = side;
         });
-        see(net.from(QuadNet::before(last))); // visited before, except on the boundary
+        see(net.from(QuadNet::before(last))); // an inner point has no further neighbour than those visited
     }
 }
 
@@ -126,7 +126,7 @@ bool PatchGrower::walk_outline()
     Index p = start_;
     do {
         const int valence = net.valence(p), inside = count_[p], wanted = mesh_.ideal_valence(p);
-        // On the mesh's boundary a filling may change the number of quads.
+        // A filling may change the number of quads at a point of the mesh's boundary.
         const bool whole = inside == valence;
         const int corner = whole ? wanted : inside;
         if (corner > 2) return false;

@@ -23,17 +23,16 @@ struct SearchLimits {
     std::size_t largest;  ///< limit of the quads in a patch
     std::size_t fillings; ///< limit of fillings tried for each patch
     int sweeps;           ///< smoothing sweeps over a filling before its second judgement
-    double hopeless;      ///< a filling is then rejected if its loss exceeds the allowed loss by this factor
+    double hopeless;      ///< a filling is rejected early if its loss exceeds the allowed loss by this factor
 };
 /// Small patches come first: they are cheap and remove most irregular points. Then larger ones follow, with
 /// more effort while the budget lasts. Larger limits remove slightly more irregular points for much more
 /// time.
 constexpr std::array<SearchLimits, 3> kStages{
     {{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
-/// Budget of quads in fillings, independent of the mesh's size: for a thorough and for a quick search. The
-/// quick one was measured on the named outlines and 40 of the held family (`benchmarks/pave/`): below 1,000
-/// quads, more than three times as many remove no more irregular nodes. The thorough one allows for larger
-/// meshes.
+/// Base budget of quads in fillings, for a thorough and for a quick search. The quick one was measured on the
+/// named outlines and 40 of the held family (`benchmarks/pave/`): on meshes below 1,000 quads, a budget more
+/// than three times as large removes no more irregular nodes. The thorough one allows for larger meshes.
 constexpr long kLeastBudget = 50'000, kQuickBudget = 15'000;
 /// Rings of quads around a patch that are smoothed with it: enough room for a filling to adapt.
 constexpr int kRings = 2;

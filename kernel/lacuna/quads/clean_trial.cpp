@@ -7,13 +7,13 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// Allowed loss of scaled Jacobian, summed over a patch's quads, for each irregular point removed. Measured
-/// on the named outlines, 30 of the held family and 60 generated ones: compared with 0.15, a sixth fewer
-/// irregular points below 1,000 quads and two fifths fewer from 20,000 on, while the mean falls by 0.0003 at
-/// most; at 2.5 it falls by 0.002.
+/// Allowed loss of scaled Jacobian, summed over a patch's quads, for each irregular point removed. Compared
+/// with 0.15, this value leaves a sixth fewer irregular points on meshes below 1,000 quads and two fifths
+/// fewer from 20,000 quads on, while the mean scaled Jacobian falls by at most 0.0003; at 2.5 it falls by
+/// 0.002. Measured on the named outlines, 30 of the held family and 60 generated ones.
 constexpr double kLossForgiven = 1.2;
-/// Share of a filling's loss that remains after the first smoothing sweeps, at least, in 99 of 100 of 6,000
-/// fillings from six domains. A filling whose loss is above the limit even at this share is rejected early.
+/// In 99 % of 6,000 fillings from six domains, at least this share of the loss remains after the first
+/// smoothing sweeps. A filling whose loss is above the limit even at this share is rejected early.
 constexpr double kLeft = 0.6;
 /// Number of smoothing sweeps over a filling and its surroundings, and of rounds over its poor quads, before
 /// the last judgement.
@@ -58,7 +58,7 @@ Verdict Trial::run(const TemplateMesh& filling, int sweeps, double hopeless)
     return Verdict::good;
 }
 
-/// Whether the present loss of the first quads and of the surroundings exceeds `most`.
+/// Whether the loss of the first `filled` quads plus that of the surroundings exceeds `most`.
 bool Trial::exceeds(std::size_t filled, double most) const
 {
     double loss = loss_around_;
@@ -71,8 +71,8 @@ bool Trial::exceeds(std::size_t filled, double most) const
 /// `most`
 bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
 {
-    // Smoothing makes no quad worse than the worst one, so the worst surrounding quad is included with the
-    // filling.
+    // Smoothing makes no quad worse than the worst quad it is given. The worst surrounding quad is included
+    // to set this bound.
     points_.clear();
     quads_.clear();
     if (worst_ >= 0) {

@@ -13,8 +13,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Limit of runs with an odd number of sides. A row of quads of double width leads from each of them until
-/// smoothing, so a larger limit coarsens more regions at the cost of more stretched rows.
+/// Limit of runs with an odd number of sides. Until smoothing, a row of quads of double width leads from each
+/// of them. A larger limit coarsens more regions but distorts more rows.
 constexpr std::size_t kMostOdd = 8;
 
 void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
@@ -102,7 +102,8 @@ struct Pairing {
 void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pairing& now, Pairing& best)
 {
     const std::size_t runs = left.size();
-    // Runs in reverse, because the outer loop's runs, which may have many whole sides, come last.
+    // Runs are paired in reverse order, so that those of the outer loop, which may have many whole sides,
+    // come last.
     std::size_t r = runs;
     while (r > 0 && left[r - 1] == 0) --r;
     if (r == 0) {
@@ -199,7 +200,8 @@ std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const Pl
     }
     const std::vector<Index> opposite = mesh::opposite_sides(coarse.quads,
                                                              static_cast<Index>(coarse.points.size()));
-    // A side of the boundary runs from a point of the coarse region, in the direction of its loops.
+    // Sides of cells on the boundary run in the direction of the loops, each from a point of the coarse
+    // region.
     const auto point_before = [&](Index side) {
         return index(coarse.quads[index(side / 4)][index(side % 4)]);
     };

@@ -143,7 +143,7 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
         CountedRun *best = nullptr, *other = nullptr;
         int best_by = 0;
         for (CountedRun& run : loop.runs) {
-            // A single run: no turn to move.
+            // A given segment with a single run has no turn to move.
             if (task.segments[run.segment].fixed && runs[run.segment] == 1) continue;
             for (const int by : {1, -1}) {
                 if (!may_be(task, sides[run.segment], run, run.count + by, range)) continue;

@@ -25,7 +25,8 @@ int wrapped(int along, int period) { return ((along % period) + period) % period
 /// The lines of a grid around a hole, from the outer loop to the hole: one for every side along the ring.
 class Spokes {
 public:
-    /// @param outer, inner  closed: `outer` runs once along the first axis, `inner` once back.
+    /// @param outer, inner  closed loops; `outer` runs once along the first grid axis, `inner` once against
+    ///                      it.
     Spokes(const std::vector<Vec2>& points, const GridLoop& outer, const GridLoop& inner, int period)
         : outer_(ends_of(points, outer, period, true)), inner_(ends_of(points, inner, period, false))
     {
@@ -69,7 +70,7 @@ public:
         return std::nullopt;
     }
 
-    /// Directions along the grid at a point [radians].
+    /// Direction along the ring at a point [radians].
     [[nodiscard]] double angle(const Vec2& p) const
     {
         const auto at = position(p, 1);
@@ -104,8 +105,8 @@ private:
     void turn_inner()
     {
         const std::size_t n = outer_.size();
-        // For large loops, only some sides are evaluated for a place of the inner loop; for a small loop, all
-        // of them.
+        // Of a large loop, only 64 to 127 spokes are evaluated for each place of the inner loop; of a small
+        // one, all.
         const std::size_t step = std::max<std::size_t>(1, n / 64);
         double least = kInfinity;
         std::size_t best = 0;
@@ -121,7 +122,7 @@ private:
         shift_ = -static_cast<int>(best);
     }
 
-    /// On which side of spoke u a point lies: > 0 on the side towards which the grid runs.
+    /// Signed distance of a point from spoke u, > 0 ahead of it along the ring.
     [[nodiscard]] double side_of(std::size_t u, const Vec2& p) const
     {
         const Vec2 across = inner_[u].at - outer_[u].at;
@@ -147,7 +148,7 @@ void move(GridLoop& loop, int along, int across, int period)
 /// One way to fill a region.
 struct FacePattern {
     std::size_t about = 0; ///< the loop that the grid follows; 0: none, its lines are straight
-    int rows = 1;          ///< between a loop and the grid's corners along its round parts
+    int rows = 1;          ///< rows of quads between the round parts of a loop and the grid's corners there
     int steps = 0;         ///< rows by which the outer loop of a ring steps in where the ring is narrow
     int corners = 0;       ///< nodes at which rows of a ring change their number of sides
     TurnStyle style = TurnStyle::soft;
@@ -212,7 +213,7 @@ public:
     /// Number of soft turns of all loops.
     [[nodiscard]] std::ptrdiff_t turns() const { return soft_; }
 
-    /// How many sides the outer loop has more than the hole that the grid follows, if both are loops of a
+    /// Number of sides of the outer loop minus that of the hole that the grid follows, if both are loops of a
     /// ring.
     [[nodiscard]] int more_sides() const { return more_sides_; }
     /// Whether the rows of a ring may change their number of sides along either loop.
@@ -269,8 +270,8 @@ private:
         return sum / static_cast<double>(goal.size());
     }
 
-    /// Move a hole to the grid position nearest to its goal. If that is between two lines in both directions,
-    /// a round hole trades a column for a row, which places it on lines.
+    /// Move a hole to the grid position nearest to its goal. If the goal lies between two lines in both
+    /// directions, a round hole trades a column for a row, which places it on lines.
     /// @return false if it has no position in the grid.
     bool settle(std::size_t l, const std::vector<Vec2>& goal)
     {
@@ -374,12 +375,13 @@ private:
     bool may_change_ = false;
 };
 
-/// The ways to fill a ring whose loops have different numbers of sides, those with the fewest irregular nodes
+/// The patterns for a ring whose loops have different numbers of sides, those with the fewest irregular nodes
 /// first.
 std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeField& size, std::size_t about,
                                       int more_sides)
 {
-    // With more corners, a straight grid has as few irregular nodes: four for each loop.
+    // With more corners there would be no fewer irregular nodes than in a straight grid, which has four for
+    // each loop.
     constexpr int kMostCorners = 4;
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
     const double height = size(region.points[index(region.loops[about].front())]);
@@ -404,7 +406,7 @@ bool is_fine(const PlaneQuality& quality, double least, double rows)
            quality.size_share() > kPromisedShare && quality.row_share() >= rows;
 }
 
-/// The corners of a region's only loop, if each of them suits one quad and no other node bends.
+/// The corners of a region's only loop: its nodes that suit one quad. Empty if a node suits more than two.
 std::vector<std::size_t> lone_corners(const PlanarRegion& region)
 {
     std::vector<std::size_t> corners;
@@ -436,8 +438,8 @@ public:
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
-    /// The meshes. Without holes, or if ends of 135° were tried both ways, only those with the number of
-    /// quads asked for, if there are any.
+    /// The meshes. If the region has no holes, or has ends of 135°, only those with the number of quads asked
+    /// for, if there are any.
     std::vector<PlanarQuads> take()
     {
         std::vector<PlanarQuads> fit;
@@ -462,7 +464,8 @@ private:
     /// Try straight lines.
     void try_straight(TurnStyle style)
     {
-        constexpr std::size_t kMost = 3; // meshes made after a good one; not measured
+        constexpr std::size_t kMost = 3; // limit of meshes of a style once one has nearly square quads; a
+                                         // choice, not measured
         const std::size_t before = made_.size();
         for (const int rows : rows_to_try(fitting_rows(style))) {
             if (is_fine_ || (is_square_ && made_.size() >= before + kMost)) return;
@@ -507,8 +510,9 @@ private:
 
     void keep(PlanarQuads mesh)
     {
-        // Bounds at which the search ends: above kSquare no other ends of 135° or changing rows are tried;
-        // above kFine with the promised share of good rows nothing else is. Discs get no better than kFine.
+        // Bounds of the worst quad that end the search. Above kSquare, neither hard ends of 135° nor rows
+        // that change their number of sides are tried; above kFine with the promised share of good rows,
+        // nothing else is. Discs get no better than kFine.
         constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
         const bool decides = has_half_ends_ || region_.loops.size() == 1;

@@ -140,7 +140,7 @@ bool may_be_good(double angle, Index quads)
 
 bool may_be_good(double angle)
 {
-    constexpr Index kMostQuads = 4; // in a full turn
+    constexpr Index kMostQuads = 4; // right angles in a full turn
     for (Index quads = 1; quads <= kMostQuads; ++quads) {
         if (may_be_good(angle, quads)) return true;
     }
@@ -225,7 +225,7 @@ std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)
 {
     if (mesh.points.size() < region.points.size() ||
         !std::equal(region.points.begin(), region.points.end(), mesh.points.begin()))
-        return "the boundary points are not the first of the mesh, in place";
+        return "the first points of the mesh are not the boundary points";
     if (std::string fault = find_bad_corner(mesh); !fault.empty()) return fault;
     std::size_t edges = 0;
     if (std::string fault = find_bad_side(mesh, region, edges); !fault.empty()) return fault;
@@ -237,8 +237,7 @@ std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)
     const auto euler = static_cast<long>(mesh.points.size() + mesh.quads.size()) - static_cast<long>(edges);
     if (euler != 2 - static_cast<long>(region.loops.size()))
         return formatted(
-            "points - sides + quads are {}, not 2 less the number of loops: the mesh comes apart "
-            "or is pinched",
+            "points - sides + quads is {} instead of 2 - loops: the mesh is in several pieces or pinched",
             euler);
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         const double jacobian = scaled_jacobian(mesh.points, mesh.quads[q]);

@@ -33,7 +33,7 @@ struct Halved {
     PlanarRegion region;
     std::vector<int> segment;   ///< segment of the side from each node to the next
     std::vector<Index> next;    ///< successor of each node in its loop
-    std::vector<double> weight; ///< length of that side in sides of the region: 1 or ½
+    std::vector<double> weight; ///< 1, or ½ for half a side of the region
     [[nodiscard]] int segment_at(Index p) const { return segment[index(p)]; }
 };
 
@@ -84,7 +84,7 @@ std::size_t image_of(const Halved& halved, const MirrorPart& part, const Symmetr
 struct PartSegments {
     std::vector<int> own; ///< segment of the side from each node of the part to the next
     std::vector<BoundarySegment> all;
-    std::vector<Index> starts; ///< first side of each segment, by the whole region's node; -1: an axis
+    std::vector<Index> starts; ///< node of the whole region at which each segment starts; -1: an axis
 };
 
 PartSegments segments_of(const CountTask& task, const Halved& halved, const MirrorPart& part)
@@ -208,7 +208,7 @@ double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunCo
     if (counts) {
         for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = counts->sides[of_axis[a]];
     }
-    // A mesh of quads only needs an even number of sides.
+    // Without a grid, quads need only an even number of sides.
     if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0) ++*std::ranges::max_element(sides);
     divide_axes(part, sides, size);
     return counts ? counts->cost : kInfinity;

@@ -20,8 +20,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// Limit of sides tried, and the quality of the worst cell that ends the search: that of `ImproveOptions`
-/// from which a cell of the sweep is good enough.
+/// Limit of sides tried.
 constexpr std::size_t kMostSides = 4;
 /// Number of quads of a row, counted from the boundary, that may become the triangle. It limits how far
 /// inside the triangle may lie.
@@ -122,7 +121,8 @@ private:
         return worst;
     }
 
-    /// Move a node to the mean of its neighbours, if that is better, and on to where the worst cell is best.
+    /// Move a node to the mean of its neighbours if that is better, then search from there for the place with
+    /// the best worst cell.
     bool move(Index n)
     {
         // First and last step as shares of the mean side, and the least gain; a smaller step gains little.
@@ -184,7 +184,7 @@ struct Window {
 /// @param middle   the added node; the nodes before it are the region's.
 Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle)
 {
-    // The reach of the rows, the rings around them, and the cells of their nodes.
+    // Rings to take: the reach of the rows, the rings around them, and the cells of their nodes.
     constexpr std::size_t kReach = kMostSteps + kRings + 2;
     const mesh::Incidence at = mesh::quads_at_nodes(mesh.quads, mesh.points.size());
     std::vector<Index> number(mesh.points.size(), -1);

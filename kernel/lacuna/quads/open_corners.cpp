@@ -37,8 +37,8 @@ std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer
         room = std::min(room, corner_sine(cross(side, centre - outer[k]), side.norm()));
     }
     if (!(room > 0)) return std::nullopt;
-    // Radius of the inner quad, as a share of the circle that touches the nearest side: a compromise between
-    // flat outer quads and a tiny inner one.
+    // Radius of the inner quad, as a share of the radius of the circle that touches the nearest side: a
+    // compromise between flat outer quads and a tiny inner one.
     constexpr double kOfRoom = 0.4;
     std::array<Vec2, 4> inner;
     for (std::size_t k = 0; k < 4; ++k) inner[k] = centre + kOfRoom * room * (outer[k] - centre).normalized();
@@ -68,7 +68,7 @@ public:
     CornerOpener(PlanarQuads& mesh, const PlanarRegion& region)
         : mesh_(mesh), fixed_(region.points.size()), net_(mesh.points.size(), mesh.quads)
     {
-        constexpr double kWidest = 0.9 * std::numbers::pi; // leaves a sine of 0.3
+        constexpr double kWidest = 0.9 * std::numbers::pi; // 162°: a sine of 0.3
         constexpr double kWide = 0.78 * std::numbers::pi;  // 140°: a sine of 0.64
         needed_.assign(fixed_, 0);
         better_.assign(fixed_, 0);
@@ -153,7 +153,7 @@ private:
         net_.replace(std::array{widest}, made);
     }
 
-    PlanarQuads& mesh_; ///< replaced by those of `net_` at the end
+    PlanarQuads& mesh_; ///< its quads are replaced by those of `net_` at the end
     std::size_t fixed_;
     QuadNet net_;
     std::vector<int> needed_, better_; ///< quads at a boundary node: the minimum, and a good number

@@ -212,7 +212,7 @@ private:
             const auto out = static_cast<std::size_t>(std::ranges::find(in, 0) - in.begin());
             if (out == n) {
                 whole_loops_.push_back(loop);
-                // A loop that touches a ray without crossing it is not divided by the ray.
+                // A loop that touches a ray without crossing it cannot be cut there.
                 for (const Index p : loop)
                     if (ray_of(arm(p)) != 0) return false;
                 continue;
@@ -326,10 +326,10 @@ bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
     return crosses;
 }
 
-/// Whether an axis passes through a corner and would leave a half that is sharp or obtuse.
+/// Whether an axis divides a corner into halves that deviate too much from a multiple of a right angle.
 bool halves_corner(const PlanarRegion& region, const Symmetry& mirror)
 {
-    // [right angles]; the axes of a hole with eight sides deviate by 22.5°.
+    // [right angles]; halves at a hole with eight sides deviate by 22.5°.
     constexpr double kMostOff = 25.0 / 90;
     for (const std::vector<Index>& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {

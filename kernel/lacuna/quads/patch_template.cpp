@@ -37,7 +37,7 @@ class TemplateFiller {
 public:
     explicit TemplateFiller(std::span<const Vec2> loop) : loop_(loop.size())
     {
-        // A patch as long as wide has this many points; others usually have fewer.
+        // A square patch has this many points; others usually have fewer.
         const std::size_t most = (loop_ / 4 + 1) * (loop_ / 4 + 1);
         points_.reserve(loop_ + most);
         points_.assign(loop.begin(), loop.end());
@@ -225,7 +225,7 @@ private:
         return points;
     }
 
-    /// left--top-->     bottom and top run in the same direction; left and right too
+    /// Fill a grid between four chains. Bottom and top run in the same direction; left and right too.
     void grid(const Chain& bottom, const Chain& right, const Chain& top, const Chain& left)
     {
         const std::size_t m = bottom.size() - 1, n = left.size() - 1;
@@ -256,7 +256,7 @@ private:
     std::vector<Quad> quads_;
 };
 
-/// The sides of a part of the loop, from one position on to another, cut at the corners between.
+/// The sides of the part of the loop from one position to another, split at the corners between them.
 std::vector<Chain> sides_between(std::size_t from, std::size_t to, std::size_t loop,
                                  std::span<const std::size_t> corners)
 {

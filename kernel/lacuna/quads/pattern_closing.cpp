@@ -40,7 +40,7 @@ bool may_turn(const PatternLoop& loop, std::size_t i, int turn)
 }
 
 /// @param hard  move turns of the boundary itself, if the angles at the old and the new node allow it;
-///              otherwise turns that may be anywhere.
+/// otherwise move the movable turns.
 /// @return empty if no move brings the loop nearer to closing
 std::optional<TurnMove> cheapest_move(const PatternLoop& loop, const std::array<int, 2>& excess, bool hard)
 {
@@ -92,7 +92,7 @@ bool close_pattern_loop(PatternLoop& loop, int period)
 bool trade_column_for_row(PatternLoop& loop)
 {
     const std::size_t n = loop.size();
-    std::vector<std::size_t> ends; // sides that run along a row and then along a column
+    std::vector<std::size_t> ends; // nodes at which the loop turns from a row into a column
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t before = (i + n - 1) % n;
         if (loop.turn(i) == 0 || loop.heading[before] % 2 != 0) continue;

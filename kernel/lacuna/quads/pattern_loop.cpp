@@ -69,14 +69,14 @@ bool is_soft(double own, int turn, TurnStyle style)
     return turn != 0 && std::abs(own - turn) > limit;
 }
 
-/// Cost of a soft turn if few are wanted, relative to a side that runs across the grid (1): the exchange rate
-/// between irregular nodes and angles. Heuristic.
+/// Cost of a soft turn for `TurnStyle::few_soft`: how much deviation of angles an irregular node is worth. A
+/// side at a right angle to its heading costs 1. A choice, not measured.
 constexpr double kSoftTurn = 0.5;
 
 /// The headings of least cost, given that of the first side.
 class HeadingSearch {
 public:
-    /// @param weight  of a side's deviation relative to that of a node's angle.
+    /// @param weight  of the deviation of a side, relative to that of a node's angle.
     HeadingSearch(const LoopAngles& angles, double weight, TurnStyle style)
         : angles_(angles), weight_(weight), style_(style)
     {

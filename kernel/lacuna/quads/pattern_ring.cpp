@@ -109,7 +109,7 @@ private:
 
 int RingWidths::steps(double height) const
 {
-    // Rows of a constant number have the size asked if the ring's widths differ by less than the sizes may.
+    // A constant number of rows has the size asked if the ring's widths differ by less than the sizes may.
     if (!(least > 0) || most < kLongestOfSize / kShortestOfSize * least) return 0;
     // Half the difference that would make all rows equal, so that rows beside the steps are neither too high
     // nor too low.

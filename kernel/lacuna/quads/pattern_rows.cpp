@@ -98,7 +98,7 @@ public:
             const int down = loop_.heading[end - 1] - 1;
             next.push(inner[end], down, down, 0, 0);
         }
-        // If the row ends at a soft turn, the loop turns there.
+        // A soft turn at which the row ends becomes hard: the loop turns at this node.
         const std::size_t first = end + (ends_at_end ? 1 : 0);
         for (std::size_t i = first; i < n - (ends_at_start ? 1 : 0); ++i)
             next.push(loop_.nodes[i], loop_.heading[i], loop_.direction[i], i == first ? 0 : loop_.soft[i],
@@ -171,7 +171,7 @@ std::vector<int> rows_to_try(int fitting)
 
 void set_soft_rows(PatternLoop& loop, int rows)
 {
-    // Rows where the loop is bent inward; more would run into the rows of other loops.
+    // Limit of rows where the loop is bent inward; more would run into the rows of other loops.
     constexpr int kMostInward = 3;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         if (loop.movable[i]) loop.soft[i] = loop.turn(i) < 0 ? std::min(rows, kMostInward) : rows;

@@ -128,7 +128,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
     // Between sides that nearly touch, or in spikes, all quads are flat.
     if (best.worst <= chooser.flat()) {
         log_line(context, formatted("the flattest quad, near {}, has a scaled Jacobian of {:.6f}: the "
-                                    "boundary's sides are long for the gap there",
+                                    "boundary's sides there are long compared with the gap between them",
                                     position_text(best.where), best.worst));
     }
     if (static_cast<double>(best.mesh.quads.size()) <= kManyQuads) {

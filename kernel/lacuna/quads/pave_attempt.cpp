@@ -14,13 +14,13 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Number of rows to pave along a loop. A round outer loop gets four nodes of three quads where its rows end.
-/// With one row for about sixty nodes these lie at the corners of a square with as many nodes as the loop.
-/// Around a hole, each further row adds stretched quads.
+/// Number of rows to pave along a loop. The rows of a round outer loop end in four nodes of three quads. With
+/// one row for about sixty nodes, these lie at the corners of a square with as many nodes as the loop. Around
+/// a hole, each further row adds stretched quads.
 int rows_for(const PartialMesh& partial, const Cycle& loop, bool outer)
 {
     if (!needs_row(partial, loop)) return 0;
-    constexpr std::size_t kNodesARow = 60; // see above
+    constexpr std::size_t kNodesARow = 60;
     return outer ? 1 + static_cast<int>(loop.size() / kNodesARow) : 1;
 }
 

@@ -14,11 +14,11 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Loops that each loop is tried with. In a plane a loop has six neighbours on average; more are tried
-/// because others may stand between.
+/// Number of nearest loops to which lines from a loop are tried. In a plane a loop has six neighbours on
+/// average; more are tried because other loops may stand between.
 constexpr std::size_t kNearest = 16;
 
-/// Bridges start at every n-th node of a loop.
+/// Step between the nodes of a loop from which lines are tried.
 std::size_t stride_of(std::size_t n)
 {
     constexpr std::size_t kMost = 48; // limit of the nodes of a loop that are tried
@@ -58,12 +58,13 @@ public:
     }
 
 private:
-    /// A line between two loops, or the distance of their boxes, which no line between them costs less than.
+    /// A line between two loops; before a line is sought, the distance of their boxes, which is a lower bound
+    /// on the cost of every line between them.
     struct Bridge {
         double cost = 0;
         std::size_t a = 0, b = 0;
-        Index from = -1, to = -1; ///< nodes; -1: a distance
-        std::size_t lines = 0;    ///< number of lines when it was found
+        Index from = -1, to = -1; ///< nodes; -1: no line was sought yet
+        std::size_t lines = 0;    ///< number of lines placed before this one was found
         bool operator>(const Bridge& other) const
         {
             return std::tie(cost, a, b) > std::tie(other.cost, other.a, other.b);
@@ -92,7 +93,7 @@ private:
         return sides_[a].box().exteriorDistance(sides_[b].box());
     }
 
-    /// Whether no line that was laid since the bridge was found touches it.
+    /// Whether the line is still valid: no line placed since it was found touches it.
     [[nodiscard]] bool is_current(const Bridge& bridge) const
     {
         for (std::size_t k = bridge.lines; k < lines_.size(); ++k)
@@ -103,13 +104,13 @@ private:
         return true;
     }
 
-    /// A corner of a loop into which a line leaves: its position, its angle, and the part up to the line.
+    /// A corner of a loop that a line divides: its position, its angle, and the angle up to the line.
     struct Corner {
         std::size_t at;
         double angle, part;
     };
 
-    /// The corner of a node in the loop as it is now; empty if the line leaves into none.
+    /// The corner at a node of the present joined loop that the line divides; empty if there is none.
     std::optional<Corner> corner_now(std::size_t loop, Index node, const Vec2& along)
     {
         const Cycle& cycle = cycles_[joined_.find(loop)];
@@ -144,7 +145,7 @@ private:
     {
         const Cycle &one = loops_[a], &two = loops_[b];
         const Eigen::AlignedBox2d both = sides_[a].box().merged(sides_[b].box());
-        std::vector<const LoopSides*> near; // what a bridge may meet
+        std::vector<const LoopSides*> near; // loops and lines that a line may cross
         const auto add = [&](const LoopSides& sides) {
             if (sides.box().intersects(both)) near.push_back(&sides);
         };
@@ -152,7 +153,7 @@ private:
         std::ranges::for_each(of_lines_, add);
         std::optional<Bridge> best;
         Cut place;
-        // Only bridges cheaper than the cheapest so far are checked; none costs less than its length.
+        // Only lines cheaper than the cheapest so far are checked; none costs less than its length.
         const auto consider = [&](std::size_t i, std::size_t j) {
             const Vec2 along = partial_.at(two[j]) - partial_.at(one[i]);
             const double length = along.norm();
@@ -179,7 +180,7 @@ private:
         return best;
     }
 
-    /// @return  false if the line leaves into no corner of the loops as they are now
+    /// @return  false if the line divides no corner of the present joined loops
     bool lay(const Bridge& bridge)
     {
         const Vec2 &p = partial_.at(bridge.from), &q = partial_.at(bridge.to);
@@ -233,11 +234,11 @@ private:
 
     PartialMesh& partial_;
     const std::vector<Cycle>& loops_;
-    std::vector<Cycle> cycles_; ///< joined so far, at their first loops; empty at the others
+    std::vector<Cycle> cycles_; ///< each joined loop, at its first loop's number; empty at the others
     geometry::UnionFind joined_;
     std::vector<std::vector<double>> angles_;
     std::vector<LoopSides> sides_;
-    std::deque<Cycle> lines_; ///< the ends of each
+    std::deque<Cycle> lines_; ///< the two end nodes of each line
     std::deque<LoopSides> of_lines_;
     std::unordered_set<Index> met_; ///< nodes where lines end
     std::priority_queue<Bridge, std::vector<Bridge>, std::greater<>> waiting_;

@@ -79,8 +79,8 @@ bool is_near_least(const PlaneQuality& quality, int least)
 /// weights together, with a fifth fewer irregular nodes, in a quarter of the time; a third finished attempt
 /// would gain the 0.01.
 constexpr std::size_t kFewQuads = 1500, kFinished = 2;
-/// The other attempts are finished too if the worst quad is below kFair and below kNearly of what the
-/// boundary's corners allow. Higher bounds spend more time for a better worst quad.
+/// The other attempts are finished too if the worst quad is below kFair and below kNearly times the best that
+/// the boundary's corners allow. Higher bounds spend more time for a better worst quad.
 constexpr double kFair = 0.75, kNearly = 0.97;
 
 /// The best possible scaled Jacobian of the worst boundary corner if each corner has as many quads as right
@@ -158,7 +158,7 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const Size
     constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0};
     const Limits& limits = few ? kGoodFew : kGood;
     if (attempt.worst < limits.least || !find_fault(attempt.mesh, region).empty()) return false;
-    // Where images meet, on an axis or at the centre, each may have one quad too many.
+    // Nodes where images meet, on an axis or at the centre, may have one quad too many from each image.
     constexpr Index kMostQuads = 6;
     if (std::ranges::max(valences(attempt.mesh.quads, attempt.mesh.points.size())) > kMostQuads) return false;
     return reaches(limits, attempt, region) && has_quads_asked(attempt.mesh, asked);
@@ -268,7 +268,8 @@ void AttemptChooser::try_grids()
     // Rings whose loops differ strongly have fewer.
     constexpr double kNearlyAll = 0.93, kMost = 0.85;
     std::vector<Attempt> grids{grid_attempt(submap(region_, context_), setting_)};
-    // If the images have too many or too few quads, the region is filled in another way.
+    // A grid over a part of a symmetric region (`cut_` is false) with too many or too few quads is rejected;
+    // the part is then filled in another way.
     const auto is_good = [&](const Attempt& grid, double of_size) {
         return is_good_grid(grid, judged_, of_size) && (cut_ || has_quads_asked(grid.mesh, judged_.size));
     };

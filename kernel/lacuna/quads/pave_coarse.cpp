@@ -19,7 +19,8 @@ namespace {
 /// Number of quads from which a coarse region is coarsened again: it bounds the time of paving the coarsest
 /// region.
 constexpr double kManyStill = 8000;
-/// Limit of sides that may be divided for that. Each leaves a triangle with a few irregular nodes.
+/// Limit of sides that may be divided to make all runs even. Each leaves a triangle with a few irregular
+/// nodes.
 constexpr std::size_t kMostDivided = 8;
 
 /// The sides to divide so that every run from corner to corner, and every loop without corners, has an even
@@ -46,7 +47,7 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
     return sides;
 }
 
-/// Pave a coarse region in one way, and in all other ways only if the result is poor.
+/// Pave a coarse region in one way; if the result is poor, try all ways of `pave()`.
 PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     check(region);
@@ -57,14 +58,14 @@ PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunC
         report = std::move(attempt.report);
         return std::move(attempt.mesh);
     }
-    // Many quads of a pattern are stretched where few irregular nodes cost little.
+    // Patterns are not tried: they stretch many quads to save irregular nodes, which cost little here.
     auto [mesh, other] = pave(region, {.grids = false}, context);
     report = std::move(other);
     return std::move(mesh);
 }
 
-/// Quads and few triangles in a coarse region. If there are still too many, they are made from those of a
-/// coarser region.
+/// Fill a coarse region with quads and few triangles. If it still has many quads, a coarser region is filled
+/// and its cells are cut in four.
 PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     const auto sides = quads_within(region) < kManyStill ? std::nullopt : sides_to_divide(region);
@@ -124,7 +125,7 @@ std::optional<Paved> pave_in_four(const PlanarRegion& region, const SizeField& s
     try {
         found = fill_and_cut(region, context);
     } catch (const InvalidInput&) {
-        return std::nullopt; // loops that touch without the nodes left out
+        return std::nullopt; // without the nodes left out, the loops touch
     } catch (const NotSweepable&) {
         return std::nullopt;
     }

@@ -60,7 +60,7 @@ private:
         // used.
         constexpr double kAway = 0.5;
         std::optional<Choice> best, near_miss;
-        // In order of their costs without edges, so the search ends after few lines.
+        // The lines are taken in order of their cost without edges, so the search ends after few lines.
         const auto later = [](const Line& a, const Line& b) { return a.cost > b.cost; };
         std::ranges::make_heap(lines_, later);
         for (auto end = lines_.end(); end != lines_.begin();) {
@@ -85,7 +85,7 @@ private:
         double cost = 0;
     };
 
-    /// A line that may be cut along, without its edges.
+    /// A candidate line, before its number of edges is chosen.
     struct Line {
         std::size_t from = 0, to = 0;
         double reach = 0;                  ///< length relative to the outline that it cuts off
@@ -101,7 +101,7 @@ private:
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    /// Whether a line stays away from all nodes that it passes, by this share of its edges.
+    /// Whether a line stays away from all nodes that it passes, by this share of its edge length.
     [[nodiscard]] bool keeps_away(const Choice& c, double away) const
     {
         const Vec2 &a = at(c.cut.from), &b = at(c.cut.to), along = b - a;
@@ -118,7 +118,7 @@ private:
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
         constexpr std::size_t kSpread = 32; ///< nodes tried evenly along the outline
-        /// And nodes where the outline turns inward; both limit the time.
+        /// Limit of tried nodes where the outline turns inward. Both limits bound the time.
         constexpr std::size_t kFeatures = 64;
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
@@ -199,8 +199,8 @@ private:
                part_mismatch(cut.to, cut.from, cut.edges, part_j, angles_[cut.from] - part_i);
     }
 
-    /// The part along the outline from one end of the line to the other. Grids cost least, then patches with
-    /// one irregular node, then others.
+    /// Mismatch of the part between the line and the outline from `from` to `to`. Grids cost least, then
+    /// patches with one irregular node, then others.
     [[nodiscard]] double part_mismatch(std::size_t from, std::size_t to, std::size_t edges, double angle_from,
                                        double angle_to) const
     {
@@ -270,7 +270,7 @@ private:
     std::vector<double> heading_; ///< direction of the side that leaves each node [radians]
     std::vector<double> pace_;    ///< 1 / size at each node
     std::vector<std::size_t> corners_;
-    std::vector<Line> lines_; ///< those tried first
+    std::vector<Line> lines_; ///< lines between the candidate nodes
     std::size_t stride_ = 1;
 };
 

@@ -77,8 +77,8 @@ double judge_four(const PartialMesh& partial, const Cycle& cycle, const std::vec
                                       reversed(sample(partial, cycle, corners[2], edges[2], n)),
                                       reversed(sample(partial, cycle, corners[3], edges[3], m))};
     const double quality = judge_block(partial, side);
-    // Columns that turn off to a neighbouring side bend the grid, and lower the quality more the more of them
-    // there are.
+    // Columns that turn off to a neighbouring side bend the grid. The larger their share, the lower the
+    // quality.
     const auto excess = [](std::size_t a, std::size_t c) {
         return static_cast<double>(std::max(a, c) - std::min(a, c)) / static_cast<double>(std::max(a, c));
     };

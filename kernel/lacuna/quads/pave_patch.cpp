@@ -50,7 +50,7 @@ void fill_small(PartialMesh& partial, const Cycle& c)
             three.push_back({c[at % 6], c[(at + 1) % 6], c[(at + 2) % 6], centre});
             worst = std::min(worst, least_sine(partial, three.back()));
         }
-        // A third quad must improve the worst one clearly.
+        // Three quads are used only if they clearly improve the worst quad.
         if (!best.empty() && worst <= best_worst + 0.3) continue;
         best_worst = worst + 0.3;
         best = three;

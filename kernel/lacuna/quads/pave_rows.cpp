@@ -10,7 +10,7 @@
 namespace lacuna::quads::paving {
 namespace {
 
-constexpr int kMostQuads = 4; ///< at a node: a reversal, because no angle exceeds four right angles
+constexpr int kMostQuads = 4; ///< at a node, which is then a reversal; no angle exceeds four right angles
 
 Vec2 rotated(const Vec2& v, double angle)
 {
@@ -33,7 +33,8 @@ std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
         heights[i] = std::min(wanted, gaps.ahead(before, cycle[i], after, inward, reach) / 3);
     }
     if (kind == RowKind::exact) return heights;
-    /// Largest ratio between neighbouring nodes; higher follows gaps more closely, with less even rows.
+    /// Largest ratio of heights at neighbouring nodes. A higher one follows gaps more closely, with less even
+    /// rows.
     constexpr double kChange = 1.3;
     for (int pass = 0; pass < 2; ++pass) {
         for (std::size_t k = 0; k < 2 * n; ++k) {
@@ -76,7 +77,8 @@ private:
     [[nodiscard]] int kind(std::size_t i) const { return std::min(quads_in(angles_[i % n_]), kMostQuads); }
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    /// Each end removes a node from the sides before and after it, so sides of at least three edges keep one.
+    /// Whether ends are at least three edges apart. Each end removes a node from the sides before and after
+    /// it, so a side of three edges keeps one.
     [[nodiscard]] bool ends_far_apart() const
     {
         constexpr std::size_t kApart = 3; // edges between two ends
@@ -102,7 +104,7 @@ private:
         return static_cast<double>(squeezed) <= kMost * static_cast<double>(n_);
     }
 
-    /// Place new nodes above every node, from the edge after it to the edge before it.
+    /// Place new nodes above every node, from the edge before it to the edge after it.
     void place_nodes()
     {
         inner_.assign(n_, {});

@@ -44,7 +44,7 @@ public:
         cell_ = std::max(
             {(high - low_).maxCoeff() / kAcross, kOfSide * shortest, std::numeric_limits<double>::min()});
         low_ -= Vec2::Constant(cell_);
-        // With a border of cells without bounds.
+        // The grid has a border of cells without bounds.
         nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 4;
         ny_ = static_cast<int>((high.y() - low_.y()) / cell_) + 4;
         low_ -= Vec2::Constant(cell_);

@@ -81,8 +81,8 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
     std::optional<std::vector<CountedLoop>> best;
     double least = kInfinity;
     const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
-    // Weight of the number of quads for rows that do not change; rows that change make up for it. Chosen on
-    // gears of 400 and 3,000 quads.
+    // Weight of a wrong number of quads for rows that keep their number of sides; changing rows correct the
+    // number themselves. Chosen on gears of 400 and 3,000 quads.
     constexpr double kQuads = 3;
     const double mean = (wanted_along(ends[0]) + wanted_along(ends[1])) / 2;
     for (const int by : more) {

@@ -30,7 +30,7 @@ public:
                 const Index top = shared(stars_[index(here)][0], stars_[index(here)][1]);
                 if (top < 0 || index(top) < fixed_) continue;
                 const Vec2 along = (at(after) - at(here)).normalized() + (at(here) - at(before)).normalized();
-                if (along.norm() < 1) continue; // a bend of more than two thirds of a straight angle
+                if (along.norm() < 1) continue; // a bend of more than 120°
                 const Vec2 unit = along.normalized();
                 posts_.push_back({here, top, {-unit.y(), unit.x()}, height(at(here))});
             }
@@ -39,7 +39,8 @@ public:
 
     void run()
     {
-        constexpr int kRounds = 4; // limit of rounds, because neighbours make room for each other
+        constexpr int kRounds = 4; // limit of rounds; several are needed because nodes make room for their
+                                   // neighbours
         for (int round = 0; round < kRounds; ++round) {
             for (const Post& post : posts_) raise(post);
         }

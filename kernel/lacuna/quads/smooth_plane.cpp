@@ -18,8 +18,8 @@ namespace {
 /// A move shorter than this share of the surrounding sides does not wake the neighbours. A higher value ends
 /// earlier, with less smooth meshes.
 constexpr double kStill = 0.02;
-/// Over-relaxation of the steps except in the first sweep and the last: an error that spans many quads then
-/// takes a tenth of the sweeps (measured: 1.5 and 1.7 need more, 1.9 overshoots between poor quads).
+/// Over-relaxation of the steps, except in the first and the last sweep. It removes errors that span many
+/// quads in a tenth of the sweeps (measured: 1.5 and 1.7 need more, 1.9 overshoots between poor quads).
 constexpr double kOverstep = 1.85;
 
 /// Whether some side is far shorter than every side between two fixed points. The ends of such a needle
@@ -74,7 +74,7 @@ public:
     }
 
     /// Move the points of poor quads to where the least sine around them is largest. From the second call on,
-    /// only points with a neighbour that moved. @return whether any point moved
+    /// only points near a point that moved are tried. @return whether any point moved
     bool raise(double floor, const RunContext& context)
     {
         if (restless_.empty()) {
@@ -167,7 +167,7 @@ private:
                 const Vec2 to = points_[p] + length * step;
                 const double least = floor * floor;
                 double energy = lanes.energy(to, areas_.weight, least);
-                // If the sine is below `least` already, it may stay so.
+                // If the worst sine is below the floor already, it may stay below but not fall further.
                 if (energy > here.value && least > 0) {
                     const double sine = least_sine(points_, star, points_[p]);
                     if (sine < floor) energy = lanes.energy(to, areas_.weight, sine * sine);

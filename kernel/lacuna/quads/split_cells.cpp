@@ -14,8 +14,9 @@ namespace lacuna::quads {
 namespace {
 
 /// The inner edges that stay whole: the T-join of `split_cells()`. Breadth-first trees grow from all odd
-/// cells at once. Where two trees meet, their groups are linked, the shortest link first. In the resulting
-/// tree of groups, every branch with an odd number of odd cells is joined to its parent.
+/// cells at once; the cells of a tree form a group. Where two trees meet, their groups are linked, the
+/// shortest link first. In the resulting tree of groups, every branch with an odd number of odd cells is
+/// joined to its parent by whole edges.
 class WholeEdges {
 public:
     explicit WholeEdges(const MixedMesh& mesh)
@@ -106,7 +107,7 @@ private:
     /// From the leaves of a tree of groups to its root: join each odd branch to its parent.
     void send_up(Index top, const std::vector<std::vector<Meeting>>& tree, std::vector<bool>& seen)
     {
-        // Cells from the root on, each with its link towards the root.
+        // The odd cell of each group, from the root group on, with the link to its parent group.
         std::vector<std::pair<Index, Meeting>> order{{top, {0, -1, -1}}};
         std::unordered_map<Index, int> odd{{top, 1}};
         seen[index(top)] = true;

@@ -60,10 +60,12 @@ public:
     }
 
 private:
-    // In order: the scaled Jacobian below which a neighbouring quad may not fall, the shares of kRowOffRight
-    // and kRowOffHeight that the search aims for, the weight of the quads' own energy, and the cost at which
-    // a row counts half. Chosen from a few values each: these give most good rows on 70 outlines of the held
-    // family (benchmarks/pave/) without worse quads between sharp corners.
+    // kGood: the scaled Jacobian below which a neighbouring quad may not fall. kOffRight (the sine of an
+    // angle) and kOffHeight: the deviations that the search aims for, stricter than kRowOffRight and
+    // kRowOffHeight. kShape: the weight of the quads' own energy. kGivenUp: the cost at which a row counts
+    // half. kShorter and kLonger: the lengths of sides aimed for, relative to the size asked. Chosen from a
+    // few values each: these give most good rows on 70 outlines of the held family (benchmarks/pave/) without
+    // worse quads between sharp corners.
     static constexpr double kGood = 0.7;
     static constexpr double kOffRight = 0.3, kOffHeight = 0.24, kShape = 0.002, kGivenUp = 0.5;
     static constexpr double kShorter = kShortestOfSize + 0.02, kLonger = kLongestOfSize - 0.05;
@@ -154,8 +156,8 @@ private:
         }
     }
 
-    /// For each corner, the squared sine of the angle by which it exceeds its limit; 1 if it deviates by more
-    /// than a right angle.
+    /// For each corner, the square of the amount by which the sine of its deviation exceeds the limit. The
+    /// sine of a deviation by more than a right angle counts as 1.
     LACUNA_INLINE void beyond_right(const RowSide& row, Lanes& beyond) const
     {
         const Vec2 &a = at(row.a), &b = at(row.b), &c = at(row.c), &d = at(row.d);
@@ -212,8 +214,8 @@ private:
         return cost;
     }
 
-    /// The nodes of row quads that exceed their limits, of all quads around these, and of sides of another
-    /// size. Of nodes that are images of each other, only the first.
+    /// The nodes of row quads that exceed their limits, of all quads around these, and of sides that are too
+    /// short or too long. Of nodes that are images of each other, only the first.
     [[nodiscard]] std::vector<Index> nodes_to_move() const
     {
         std::vector<char> moves(mesh_.points.size(), 0);
@@ -295,8 +297,8 @@ private:
     std::span<const Symmetry> symmetries_;
     /// Symmetries that map the current node to a node around it, see `set_images()`.
     std::vector<const Symmetry*> near_;
-    std::vector<Vec2> kept_;     ///< positions of these nodes
-    std::span<const Vec2> ways_; ///< directions in which it may move
+    std::vector<Vec2> kept_;     ///< positions of these images before the search
+    std::span<const Vec2> ways_; ///< directions in which the current node may move
     std::array<Vec2, 2> axis_;
     std::size_t fixed_;
     Stars stars_;

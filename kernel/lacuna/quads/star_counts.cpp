@@ -32,7 +32,8 @@ std::vector<std::size_t> sides_of_patch(const CountTask& task)
     return sides;
 }
 
-/// The wanted length of each grid along the side that it begins: side i is feet i and i + 2 long, in sum.
+/// The wanted foot of each grid: its number of edges along the side that starts at its corner. Side i has
+/// foot[i] + foot[i + 2] edges.
 std::vector<double> wanted_feet(const CountTask& task, const std::vector<std::size_t>& sides)
 {
     const std::size_t n = sides.size();

@@ -190,7 +190,7 @@ std::vector<int> run_counts(const ClosedLoops& closed)
 }
 
 /// Solutions for one style of ends, for several numbers of rows before soft turns and several factors on the
-/// wanted sides (rows add quads, and columns use up sides).
+/// wanted sides.
 /// @return the solutions and their costs; for a part, only those that may still be the cheapest.
 std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, TurnStyle style)
 {
@@ -251,7 +251,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
                 if (closed->loops.size() > 1 && !closed->grids.empty()) {
                     centre_holes(task, closed->loops, closed->grids.front());
                     all.back().sides = counts_of(task, closed->loops);
-                    // `best_filled()` decides between both.
+                    // `best_filled()` chooses between the numbers with and without centred holes.
                     if (may_be_tried(task, options)) all.push_back(std::move(counts));
                 }
             }
@@ -292,8 +292,8 @@ std::optional<double> score_of_counts(const CountTask& task, std::span<const int
     return best;
 }
 
-/// The solution that a grid fills with the best measured quality. They are tried from the cheapest on until
-/// one is good. Empty if no grid is valid or there is only one solution.
+/// The solution whose grid has the best measured quality. Solutions are tried from the cheapest on until one
+/// is good. Empty if no grid is valid or there is only one solution.
 std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all)
 {
     // A score at which the search ends, and the maximum number of grids made, to limit the time. Not
@@ -319,7 +319,7 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
 
 std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
 {
-    // Bonus for soft ends; chosen like kQuads.
+    // The costs of solutions with soft ends are divided by this; chosen like kQuads.
     constexpr double kSoft = 2;
     std::vector<Counts> all = counts_looked_at(task, options, TurnStyle::soft);
     const auto add = [&](TurnStyle style) {

@@ -14,7 +14,8 @@ namespace {
 /// Cuts that slant more than this are excluded: 0 is square to the outline, 1 along it.
 constexpr double kMostSlant = 0.7;
 
-/// Twice the foot that `spoke_feet()` finds for side i: the alternating sum of every second side's length.
+/// Twice the foot that `spoke_feet()` finds for side i: the sum of the edges of sides i, i + 2, i + 4 …, with
+/// alternating signs.
 int twice_foot(const SideCounts& counts, std::size_t i)
 {
     const std::size_t n = counts.count;
@@ -142,7 +143,8 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
     if (!found.empty()) return found;
     constexpr int kTried = 16; // positions tried along a side of three or five, to limit the time
     const CutRanker ranker(loop);
-    // One or three corners lie between the two sides: with two, a part of four sides would only be a strip.
+    // With an even number of sides, one or three corners lie between the two sides that the cut joins. With
+    // two, the parts of a patch of four sides would only be strips.
     const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
     // With opposite sides, each pair would occur twice.
     const std::size_t pairs = 2 * between == n ? n / 2 : n;
@@ -153,7 +155,7 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
         SideCounts first{{}, between + 2}, second{{}, n - between + 2};
         for (std::size_t i = 1; i < between; ++i) first.side[i] = counts.side[(side + i) % n];
         for (std::size_t i = 1; i < n - between; ++i) second.side[i] = counts.side[(other + i) % n];
-        // A part of four sides may have a pair of irregular nodes, another part one.
+        // A part of four sides may have a pair of irregular nodes, any other part one node.
         const auto fits = [&](int edges) {
             std::array<int, kMostSides> feet{};
             first.side[between + 1] = second.side[n - between + 1] = edges;

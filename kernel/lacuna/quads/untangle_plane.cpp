@@ -41,8 +41,8 @@ struct ReferenceQuad {
 /// The folded quads, the rings around them and the points inside.
 struct FoldedPart {
     std::vector<ReferenceQuad> cells;
-    std::vector<Index> moving;   ///< points
-    std::vector<Index> variable; ///< for each point; -1: stays
+    std::vector<Index> moving;   ///< points that move
+    std::vector<Index> variable; ///< for each point, its number in `moving`; -1: it stays
 };
 
 /// Least determinant of the corners of a quad that can change; those of three fixed points are left out.

@@ -108,11 +108,12 @@ LACUNA_INLINE void find_turns(const Edges<N>& edges, Turns<N>& turns)
     }
 }
 
-/// Integral of J: from the means of the edges and of their changes, as all other terms vanish by symmetry.
+/// The volume, the integral of J: from the means of the edges and of their changes. All other terms vanish by
+/// symmetry.
 template <int N>
 LACUNA_INLINE void find_volume(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)
 {
-    alignas(64) double edge[3][3][N], turn[3][3][N]; // sums of four and of two
+    alignas(64) double edge[3][3][N], turn[3][3][N]; // sums of four edges, and of two changes
     for (int d = 0; d < 3; ++d) {
         for (int c = 0; c < 3; ++c) {
             const auto& along = edges.along[d];
@@ -179,8 +180,8 @@ LACUNA_INLINE bool find_bound(const Edges<N>& edges, const Turns<N>& turns, Cell
     return least[0] > 0;
 }
 
-/// Coefficient at the middle of an edge, `stride` from the coefficients at its two ends: from the edge vector
-/// and the changes of the other two along it, in the order of u, v, w.
+/// Coefficient at the middle of an edge, `stride` from the coefficients at its two ends. It follows from the
+/// edge vector and the changes of the other two edge vectors along it, given in the order of u, v, w.
 template <int N>
 LACUNA_INLINE void find_middle(CellValues<N>& values, int low, int stride, const Lanes3<N>& u,
                                const Lanes3<N>& v, const Lanes3<N>& w)

@@ -5,9 +5,10 @@
 
 #include <cmath>
 
-// The trilinear map of a cell, with r, s, t from -1 to 1: x = (sum of corners + a r + b s + c t + ab rs + ac
-// rt + bc st + abc rst) / 8. a, b, c are the axes times four; ab, ac, bc are the differences of opposite
-// edges (Taylor and Flanagan 1989).
+// The trilinear map of a cell, with r, s, t from -1 to 1:
+//     x = (sum of corners + a r + b s + c t + ab rs + ac rt + bc st + abc rst) / 8
+// a, b, c are the axes times four; ab, ac, bc are the differences of opposite edges (Taylor and Flanagan
+// 1989).
 
 namespace lacuna::quality {
 namespace {

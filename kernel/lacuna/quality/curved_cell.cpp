@@ -17,16 +17,16 @@ constexpr std::size_t kSide = 6;                    ///< coefficients in each di
 constexpr std::size_t kAll = kSide * kSide * kSide; ///< index of (a, b, c): a + 6 b + 36 c
 using Bezier = std::array<double, kAll>;
 
-/// Distance below which a middle node counts as straight, relative to the size of
-/// the cell: rounding with a margin.
+/// Distance below which a middle node counts as straight, relative to the size of the cell: rounding with a
+/// margin.
 constexpr double kStraight = 1e-13;
 
 /// Position of each node of a hex27 in the grid of 3³ points, a + 3 b + 9 c.
 constexpr std::array<std::uint8_t, 27> kGrid{0,  2,  8, 6,  18, 20, 26, 24, 1,  5,  7, 3,  19, 23,
                                              25, 21, 9, 11, 17, 15, 12, 14, 10, 16, 4, 22, 13};
 
-/// Values or derivatives of the quadratic Lagrange polynomials for 0, ½ and 1, at
-/// N equidistant points of [0, 1].
+/// Values or derivatives of the quadratic Lagrange polynomials for 0, ½ and 1, at N equidistant points from 0
+/// to 1.
 template <std::size_t N>
 using Table = std::array<std::array<double, 3>, N>;
 
@@ -168,8 +168,8 @@ void split(Bezier& whole, Bezier& high, std::size_t stride)
 
 constexpr std::array<std::size_t, 3> kStrides{1, kSide, kSide* kSide};
 
-/// Depth-first subdivision along the direction with the smallest inner coefficients.
-/// @param floor  larger values count as positive
+/// Whether a polynomial exceeds `floor` everywhere, by depth-first subdivision along the direction with the
+/// smallest inner coefficients.
 bool positive_parts(const Bezier& bezier, double floor, std::array<int, 3> cuts_left)
 {
     constexpr std::size_t kLast = kSide - 1;
@@ -226,8 +226,9 @@ LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3],
     return least_scaled(nodes);
 }
 
-/// Divide by 1 - t, of which the polynomial is a multiple, along a direction, and raise to degree five again.
-/// @param degree  along the direction; the coefficients of degree five beyond it are not used
+/// Divide a polynomial by 1 - t along a direction; it must be a multiple of 1 - t. Its degree along the
+/// direction falls by one.
+/// @param degree  before, along the direction; the coefficients beyond it are not used
 void divide(Bezier& bezier, std::size_t stride, std::size_t degree)
 {
     for (std::size_t at = 0; at < kAll; ++at) {
@@ -253,7 +254,7 @@ void elevate(Bezier& bezier, std::size_t stride, std::size_t degree)
     }
 }
 
-/// The judgement by the coefficients of the Jacobian, or of what remains of it without positive factors.
+/// Judge a cell by the coefficients of its Jacobian, or of the Jacobian divided by positive factors.
 void decide(CurvedCell& cell, const Bezier& bezier, double scaled, int max_depth)
 {
     double largest = 0, least = kInfinity;
@@ -286,8 +287,8 @@ constexpr bool is_high(std::size_t c, std::size_t d)
     return ((d == 0 ? c + 1 : c) & (d == 2 ? 4u : 2u)) != 0;
 }
 
-/// Distances of the middle nodes from the middles of their edges, and of the centre of the base, if there is
-/// one, from where they and the corners put it.
+/// For each edge, the vector from its middle to its middle node. Last, for the centre of the base, the vector
+/// from the place that the corners and middle nodes of the base give it; 0 if there is no such node.
 std::array<Vec3, 13> deviations(std::span<const Vec3> nodes)
 {
     std::array<Vec3, 13> all;
@@ -300,9 +301,10 @@ std::array<Vec3, 13> deviations(std::span<const Vec3> nodes)
     return all;
 }
 
-/// The map of a wedge, pyramid or tetrahedron of order 2 at a point of the unit cube, relative to corner 0:
-/// linear in the corners, and for each edge from a to b its deviation times 4 a b, with the shape functions
-/// of a triangle, a square or the height; the centre of the base likewise.
+/// The map of a wedge, pyramid or tetrahedron of order 2 at a point of the unit cube, relative to corner 0.
+/// It is linear in the corners. Each edge adds its deviation times 4 a b, where a and b are the shape
+/// functions of its ends in a triangle, a square or along the height. The centre of the base is added
+/// likewise.
 Vec3 collapsed_place(CellKind kind, std::span<const Vec3> nodes, const std::array<Vec3, 13>& deviation,
                      const std::array<double, 3>& at)
 {

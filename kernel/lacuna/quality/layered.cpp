@@ -177,7 +177,7 @@ private:
             });
             if (entries_.size() > kMost) return false;
         }
-        // Nodes between two slabs are there twice.
+        // Nodes between two slabs were collected twice.
         std::ranges::stable_sort(entries_, {}, &Entry::node);
         const auto twice = std::ranges::unique(entries_, {}, &Entry::node);
         entries_.erase(twice.begin(), twice.end());
@@ -265,8 +265,8 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
     const auto take = [&](const std::optional<std::array<Index, 2>>& pair) {
         if (pair && (!least || *pair < *least)) least = pair;
     };
-    // Search each slab together with the next one. The search of the previous slab
-    // covered this one's lower side.
+    // Search each slab together with the next one. The search of the previous slab covered this one's lower
+    // side.
     std::vector<Vec3> nodes;
     for (std::size_t s = begin; s < end && (s == 0 || s + 1 < slabs.size()); ++s) {
         check_cancelled(context);
@@ -284,7 +284,7 @@ std::optional<Finding> find_misplaced(const LayeredMesh& layered, std::span<cons
             take(std::array<Index, 2>{(*pair)[0] + before, (*pair)[1] + before});
         }
     }
-    // Bends where slabs touch are rare, so one process searches all of them.
+    // Bends at which distant slabs touch are rare, so one process searches all of them.
     if (begin == 0)
         take(FarPairs(layered, slabs, {places.begin(), places.end()}, bounds, tolerance, context).first());
     Writer own_pair;

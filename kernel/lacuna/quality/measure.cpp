@@ -53,7 +53,8 @@ void count_bad(Partial& partial, const Values& values, const Signs& signs, int f
 }
 
 /// Add the cells of a batch, the first of which has the number `first`. Tests that most cells pass are made
-/// for the whole batch first. @param hexes  all are hexahedra
+/// for the whole batch first.
+/// @param hexes  whether all cells of the batch are hexahedra
 template <class Cells>
 void add_batch(Partial& partial, const Cells& cells, const Values& values, const Signs& signs,
                std::size_t first, int filled, bool hexes)

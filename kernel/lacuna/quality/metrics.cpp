@@ -90,10 +90,10 @@ struct Tally {
     }
 };
 
-/// Value of another cell than a hexahedron for metrics that are not defined for it.
+/// Value of a metric that is not defined for a cell because the cell is not a hexahedron.
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// Store the metrics of such a cell in a lane.
+/// Store the metrics of a cell that is not a hexahedron in a lane.
 void put_other(std::span<const Metric> metrics, CellKind kind, const CellCorners& corners, double* values)
 {
     const OtherValues own = evaluate_other(kind, corners);

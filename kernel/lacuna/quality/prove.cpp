@@ -15,8 +15,8 @@
 #include <utility>
 
 // Swept cells need no search for common sides: each side of the mesh is a source quad on a level, or a side
-// of a source quad times a layer. So the mesh is conforming and its skin closed if and only if this holds for
-// the source quads.
+// of a source quad times a layer. So the mesh is conforming and its skin closed if and only if the source
+// quads are conforming and the rim lists all their boundary sides.
 
 namespace lacuna::quality {
 namespace {
@@ -54,8 +54,9 @@ Found check_sizes(const mesh::HexMesh& mesh, std::size_t nodes)
                            entity("source quad", q));
         for (const Index node : mesh.quads[q]) {
             if (node < 0 || node >= mesh.nodes_per_layer)
-                return Finding(Fault::unknown_node, "{} has node number {} of {}", entity("source quad", q),
-                               found(static_cast<long long>(node) + 1), needed(mesh.nodes_per_layer));
+                return Finding(Fault::unknown_node, "{} refers to node {}, but the nodes are 1 to {}",
+                               entity("source quad", q), found(static_cast<long long>(node) + 1),
+                               needed(mesh.nodes_per_layer));
         }
     }
     return std::nullopt;
@@ -111,8 +112,8 @@ std::vector<Index> rim_followers(const mesh::HexMesh& mesh, const std::vector<In
     return follows;
 }
 
-/// Check that every node is used, and that the quads around it form one fan;
-/// otherwise the mesh is pinched there.
+/// Check that every node is used, and that the quads around it form one fan; otherwise the mesh is pinched
+/// there.
 Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
 {
     const std::size_t nodes = index(mesh.nodes_per_layer);
@@ -128,8 +129,8 @@ Found check_fans(const mesh::HexMesh& mesh, const std::vector<Index>& opposite)
         if (valence[node] == 0)
             return Finding(Fault::unused_node, "{} (at {}) belongs to no quad; remove it",
                            entity("source node", node), place(mesh.nodes[node]));
-        // Go around the node: the side of a quad that ends at the node is the side of
-        // the next quad that starts there.
+        // Go around the node: the side of a quad that ends at the node is the side of the next quad that
+        // starts there.
         Index turned = 1;
         for (Index side = first[node];; ++turned) {
             Index arrives = side % 4 == 0 ? side + 3 : side - 1;

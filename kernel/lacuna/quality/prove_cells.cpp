@@ -12,7 +12,7 @@ namespace lacuna::quality {
 namespace {
 
 constexpr std::size_t kCheckEvery =
-    1 << 16; ///< cells or groups between two looks at the cancel flag: milliseconds
+    1 << 16; ///< cells or groups between two checks for cancellation: some milliseconds
 
 /// The sides of a kind of cell as corners of `Hex`, oriented outward; the fourth is -1 for a triangle.
 std::vector<Quad> sides_of(CellKind kind)
@@ -71,8 +71,8 @@ private:
             for (std::size_t k = 0; k < corners.size(); ++k) {
                 const Index node = cells_[c][corners[k]];
                 if (node < 0 || index(node) >= nodes_.size())
-                    return Finding(Fault::unknown_node, "{} has node number {} of {}", cell_name(c),
-                                   found(std::int64_t(node) + 1), needed(nodes_.size()));
+                    return Finding(Fault::unknown_node, "{} refers to node {}, but the nodes are 1 to {}",
+                                   cell_name(c), found(std::int64_t(node) + 1), needed(nodes_.size()));
                 for (std::size_t other = 0; other < k; ++other)
                     if (cells_[c][corners[other]] == node)
                         return Finding(Fault::collapsed_side, "{} has {} at two corners", cell_name(c),
@@ -104,13 +104,14 @@ private:
         return a == b;
     }
 
-    /// Look at the cancel flag now and then.
+    /// Check for cancellation in every kCheckEvery-th call.
     void count_step()
     {
         if (++steps_ % kCheckEvery == 0) check_cancelled(context_);
     }
 
-    /// Find the skin: the sides that one cell has; the others must be those of two cells.
+    /// Find the skin: the sides of one cell only. Every other side must belong to two cells, in opposite
+    /// directions.
     Found pair_sides()
     {
         Found fault;
@@ -142,8 +143,8 @@ private:
         return fault;
     }
 
-    /// Check that no quad of the skin has a triangle of the skin on three of its corners: there a quad of one
-    /// cell lies against triangles of others.
+    /// Check that no triangle of the skin has its corners on a quad of the skin: there a quad of one cell
+    /// lies against triangles of others.
     Found check_joints()
     {
         Found fault;

@@ -122,7 +122,7 @@ bool can_be_improved(Fault fault);
 /// A fault found in a mesh.
 struct Finding {
     Fault fault;
-    Message message; ///< its nodes or cells, with layer and position; of the fault's code
+    Message message; ///< names the nodes or cells, with layer and position; has the fault's code
 
     /// @param text  format string, as for `Message`
     template <class... Arguments>

@@ -12,9 +12,9 @@ namespace lacuna::quads {
 
 /// A block of quads around the centre of a region, and the region without it.
 ///
-/// Four axes at 45° that meet inside a region halve no quads, but using four of their eight half-lines as
-/// cuts would leave 45° corners at the centre. The block has a corner on every second axis and the middle of
-/// a side on those between; the region around it is cut along all axes.
+/// Four mirror axes at 45° meet at the centre. Cutting along all of them would leave corners of 45° there,
+/// too sharp for quads, so a block of quads takes the centre's place. Its corners lie on two of the axes, the
+/// middles of its sides on the other two. The region around it is cut along all axes.
 struct CentralBlock {
     PlanarRegion around;     ///< the region with the block as its last hole, whose nodes come last
     std::vector<Vec2> inner; ///< nodes inside the block, numbered after those of `around`
@@ -30,7 +30,8 @@ struct CentralBlock {
 std::optional<CentralBlock> central_block(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
                                           const SizeField& size, int choice);
 
-/// The quads of the whole region from those around the block. The block's nodes come first in both meshes.
+/// Add the block to a mesh of the region around it.
+/// @param around  mesh of `block.around`, whose nodes come first in it.
 PlanarQuads with_block(const CentralBlock& block, PlanarQuads around);
 
 } // namespace lacuna::quads

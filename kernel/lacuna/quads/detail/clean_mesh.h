@@ -15,7 +15,7 @@ namespace lacuna::quads::cleaning {
 /// How far a quad is from ideal.
 struct QuadLoss {
     double jacobian = 1; ///< scaled Jacobian
-    double loss = 0;     ///< 1 - jacobian, plus a penalty for a wrong area if a size is asked
+    double loss = 0;     ///< 1 - jacobian, plus a penalty for a wrong area if a target size is given
 };
 
 QuadLoss loss_of(std::span<const Vec2> points, const Quad& quad, const CleanOptions& options);
@@ -41,7 +41,7 @@ public:
         return net_.is_used(p) && net_.valence(p) != ideal_valence(p);
     }
     [[nodiscard]] QuadLoss loss(Index q) const { return loss_of(points_, net_.quad(q), options_); }
-    /// An identifier of a quad that no later quad gets.
+    /// Identifier of a quad. A later quad that reuses the quad's number gets another one.
     [[nodiscard]] std::uint64_t name(Index q) const
     {
         return (static_cast<std::uint64_t>(q) << 32) + version_[index(q)] + 1;

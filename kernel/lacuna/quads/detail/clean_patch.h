@@ -16,7 +16,7 @@ struct QuadPatch {
     std::vector<Index> touched;       ///< points, in the order in which they were added
     std::vector<Index> loop;          ///< points of the outline, the patch on the left
     std::vector<std::size_t> corners; ///< positions in the loop
-    /// Irregular points inside, and on the mesh's boundary, that a filling may change.
+    /// Number of irregular points that a filling may change: inside the patch and on the mesh's boundary.
     int irregular = 0;
 };
 
@@ -36,11 +36,13 @@ public:
     [[nodiscard]] const std::vector<Index>& others() const { return others_; }
     /// All points near the seed that the search visited.
     [[nodiscard]] const std::vector<Index>& seen_points() const { return seen_points_; }
-    /// Add the stars of the points from `other` to the seed. @return false if `other` is inside already
+    /// Add the stars of all points on the way from `other` back to the seed. @return false if `other` is
+    /// inside already
     bool grow_to(Index other);
     /// Add quads until no point of the outline is concave and none occurs twice.
-    /// @return hopeless if the patch has a hole, or contains a point of the mesh's boundary that should have
-    ///         three quads or more; too large if it needs more than `largest` quads.
+    /// @return hopeless if the patch has a hole, touches itself at a point of the mesh's boundary, or
+    ///         contains such a point that should have three quads or more; too large if it needs more than
+    ///         `largest` quads.
     PatchState close(std::size_t largest);
     /// Quads around the patch, in `layers` rings.
     const std::vector<Index>& rings(int layers);

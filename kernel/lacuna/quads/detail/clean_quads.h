@@ -15,9 +15,9 @@ struct CleanOptions {
     double least = 0.6;
     int largest_patch = 400; ///< limit of quads refilled at once, >= 4
     int passes = 4;          ///< over all irregular points, >= 1
-    /// Search again with larger limits; false: a budget of 15,000 fillings' quads, not 50,000.
+    /// Search a third time, with larger limits, and use a base budget of 50,000 quads; otherwise 15,000.
     bool thorough = true;
-    /// Budget of quads in tried fillings: this many times the mesh's quads, plus the constant of `thorough`.
+    /// Budget of quads in all tried fillings: this many times the mesh's quads, plus the base budget.
     double effort = 3;
 };
 
@@ -27,9 +27,9 @@ struct CleanOptions {
 /// Doublets are removed first. Then the function grows patches around irregular points until no corner is
 /// concave, and fills each with the template of two to six sides that has the fewest irregular points (Bunin
 /// 2006; Verma and Suresh 2017). One template replaces many local changes (collapsed quads, swapped and
-/// opened edges, collapsed chords) and pairs points of three and of five quads over any distance. A change is
-/// kept if, after smoothing, its corners are positive, no quad is worse than both `options.least` and the
-/// previous worst, and the loss of quality, summed over the quads, is within a limit for each irregular point
+/// opened edges, collapsed chords) and pairs points of three and of five quads over any distance. After
+/// smoothing, a change is kept if its corners are positive, no quad is worse than both `options.least` and
+/// the previous worst, and the quality lost, summed over the quads, is within a limit per irregular point
 /// removed.
 /// @param fixed  number of boundary points. They come first and are neither moved nor renumbered; other
 ///               points may be.

@@ -48,17 +48,17 @@ private:
     CleanMesh& mesh_;
     const CleanOptions& options_;
     SmoothPlaneOptions smoothing_;
-    // For the patch.
+    // For the current patch:
     const QuadPatch* patch_ = nullptr;
     std::span<const Index> around_;
     double loss_ = 0, loss_around_ = 0;
     double least_ = 1; ///< least scaled Jacobian of the patch and its surroundings
     Index worst_ = -1; ///< the worst quad of the surroundings
-    // For the filling.
+    // For the current filling:
     std::vector<Vec2> points_, inner_;
     std::vector<Quad> quads_;
     Marks in_reach_;                      ///< quads of the patch and its surroundings
-    Numbers number_;                      ///< in `points_`
+    Numbers number_;                      ///< number of each point in `points_`
     std::vector<Index> staying_, moving_; ///< points of the patch's loop and its surroundings
 };
 

@@ -19,12 +19,12 @@ struct WholeRun {
     Index first;              ///< first of its points in the coarse region, which are numbered consecutively
     std::size_t whole;        ///< number of sides kept whole, > 0
 
-    /// Number of these points: each pair of the other sides becomes one side.
+    /// Number of the run's points in the coarse region: each pair of the other sides becomes one side.
     [[nodiscard]] std::size_t points() const { return (nodes.size() - 1 + whole) / 2; }
 };
 
-/// Places at which the runs of a loop begin, ascending, followed by the end of the last run, which is the
-/// first place counted on around the loop. Each run reaches from one node that stays to the next; a loop
+/// Places at which the runs of a loop begin, ascending; then the end of the last run, which is the first
+/// place plus the number of the loop's nodes. Each run reaches from one node that stays to the next; a loop
 /// without such nodes is one run.
 std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop);
 
@@ -49,11 +49,11 @@ enum class WholeSides {
 std::optional<CoarseRegion> coarse_region(const PlanarRegion& region,
                                           WholeSides sides = WholeSides::of_odd_runs);
 
-/// Select the whole sides of every run that has any, so that a row of quads leads from each of them to one of
-/// another run and the rows are shortest in sum. Without such runs there is nothing to select.
+/// Select the whole sides of the runs that have any: a row of quads leads from each of them to a whole side
+/// of another run, and the sum of the rows' lengths is least. Without such runs there is nothing to select.
 /// @param coarse  quads and triangles of the coarse region, its points first.
-/// @return for each side of these cells (`mesh::opposite_sides()`), whether it stays whole, which holds for
-///         the sides that the rows cross. Empty if there are no such rows.
+/// @return for each side of these cells (`mesh::opposite_sides()`), 1 if it stays whole because such a row
+///         crosses it, else 0. Empty if there are no such rows.
 std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const PlanarQuads& coarse);
 
 /// Cut every cell of a mesh of the coarse region through the nodes that were left out: a quad into four

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Loops whose segments get numbers of sides with which the loops close in a grid. Only sources of this
+/// Numbers of sides for the segments of a loop with which the loop closes in a grid. Only sources of this
 /// folder include it.
 
 #include <lacuna/quads/detail/pattern_loop.h>
@@ -33,7 +33,7 @@ struct CountTask {
 double mean_size(const CountTask& task);
 
 /// Number of quads that the size asks for: from the region's size if it has one, otherwise from the wanted
-/// sides.
+/// numbers of sides.
 double quads_asked(const CountTask& task);
 
 /// Range for the number of sides of a segment, relative to the wanted number.
@@ -64,7 +64,7 @@ struct Counts {
 /// The sides of a segment with the same heading.
 struct CountedRun {
     std::size_t segment = 0;
-    int quarter = 0; ///< 0…3
+    int quarter = 0; ///< heading in quarter turns, 0…3
     double wanted = 0;
     int count = 0;
 };

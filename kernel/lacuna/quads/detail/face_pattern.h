@@ -31,12 +31,12 @@ namespace lacuna::quads {
 /// So a disc gets a square within rows. A ring whose loops have equal numbers of sides gets rows only. Slots,
 /// rounded rectangles, plates with holes and flanges get one grid with four irregular nodes for each round
 /// loop.
-/// Ends of 135° are tried as soft turns and, if these give too many irregular nodes for the number of quads,
-/// as hard ones. Headings with fewer soft turns that fit almost as well, as at the blunt end of a slit, are
-/// tried last.
-/// @return valid meshes, the most promising first: with lines around a hole, then straight ones, by number of
-///         rows. The search ends after a mesh that is as good as such meshes get. Empty if the numbers of
-///         sides fit no grid or quads would fold.
+/// Ends of 135° are tried as soft turns first. Unless a mesh of nearly square quads is found, they are then
+/// tried as hard turns, and after that headings with fewer soft turns that fit almost as well, as at the
+/// blunt end of a slit.
+/// @return valid meshes, the most promising first: those with lines around a hole, then those with straight
+///         lines, by number of rows. The search ends after a mesh that is as good as such meshes get. Empty
+///         if the numbers of sides fit no grid or quads would fold.
 /// @pre   loops as `pave()` requires them.
 /// @note  Deterministic. O(quads), plus O(outer nodes × hole nodes), for each way.
 std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunContext& context = {});

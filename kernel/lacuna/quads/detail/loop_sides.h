@@ -7,10 +7,11 @@
 
 namespace lacuna::quads::paving {
 
-/// The sides of a loop in boxes around runs of them, which tells in a few steps whether a line crosses them.
+/// The sides of a loop, grouped in bounding boxes of consecutive sides for quick tests whether a line crosses
+/// them.
 class LoopSides {
 public:
-    /// @pre mesh and loop stay; points may be added to the mesh.
+    /// @pre the mesh and the loop outlive this object; points may be added to the mesh.
     LoopSides(const PartialMesh& partial, const Cycle& loop);
 
     /// Whether the open segment between two nodes meets no side.

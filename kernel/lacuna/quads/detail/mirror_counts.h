@@ -15,10 +15,10 @@ namespace lacuna::quads {
 /// @return empty if the region cannot be cut along any axis.
 std::optional<Counts> mirror_counts(const CountTask& task);
 
-/// Give the axes of a part numbers of sides with which one grid fills it, as `pattern_counts()` does. If
-/// there are none, use those of the size, with an even number around the part.
+/// Give the axes of a part numbers of sides with which one grid fills the part, as `pattern_counts()` does.
+/// If there are no such numbers, use those that the size asks for, with an even total around the part.
 /// @return cost of the grid for comparison with other parts; infinite if there is none.
-/// @param few  whether numbers may deviate as far as a ring's if there are no others.
+/// @param few  whether, if nothing else fits, numbers may deviate as far as those of a ring.
 /// @throw Cancelled
 double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunContext& context);
 

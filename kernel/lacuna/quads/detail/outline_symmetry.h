@@ -12,11 +12,11 @@
 
 namespace lacuna::quads {
 
-/// Angles of symmetries that differ by less are equal: far above the accuracy of nodes, far below the angle
-/// between two symmetries [radian].
+/// Symmetries whose angles differ by less are the same [radian]. The bound is far above the accuracy of nodes
+/// and far below the angle between two symmetries.
 inline constexpr double kSameAngle = 1e-5;
 
-/// A rotation about a centre. If `mirrors`, a reflection in the first axis comes before it.
+/// A rotation about a centre. If `mirrors`, a reflection that reverses y is applied before it.
 struct Isometry {
     Vec2 centre;
     double cosine = 1, sine = 0;
@@ -56,12 +56,14 @@ std::vector<Symmetry> outline_symmetries(const PlanarRegion& region);
 struct MirrorPart {
     PlanarRegion region;
     std::vector<Index> whole;   ///< node of the whole region at each node; -1: a node only on an axis
-    std::vector<int> axis;      ///< of the side from each node to the next: its piece of an axis; -1: none
+    std::vector<int> axis;      ///< piece of an axis on which the side from each node to the next lies; -1:
+                                ///< none
     std::vector<char> ray;      ///< position of each node: 0 on no axis, 1 or 2 on one, 3 at the centre
     bool has_centre = false;    ///< whether the centre lies in the region
     bool is_some = false;       ///< whether the region has further symmetries besides those of the images
     std::vector<double> wanted; ///< number of sides that the size asks for on each piece of an axis
-    /// The images, in order about the centre. The first is the part itself; every other one is mirrored.
+    /// The images, in order about the centre. The first is the part itself; the second, fourth … are
+    /// mirrored.
     std::vector<Symmetry> images;
 
     /// Add a node to the last loop.
@@ -75,7 +77,8 @@ struct MirrorPart {
     }
 };
 
-/// Cut a region along mirror axes that pass through boundary nodes, cross no side and halve no corner badly.
+/// Cut a region along mirror axes that pass through boundary nodes, cross no side, and divide no corner into
+/// halves far from a multiple of 90°.
 ///
 /// If the centre is outside the region or in a hole, up to eight axes are used. Otherwise two perpendicular
 /// ones are used, or one if no two are perpendicular: more would give the centre a valence of six or more.

@@ -16,14 +16,14 @@ namespace lacuna::quads::paving {
 /// Weights of the terms of a cut's cost. No weights are best for all outlines, so small regions are cut with
 /// several.
 struct CutWeights {
-    /// Deviation of the angles at its ends from multiples of a right angle.
+    /// Deviation of the angles at the cut's ends from multiples of a right angle.
     double corners = 1;
-    double added = 1;         ///< quads that it adds at its ends
-    double length = 1;        ///< its length relative to the outline that it cuts off
+    double added = 1;         ///< quads that the cut adds at its ends
+    double length = 1;        ///< length of the cut relative to the outline that it cuts off
     double mismatch = 1;      ///< unequal numbers of opposite sides in the parts
     double bent = 0.5;        ///< bonus for ending where the outline turns inward
     double least_patch = 0.6; ///< quality from which a small part is filled without a cut [-]
-    double most_patch = 0.9;  ///< the same for a large part [-]
+    double most_patch = 0.9;  ///< quality from which a large part is filled without a cut [-]
 };
 
 /// The mesh under construction. The first `fixed` points are the region's own.

@@ -38,7 +38,7 @@ bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMos
 /// A straight line of edges across a patch; the parts on either side need no further cut.
 struct TemplateCut {
     std::size_t from = 0, to = 0; ///< positions in the loop
-    int edges = 0;                ///< along it; 0: the patch is filled without a cut
+    int edges = 0;                ///< number of edges along it; 0: the patch is filled without a cut
     double fault = 0;             ///< deviation from straight and square, 0 is best [-]
 };
 
@@ -48,7 +48,7 @@ struct TemplateCut {
 ///
 /// @param loop     in order, the patch on the left.
 /// @param corners  positions in the loop, ascending.
-/// @param most     maximum number of cuts; half as many between sides that face each other.
+/// @param most     maximum number of cuts; half as many if the cuts join opposite sides.
 /// @note  The numbers of edges determine which cuts there are. The positions of the points rank them, and
 ///        exclude those that slant or have far too many or too few edges. O(product of the numbers of edges
 ///        of two sides).

@@ -60,9 +60,10 @@ struct PatternLoop {
 
 /// How the grid turns at ends of 135°, half way to a side, and at angles between a corner and a side.
 enum class TurnStyle {
-    soft,      ///< where the boundary fits best; behind a row, at a node of three quads, if it turns less
+    soft,      ///< turns where the boundary fits best; behind a row if the boundary itself turns less
     hard_ends, ///< the same, but one quad takes the whole angle of an end of 135°
-    few_soft,  ///< on the boundary if that fits almost as well: soft turns cost irregular nodes
+    few_soft,  ///< a turn stays on the boundary if that fits almost as well, because soft turns cost
+               ///< irregular nodes
 };
 
 /// Whether a region's boundary has ends of about 135°.
@@ -70,8 +71,9 @@ bool has_half_ends(const PlanarRegion& region);
 
 /// Give every side of a loop a heading.
 ///
-/// The headings are those of least cost, by dynamic programming: each side costs the square of its deviation
-/// from its heading, each node that of its angle from its turn. A row is placed at every soft turn.
+/// The headings are those of least cost, by dynamic programming. Each side costs the square of its deviation
+/// from its heading; each node, the square of the deviation of its angle from its turn. A row is placed at
+/// every soft turn.
 /// @return empty if corners are too sharp for any headings.
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
                                      const LoopFrame& frame, TurnStyle style = TurnStyle::soft);
@@ -92,8 +94,8 @@ std::vector<int> rows_to_try(int fitting);
 /// @pre  `loop` is unchanged since `head_loop()`.
 void set_soft_rows(PatternLoop& loop, int rows);
 
-/// Whether a grid can follow a loop all round: it has no soft turns, and does not continue straight past an
-/// end of the boundary, a corner that suits one quad and would be shared by two.
+/// Whether a grid can follow a loop all round: the loop has no soft turns, and the grid turns at every corner
+/// that suits only one quad.
 /// @pre  `loop` is unchanged since `head_loop()`, in a polar frame.
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop);
 

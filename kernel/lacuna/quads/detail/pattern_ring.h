@@ -15,17 +15,19 @@ namespace lacuna::quads {
 struct RingWidths {
     double least = 0, most = 0; ///< [model length]
     std::size_t narrowest = 0;  ///< number of the outer loop's node there
-    std::size_t half = 0;       ///< mean number of nodes from there to a width half way to the widest
+    std::size_t half = 0;       ///< mean number of nodes from there to where the width is half way to the
+                                ///< widest
 
-    /// How many rows of the given height the rest of the ring should have more than its narrow part, so that
-    /// all rows are about equally high; 0 if `measure_plane()` accepts the heights of a constant number of
-    /// rows.
+    /// Number of rows of the given height that the rest of the ring should have in addition to those of its
+    /// narrow part, so that all rows are about equally high; 0 if `measure_plane()` accepts the heights of a
+    /// constant number of rows.
     [[nodiscard]] int steps(double height) const;
-    /// Mean number of rows of the given height, minus one: the rows in which sides may be added or removed.
+    /// Number of rows of the given height in which sides may be added or removed: the mean number of rows,
+    /// minus one.
     [[nodiscard]] int changing(double height) const;
 };
 
-/// @pre  the loops have a node each. O(outer nodes × inner nodes).
+/// @pre  each loop has a node. O(outer nodes × inner nodes).
 RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& outer,
                        const std::vector<Index>& inner);
 
@@ -41,7 +43,7 @@ bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows);
 ///
 /// The first row is as long as the loop, so no irregular node lies on the boundary. In the next rows each of
 /// `corners` nodes, evenly spaced, is an end or a corner of the grid, which removes two sides from the row or
-/// adds two. Each of them leaves a node of three quads and one of five, as many rows apart as rows changed.
+/// adds two. Each of them leaves a node of three quads and one of five; between the two lie the changed rows.
 /// The sides of the rows are made even.
 /// @param by  number of sides to add (> 0) or remove; even.
 /// @return false if the corners would meet.

@@ -14,7 +14,7 @@ enum class RowStyle {
     triangles, ///< none; `quads_of_triangles()` fills the region
 };
 
-/// A mesh made in one way.
+/// A mesh of one attempt at a region.
 struct Attempt {
     PlanarQuads mesh;
     PaveReport report;

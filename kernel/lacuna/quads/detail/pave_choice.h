@@ -15,12 +15,12 @@ namespace lacuna::quads::paving {
 
 /// Quality score for choosing between two attempts; higher is better, 3.325 at most.
 ///
-/// The sum of the mean and the least scaled Jacobian and the shares of right sizes and right row heights,
-/// minus the share of irregular nodes, including those on the boundary. Up to kGood the least scaled Jacobian
-/// counts double, because a sweep repeats the worst quad and makes it worse; from there to kBest it counts
-/// half; above, smoothing reaches it anyway. The outline, not the number of quads, determines how many
-/// irregular nodes there must be, so below kFewNodes their share is taken of kFewNodes. A larger weight
-/// favours that term at the cost of the others.
+/// The score is the sum of the mean scaled Jacobian, twice the least one up to kGood, half the least one from
+/// there to kBest, and half the shares of right sizes and of right row heights, minus twice the share of
+/// irregular nodes, including those on the boundary. The least one counts most because a sweep repeats the
+/// worst quad and makes it worse; above kBest smoothing reaches it anyway. The outline, not the number of
+/// quads, determines how many irregular nodes there must be, so their share is taken of at least kFewNodes
+/// nodes. A larger weight favours its term at the cost of the others.
 double score_of(const PlaneQuality& quality);
 
 /// A place as text for a message: "(0.5, 1.25)".
@@ -36,14 +36,14 @@ public:
 
     /// Run all steps below until a further one cannot improve the result.
     void run();
-    /// Try the grid of a region of right angles. Unless that is good, pave a small number of quads with
-    /// weights of their own without rows, and with rows. Unless that is good, try every promising style of
-    /// rows with the default weights.
+    /// Try grids, then the quads of a coarser region. Unless the result is good, pave few quads with weights
+    /// of their own without rows, and with rows. Unless that is good, try every promising style of rows with
+    /// the default weights.
     void try_default_weights();
     /// The score of a style with other cut weights; the attempt is not kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
-    /// Try the rows of `cut_weight_rows()` while the region is small and the score can still improve; for few
-    /// quads only if they are poor.
+    /// Try the weights of `cut_weight_rows()` while the region is small and the score can still improve; for
+    /// few quads only if the best mesh is poor.
     void try_all_weights();
     /// Try triangles if nothing else fills the region well.
     void try_triangles();
@@ -88,7 +88,7 @@ private:
         double score;
         PlaneQuality quality; ///< not measured if quads count as folded
     };
-    /// The score of an attempt; one with a fault is marked as such.
+    /// The score of an attempt. If its mesh has a fault, `made.worst` is set to -1.
     Judged judge_score(Attempt& made) const;
     [[nodiscard]] bool is_small() const;
     [[nodiscard]] bool is_good_enough() const;
@@ -110,7 +110,7 @@ private:
     bool is_near_least_ = false; ///< whether the best attempt has nearly the least number of irregular nodes
 };
 
-/// The rows of weights with which small regions are also cut, in order.
+/// The weights with which small regions are also cut, one set a row, in the order of trial.
 std::span<const CutWeights> cut_weight_rows();
 
 /// Sine below which a quad counts as folded: a sweep cannot use a flatter quad, unless the given corners are

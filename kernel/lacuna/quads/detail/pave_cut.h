@@ -10,7 +10,7 @@ namespace lacuna::quads::paving {
 
 /// A straight line across a part, between two nodes of its outline, or between two loops.
 struct Cut {
-    std::size_t from = 0, to = 0; ///< positions in the cycle; for a bridge, in the first and the second one
+    std::size_t from = 0, to = 0; ///< positions in the cycle, or in the two loops that the line joins
     std::size_t edges = 1;        ///< mesh edges along the line
 };
 
@@ -39,7 +39,7 @@ Cycle nodes_along(PartialMesh& partial, Index from, Index to, std::size_t edges)
 /// The two loops on either side of a cut; `line` runs from position `cut.from` to position `cut.to`.
 std::pair<Cycle, Cycle> divide(const Cycle& cycle, const Cut& cut, const Cycle& line);
 
-/// Join two loops to one by a line that is walked there and back.
+/// Join two loops to one, which passes the line twice, once in either direction.
 Cycle join(const Cycle& a, const Cycle& b, const Cut& cut, const Cycle& line);
 
 } // namespace lacuna::quads::paving

@@ -13,7 +13,8 @@ enum class RowKind {
     exact, ///< as high as asked everywhere, otherwise the row is dropped
 };
 
-/// Whether a loop needs a row: its nodes other than corners turn by more than half a right angle in sum.
+/// Whether a loop needs a row: the deviations of its angles from multiples of a right angle sum to more than
+/// 45°.
 bool needs_row(const PartialMesh& partial, const Cycle& cycle);
 
 /// Place a row of quads inward from each wanted loop, and replace the loop by the row's inner side.

@@ -14,7 +14,7 @@ namespace lacuna::quads::paving {
 struct BoundarySizes {
     SizeField usual;
     /// The same, but sides may deviate slightly more from the size asked before the limits apply. The sides
-    /// of a ring may be 1 / 0.6 times as long, or as short, while its rows keep the size asked. Rings are
+    /// of a ring may be 0.6 to 1 / 0.6 times as long as asked while its rows keep the size asked. Rings are
     /// laid out with this size, and all meshes are judged by it.
     SizeField ring;
 };

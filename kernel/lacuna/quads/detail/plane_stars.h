@@ -97,8 +97,8 @@ inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Sta
 }
 
 /// Least sine, at most 1, of the corners that change when a point moves to `x`, if it exceeds `floor`;
-/// otherwise some number up to `floor`. The search stops at the first corner that does not exceed the floor,
-/// which in most trials is the same as in the trial before.
+/// otherwise some number up to `floor`. The search stops at the first corner that does not exceed the floor.
+/// In most trials this is the same corner as in the trial before.
 /// @param first  position in the star to begin with; set to the one that did not exceed the floor
 inline double least_sine_above(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
                                double floor, std::size_t& first)
@@ -111,7 +111,7 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
         const Vec2 a = n - x, b = r - x, c = o - n, d = o - r;
         const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), dd = d.squaredNorm();
         const double ab = cross(a, b), ac = cross(a, c), db = cross(d, b);
-        // Without a square root or a division: clearly below.
+        // A test without square roots and divisions, for corners clearly below the floor.
         const double squared = (1 - kRoundoff) * floor * floor;
         const bool below = floor >= 0 && (std::min({ab, ac, db}) <= 0 || ab * ab < squared * aa * bb ||
                                           ac * ac < squared * aa * cc || db * db < squared * dd * bb);

@@ -66,7 +66,7 @@ public:
 private:
     void turn_to_boundary(Index point);
 
-    std::vector<Quad> quads_; ///< first corner -1: none
+    std::vector<Quad> quads_; ///< a removed quad has -1 as its first corner
     std::vector<Index> opposite_;
     std::vector<Index>
         out_; ///< a side that leaves each point; on the boundary the first counter-clockwise; -1: no quad

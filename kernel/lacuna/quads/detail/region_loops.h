@@ -33,7 +33,7 @@ Vec2 point_along(std::span<const Vec2> points, const Cycle& loop, std::size_t fr
 void add_divided(std::span<const Vec2> points, const Cycle& loop, std::size_t from, std::size_t to, int sides,
                  std::vector<Vec2>& divided);
 
-/// The points between a and b that divide the line into sides as long as the size asks, in proportion.
+/// The points between a and b that divide the line into sides whose lengths are proportional to the size.
 std::vector<Vec2> points_between(const Vec2& a, const Vec2& b, std::size_t sides, const SizeField& size);
 
 /// The angle inside the region at a place of a loop [radians].
@@ -73,7 +73,7 @@ struct RegionWithin {
 RegionWithin region_within(std::span<const Vec2> points, const std::vector<Cycle>& loops,
                            const SizeField& size = {});
 
-/// Add quads over such a region to the mesh.
+/// Add quads over a region made by `region_within()` to the mesh.
 /// @param own    the mesh's numbers of the region's points.
 /// @param inner  the further points of the quads, which are added.
 void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std::vector<Index>& own,

@@ -26,8 +26,8 @@ std::size_t segment_count(std::span<const int> segment);
 /// @param segment  segment of the side from each node to the next, 0, 1, …
 std::vector<SegmentSymmetry> segment_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
-/// Those that also map the first node of a loop with a single segment onto such a node. This is required if
-/// nodes are counted from there.
+/// The symmetries of `segment_symmetries()` that also map the first node of every loop with a single segment
+/// onto the first node of such a loop. This is required if nodes are counted from there.
 std::vector<SegmentSymmetry> end_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
 /// Two segments that are mirror images of each other; or, given twice, one that is its own mirror image.

@@ -18,8 +18,8 @@ namespace lacuna::quads::paving {
 /// @param symmetries  of the mesh, from `mesh_symmetries()`; they are preserved to rounding: the search moves
 ///                    one node of each set of images, and the others with it.
 /// @post   The mesh stays as it is unless the mean scaled Jacobian plus half the shares of good rows and of
-///         good sizes increases. The part of a share above 95 % counts a quarter, and no share falls below 95
-///         % that was above.
+/// good sizes increases. The part of a share above 95 % counts only a quarter, and no share falls from above
+/// 95 % to below.
 /// @pre    `find_fault()` finds no fault, and the symmetries map nodes to the positions of their images.
 /// @note   Deterministic. O(quads), plus about 10^4 evaluations of a quad for each row quad that is not good.
 void square_rows(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries = {});

@@ -11,7 +11,7 @@ namespace lacuna::quads {
 /// Numbers of sides for a region of three or five straight or round sides, one segment each, that
 /// `fill_template()` fills with grids around one node, one grid at each corner.
 ///
-/// Such grids have more quads than the size asks for over a triangle and fewer over a pentagon, so the sides
+/// Over a triangle such grids have more quads than the size asks for, over a pentagon fewer. So their edges
 /// are made longer or shorter. If there are still too many or too few quads, the sides may deviate as far as
 /// those of a ring. Candidates are grids whose sides are near several multiples of the wanted ones and whose
 /// numbers respect all reflections. The best minimises the sum of (n − wanted)² / n over the sides plus a

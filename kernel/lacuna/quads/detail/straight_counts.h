@@ -14,10 +14,10 @@ struct StraightOptions {
     bool few = false;            ///< whether there are so few quads that lines may leave no place for holes
 };
 
-/// Numbers of sides for a straight grid, of lower cost among soft and hard turns at ends of 135°. The cost
-/// includes the deviation from the number of quads asked, because rows before soft ends add quads. Soft ends
-/// give much better shaped quads, so they may cost more. For few quads of a whole region, the numbers that a
-/// grid fills best.
+/// Numbers of sides for a straight grid: the cheapest with either soft or hard turns at ends of 135°. The
+/// cost includes the deviation from the number of quads asked, because rows before soft ends add quads. Soft
+/// ends give much better shaped quads than hard ones, so they may cost more. For a whole region with few
+/// quads: the numbers whose grid has the best measured quality.
 std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options = {});
 
 } // namespace lacuna::quads

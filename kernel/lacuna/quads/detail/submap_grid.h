@@ -95,13 +95,14 @@ private:
     /// Assign node i of a loop to the corners of the region's cells at its grid point.
     /// @return false if another node already has one of them.
     bool give_corners(const GridLoop& loop, std::size_t i);
-    /// The node at a grid point for a cell with one of two corners there; -1: none.
+    /// The node at a grid point, for a cell that has one of the two given corners there; -1: none.
     [[nodiscard]] Index node_at(int x, int y, const Sides& corners) const;
 
     GridPosition low_{};
     int period_ = 0;
     int width_ = 0, height_ = 0;
-    std::vector<Corners> corner_; ///< of the cell up and right of each grid point, starting there; -1: none
+    std::vector<Corners> corner_; ///< corners of the cell up and right of each grid point, from this point
+                                  ///< on; -1: none
     std::vector<char> in_;        ///< whether that cell is inside
 };
 

@@ -19,12 +19,13 @@ enum class RowTurn : char {
 
 /// Rows of quads at given heights along some sides of a region.
 struct BoundaryRows {
-    /// Of each table: heights of its rows above the side, ascending [length].
+    /// Tables of row heights: for each table, the heights of its rows above the side, ascending [length].
     std::vector<std::vector<double>> heights;
-    /// Table of the side from each boundary node to the next in its loop; -1: none.
+    /// For each boundary node, the table of the side from it to the next node of its loop; -1: no rows.
     std::vector<int> table;
     std::vector<RowTurn> turn; ///< for each boundary node
-    /// Scale at a place: lengths in the plane divided by the lengths in which heights are given; empty: 1.
+    /// Scale at a place: a length in the plane divided by the same length in the unit of `heights`. Empty: 1
+    /// everywhere.
     std::function<double(const Vec2&)> scale{};
 };
 
@@ -39,7 +40,7 @@ struct RowsFinding {
     Why why = Why::no_room;
     Index node = -1;  ///< boundary node near which the problem was found
     int table = -1;   ///< table of the rows
-    double asked = 0; ///< height of the row; for `no_room`, of all rows [length of the heights]
+    double asked = 0; ///< height of the row; for `no_room`, of the topmost row [length of the heights]
     double found = 0; ///< room for rows there, or the height of the nearest node
 };
 
@@ -51,7 +52,7 @@ struct RowsFilling {
 
 /// Place rows of quads along sides of a region and fill the rest.
 ///
-/// A node of row j stands at height j of the row's table above both sides at its foot, measured square to
+/// Each node of a row stands at the row's height above both boundary sides at its foot, measured square to
 /// them. At a corner where rows end on existing boundary nodes, nearby row nodes lean as these boundary nodes
 /// do. Where two sides with rows meet in a corner, their rows cross there. At a convex-outward corner the
 /// rows of one side continue along the ends of the other side's rows.

@@ -23,7 +23,7 @@ double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad>
 double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads,
                              const RunContext& context);
 
-/// A side whose length over the size asked is outside these bounds is not of that size. A narrower range
+/// A side has the size asked if its length divided by that size is within these bounds. A narrower range
 /// would reject graded meshes, a wider one would accept sizes off by a factor of two.
 inline constexpr double kShortestOfSize = 0.6, kLongestOfSize = 1.6;
 
@@ -37,10 +37,11 @@ struct PlaneQuality {
     std::size_t boundary_irregular = 0; ///< boundary nodes whose number of quads does not fit their angle
     std::size_t rows = 0;               ///< boundary sides
     std::size_t good_rows = 0;          ///< of them, those with a good row quad, see `measure_plane()`
-    std::size_t possible_rows = 0;      ///< boundary sides with both ends where `may_be_good()` holds
+    std::size_t possible_rows = 0;      ///< boundary sides with `may_be_good()` at both ends
     std::size_t edges = 0;
-    std::size_t edges_of_size = 0; ///< of them, those 0.6 to 1.6 times as long as asked; all without a size
-    double mean_edge_ratio = 1;    ///< edge length over asked size, mean; 1 without a size
+    std::size_t edges_of_size = 0; ///< of them, those 0.6 to 1.6 times as long as asked; all if no size is
+                                   ///< given
+    double mean_edge_ratio = 1;    ///< mean of edge length / size asked; 1 if no size is given
 
     [[nodiscard]] double irregular_share() const { return share(irregular, interior); }
     [[nodiscard]] double row_share() const { return rows == 0 ? 1 : share(good_rows, rows); }

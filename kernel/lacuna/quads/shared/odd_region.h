@@ -21,12 +21,12 @@ std::vector<RegionSide> sides_by_length(const PlanarRegion& region);
 
 /// Fill a region whose boundary may have an odd number of sides. If it has, the mesh has one triangle, the
 /// fewest possible, which is the last of the quads (`mesh::is_triangle()`).
-///
 /// The function divides a side in two, which makes the number even, and `mesher` fills the region. From
 /// either half a row of quads leads inward, as wide at its start as that half. The function closes the row up
 /// to one of its quads, which becomes the triangle; this removes the half side and the added node. Nearby
-/// nodes are then moved to improve their worst cell. Of both halves and the first quads of their rows, the
-/// place with the best worst cell is kept; if that is poor, other sides are tried.
+/// nodes are then moved to improve their worst cell. The function compares both halves and the first quads of
+/// their rows, and keeps the triangle that leaves the best worst cell. If that cell is poor, it tries other
+/// sides.
 /// @pre    those of `mesher`, except for the number of sides.
 /// @throw NotSweepable  by `mesher`; "surface.odd_region": no row leads inward from any of the sides tried.
 /// @note   Deterministic. A region with an even number of sides is passed to `mesher` unchanged.

@@ -40,11 +40,12 @@ inline constexpr double kFewestEven = 8;
 /// straight, and a segment that asks for four sides or more is changed by less than a quarter.
 ///
 /// If reflections of a symmetric region map segments onto segments, the numbers respect these reflections and
-/// leave a node on every mirror axis: they are found for the part between two axes, or on one side of the
-/// only axis, with the axes as free segments. For a straight grid the sum has more terms: (quads − asked)² /
-/// asked, times a quarter, because rows before round turns add quads; ln²(rows / fitting rows) for each such
-/// turn; and a penalty for unequal numbers if the part is symmetric itself. The function evaluates the sum
-/// for closed loops that start from several multiples of the wanted numbers, and for several numbers of rows.
+/// leave a node on every mirror axis. They are found for the part between two axes, or on one side of the
+/// only axis; the axes are free segments of the part. For a straight grid the sum has more terms: (quads −
+/// asked)² / asked, times a quarter, because rows before round turns add quads; ln²(rows / fitting rows) for
+/// each such turn; and a penalty for unequal numbers if the part is symmetric itself. The function evaluates
+/// the sum for closed loops that start from several multiples of the wanted numbers, and for several numbers
+/// of rows.
 ///
 /// Below 200 quads, four things change: the axes are divided by the size asked rather than by a size graded
 /// away from short sides; parts between other axes are tried as well; holes must find a place in the grid of
@@ -59,8 +60,9 @@ inline constexpr double kFewestEven = 8;
 /// A region of three or five sides that no grid fills gets numbers for three or five grids around one node.
 /// The wanted numbers are scaled, because such grids would have too many or too few quads.
 ///
-/// Above `kManyQuads` quads every other node between corners must be removable. Otherwise segments get twice
-/// the numbers of a region half as fine, unless some are given or short.
+/// Above `kManyQuads` quads, every other node between corners must be removable, so that `pave()` can coarsen
+/// the region. Otherwise segments get twice the numbers of a region half as fine, unless some are given or
+/// short.
 ///
 /// The equations of a loop have coefficients of 1 and -1, and a number occurs in two equations only if its
 /// segment turns. So the wanted numbers are rounded and then changed by one, the cheapest first, until all

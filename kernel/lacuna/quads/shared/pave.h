@@ -49,17 +49,17 @@ struct Paved {
 /// quads, and cuts each of them in four. This requires that every loop has an even number of nodes and turns
 /// by at most 20° at each node left out. If half the number of boundary sides is odd, the coarse mesh has a
 /// triangle, which is cut in three. A coarse region of 8,000 quads or more is coarsened again; for this, up
-/// to eight sides may be divided, each of which becomes a triangle.
+/// to eight sides may be divided, each of which leaves a triangle.
 ///
 /// Up to 4000 quads, the paver makes several meshes, with and without rows and with several weightings of the
 /// cuts, and keeps the best by measured quality. Below about 1500 quads it makes three meshes without rows,
-/// with weightings of their own, and one with rows. The two with the fewest initial irregular nodes are
-/// cleaned and smoothed, the others only if the worst quad of those is below 0.75; everything else is tried
-/// only if these are poor. Sizes are measured against the size that the given sides leave room for. The
-/// search ends when a mesh is good and its number of irregular nodes is near the minimum that topology allows
-/// (`least_irregular()`). Boundary nodes are kept, in order, bit for bit. Quads are counter-clockwise and
-/// convex. Flat quads remain only where the boundary's sides are long compared with the gap between them; the
-/// log reports this.
+/// with weightings of their own, and one with rows. It cleans and smooths the two with the fewest initial
+/// irregular nodes, and the other two only if the worst quad of the first two is below 0.75. It tries
+/// everything else only if these four are poor. Sizes are measured against the size that the given sides
+/// leave room for. The search ends when a mesh is good and its number of irregular nodes is near the minimum
+/// that topology allows (`least_irregular()`). Boundary nodes are kept, in order, bit for bit. Quads are
+/// counter-clockwise and convex. Flat quads remain only where the boundary's sides are long compared with the
+/// gap between them; the log reports this.
 ///
 /// @throw InvalidInput "surface.pave_loops"   a loop that is too short, repeats a node, crosses another or
 ///                                            lies outside the first.

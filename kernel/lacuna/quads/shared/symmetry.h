@@ -11,11 +11,12 @@ namespace lacuna::quads {
 
 /// Move the nodes of quads over a symmetric region so that the mesh is as symmetric as its connections are.
 ///
-/// The region's symmetries are the rotations and reflections that map its boundary nodes onto each other. For
-/// those that also map quads onto quads, every inner node is moved to the mean of the positions that they map
-/// its images to. Afterwards each of these symmetries maps the mesh onto itself, to rounding.
-/// @return number of symmetries of the mesh afterwards, including the identity; 1 if the mesh is unchanged,
-///         also because the least scaled Jacobian would fall by more than 0.01.
+/// The region's symmetries are the rotations and reflections that map its boundary nodes onto each other.
+/// Only those that also map quads onto quads are used. Every inner node moves to the mean of its position and
+/// the positions of its images, mapped back to it. Afterwards each of these symmetries maps the mesh onto
+/// itself, to rounding.
+/// @return number of symmetries of the mesh afterwards, including the identity. 1 if the mesh is unchanged:
+///         it has no symmetry, or its least scaled Jacobian would fall by more than 0.01.
 /// @pre   `find_fault()` finds none.
 /// @note  Deterministic. O(boundary nodes · quads) at worst; most candidates that are no symmetry fail at
 ///        once.

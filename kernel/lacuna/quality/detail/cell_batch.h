@@ -12,9 +12,9 @@
 /// Let U(v,w), V(u,w), W(u,v) be the edge vectors of the cell along u, v, w, each bilinear. The Jacobian of
 /// the trilinear map is J = det(U, V, W), quadratic in each of u, v, w. Its 27 Bézier coefficients follow
 /// from 20 determinants (Johnen, Weill and Remacle 2017). At a corner the coefficient is J itself; at the
-/// middle of an edge along u it is (J0 + J1 - det(U, V1 - V0, W1 - W0)) / 2. As J has no u²v², u²w² or v²w²
-/// term, the coefficients at the middle of a side and of the cell are (2 · edges - corners)
-/// / 4 of the square around them.
+/// middle of an edge along u it is (J0 + J1 - det(U, V1 - V0, W1 - W0)) / 2. J has no u²v², u²w² or v²w²
+/// term. So the coefficient at the middle of a side or of the cell is a quarter of (2 · edges - corners) of
+/// the square around it.
 namespace lacuna::quality {
 
 /// Cells processed together: small enough for the first-level cache, and vectorised. Measured with AVX2 and
@@ -86,9 +86,9 @@ bool positive_everywhere(const CoefficientsView& bezier, int max_depth);
 /// Result of a test with one subdivision; open: undecided.
 enum class Sign : std::uint8_t { open, positive, not_positive };
 
-/// Test all cells of a batch at once, with one subdivision along u, v or w (any one gives the same result).
-/// It decides most of the cells that the coefficients leave open. @return
-/// consistent with `positive_everywhere()`.
+/// Test all cells of a batch at once, with one subdivision along u, v or w; the direction does not change the
+/// result. It decides most of the cells that the coefficients leave open.
+/// @return consistent with `positive_everywhere()`.
 std::array<Sign, kLanes> signs_after_cut(const CellValues<kLanes>& values);
 
 } // namespace lacuna::quality

@@ -11,8 +11,8 @@
 #include <span>
 
 /// Access to the cells of both kinds of mesh as columns, so that each level of nodes is loaded once for the
-/// cells below and above it. Internal to this folder. Cell (column, layer) has the
-/// number layer · columns + column.
+/// cells below and above it. Internal to this folder. Cell (column, layer) has the number layer · columns +
+/// column.
 namespace lacuna::quality {
 
 using LevelCorners = std::array<const Vec3*, 4>;
@@ -62,7 +62,8 @@ struct ListedCells {
 /// depend on the threads.
 inline constexpr std::size_t kChunk = 4096;
 
-/// The columns of the partial results: each has a multiple of `lanes`, but for the last.
+/// Division of the columns into chunks, one for each partial result. Each has a multiple of `lanes` columns,
+/// except the last.
 template <class Cells>
 struct Chunks {
     const Cells& cells;
@@ -105,7 +106,7 @@ void fetch_after(const Cells& cells, std::size_t first, std::size_t end, std::si
         for (std::size_t column = begin; column < std::min(begin + N, end); ++column) {
             const LevelCorners corners = cells.corners(column, level);
             for (const std::size_t c : {0, 2})
-                __builtin_prefetch(corners[c]); // shared with neighbours: the others
+                __builtin_prefetch(corners[c]); // the other two corners are loaded for neighbours
         }
     };
     if (layer + 1 < cells.layers()) return fetch(first, layer + 2);
@@ -138,8 +139,8 @@ CellCorners corners_of(const Cells& cells, std::size_t cell)
     return {*low[0], *low[1], *low[2], *low[3], *high[0], *high[1], *high[2], *high[3]};
 }
 
-/// Call `body(lane, kind, corners)` for the cells of a batch that are no hexahedra, whose values as hexahedra
-/// must be replaced.
+/// Call `body(lane, kind, corners)` for the cells of a batch that are not hexahedra. Their values, computed
+/// as for hexahedra, must be replaced.
 template <class Cells, class Body>
 void for_each_other(const Cells& cells, std::size_t first, int filled, const Body& body)
 {

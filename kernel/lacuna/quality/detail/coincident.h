@@ -24,9 +24,10 @@ inline double coincidence_tolerance(const Eigen::AlignedBox3d& bounds)
     return kSamePlace * bounds.diagonal().norm();
 }
 
-/// A grid of cubes with sides of 1024 tolerances. A point within a tolerance of a side is entered in the next
-/// cube too, which is rare: so two points within a tolerance share a cube. The grid is shifted by a fraction
-/// of a cube against the bounds, as meshes often have whole planes of nodes exactly there.
+/// A grid of cubes with sides of 1024 tolerances. A point within a tolerance of a cube's side is entered in
+/// the neighbouring cube too, so two points within a tolerance share a cube. Meshes often have whole planes
+/// of nodes exactly on their bounds. The grid is shifted against the bounds by a fraction of a cube, so that
+/// few points lie near sides of cubes.
 struct CoincidenceGrid {
     Vec3 corner;
     double tolerance;

@@ -9,13 +9,12 @@
 
 namespace lacuna::quality {
 
-/// Measure a wedge, pyramid or tetrahedron of order 2; empty: its middle nodes are where linear interpolation
-/// puts them, so it is a cell of order 1. Internal to this folder.
+/// Measure a wedge, pyramid or tetrahedron of order 2. Internal to this folder.
 ///
-/// The cell is the image of the unit cube, of which a side or the top is collapsed. There its map is
-/// triquadratic, so the Bézier coefficients of the Jacobian follow as in `judge()`. They contain the factors
-/// of the collapse, 1 - v of a triangle and (1 - w)² of an apex, and are divided by them; the rest decides
-/// as in `judge()`. The scaled Jacobian is that of the corners, with the tangents of the edges there.
+/// The cell is the image of the unit cube with a side or the top collapsed. On the cube the map is
+/// triquadratic, so the Bézier coefficients of the Jacobian follow as in `judge()`. The Jacobian contains the
+/// factors of the collapse, 1 - v of a triangle and (1 - w)² of an apex. It is divided by them and then
+/// judged as in `judge()`. The scaled Jacobian is that of the corners, with the tangents of the edges there.
 /// @param nodes  of a hex20 with merged corners: middle nodes of merged edges are repeated, those of
 ///               collapsed edges are the corner. The centre of a pyramid's base may follow.
 std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3> nodes, int max_depth = 4);

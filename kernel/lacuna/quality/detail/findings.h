@@ -13,8 +13,8 @@ namespace lacuna::quality {
 /// The fault that a check found, if any.
 using Found = std::optional<Finding>;
 
-/// Check the arrays of a swept mesh, independent of coordinates: sizes, patches,
-/// conforming quads, closed skin.
+/// Check the arrays of a swept mesh, independent of coordinates: sizes, patches, conforming quads, closed
+/// skin.
 /// @param nodes  number of nodes that the mesh must have
 Found check_arrays(const mesh::HexMesh& mesh, std::size_t nodes);
 

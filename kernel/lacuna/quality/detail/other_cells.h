@@ -22,8 +22,8 @@ namespace lacuna::quality {
 
 enum class CellKind : std::uint8_t { hex, wedge, pyramid, tet };
 
-/// The kind of a cell that is stored as a hexahedron with merged corners. A tetrahedron is also an
-/// `is_wedge()`, so the apex decides first.
+/// The kind of a cell that is stored as a hexahedron with merged corners. `mesh::is_wedge()` also holds for a
+/// tetrahedron, so the apex is tested first.
 constexpr CellKind kind_of(const Hex& hex)
 {
     if (mesh::has_apex(hex)) return mesh::is_tet(hex) ? CellKind::tet : CellKind::pyramid;
@@ -46,13 +46,13 @@ struct OtherValues {
     double scaled = 0;     ///< as `wedge_scaled_jacobian()`, `pyramid_…` and `tet_scaled_jacobian()` say
     double jacobian = 0;   ///< the smallest at the corners, without a pyramid's apex
     double volume = 0;     ///< exact
-    bool positive = false; ///< the Jacobian is positive everywhere, but at a pyramid's apex
+    bool positive = false; ///< the Jacobian is positive everywhere, except at a pyramid's apex
 };
 
-/// @pre the cell is no hexahedron
+/// @pre the cell is not a hexahedron
 OtherValues evaluate_other(CellKind kind, const CellCorners& corners);
 
-/// The metric, if it is defined for cells that are no hexahedra: scaled Jacobian, Jacobian and volume.
+/// The metric, if it is defined for cells other than hexahedra: scaled Jacobian, Jacobian and volume.
 std::optional<double> other_metric(Metric metric, const OtherValues& values);
 
 /// A corner, and its neighbours along three edges, right-handed.
@@ -60,10 +60,11 @@ struct CornerNeighbours {
     std::uint8_t at;
     std::array<std::uint8_t, 3> next;
 };
-/// All corners, but a pyramid's apex, where four edges meet. @pre no hexahedron
+/// All corners except a pyramid's apex, where four edges meet. @pre the cell is not a hexahedron
 std::span<const CornerNeighbours> neighbours_in(CellKind kind);
 
-/// The determinant of three edges divided by their lengths, and scaled so that equal sides have 1; at most 1.
+/// The determinant of three edges divided by the product of their lengths, scaled to be 1 at the corners of a
+/// cell with equal edges; at most 1.
 inline double scaled_determinant(CellKind kind, double determinant, const std::array<Vec3, 3>& edges)
 {
     const double lengths = edges[0].norm() * edges[1].norm() * edges[2].norm();

@@ -24,13 +24,14 @@ struct WedgeValues {
     double scaled = 0;
     double smallest = 0; ///< smallest coefficient: a lower bound of J
     double volume = 0;
-    std::array<std::array<double, 3>, 3> coefficients{}; ///< [i][power of w]
+    std::array<std::array<double, 3>, 3> coefficients{}; ///< [i][coefficient along w]
 };
 
 WedgeValues evaluate_wedge(std::span<const Vec3, 6> corners);
 
 /// The coefficients as those of a cell over the unit cube, whose square is mapped to the triangle by
-/// collapsing one side to the third corner. They are positive everywhere if and only if the wedge's are.
+/// collapsing one side to the third corner. The Jacobian is positive everywhere in the one if and only if it
+/// is in the other.
 Coefficients over_cube(const WedgeValues& values);
 
 } // namespace lacuna::quality

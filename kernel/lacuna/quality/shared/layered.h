@@ -30,9 +30,8 @@ struct MeasuredLayers {
 };
 
 /// As `measure()`, for a mesh whose nodes are computed on demand, some layers at a time. Sums may differ from
-/// those of `measure()` in the last digits. Memory does not depend on the number of layers.
-/// A team shares the layers; each process gets the whole result, which does not
-/// depend on the size of the team.
+/// those of `measure()` in the last digits. Memory does not depend on the number of layers. A team shares the
+/// layers; each process gets the whole result, which does not depend on the size of the team.
 /// @throw Cancelled; TeamFailed
 MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& context = {},
                        const Team* team = nullptr);
@@ -43,8 +42,8 @@ MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& conte
 double mean_volume(const mesh::LayeredMesh& layered, const RunContext& context = {},
                    const Team* team = nullptr);
 
-/// Find a node of such a mesh that is not finite, or two coincident nodes. A team
-/// shares the work as in `measure()`.
+/// Find a node of such a mesh that is not finite, or two coincident nodes. A team shares the work as in
+/// `measure()`.
 ///
 /// Neighbouring slabs are searched together. Other slabs are searched only if their boxes overlap, as at a
 /// sharp bend, and only among the nodes in both boxes; nodes that do not fit into memory at once are computed

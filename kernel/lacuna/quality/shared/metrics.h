@@ -71,8 +71,8 @@ inline const char* metric_name(Metric metric) { return metric_info(metric).name;
 std::span<const MetricInfo, kMetricCount> metric_infos();
 
 /// The metric of one hexahedron, corners in the order of Gmsh and VTK.
-/// @param average_volume  reference of the size metrics: the mean `volume` of the mesh [model length³]. They
-///                        are 0 if it is not positive.
+/// @param average_volume  reference of the size metrics: the mean `volume` of the mesh [model length³]. The
+///                        size metrics are 0 if it is not positive.
 double metric(Metric metric, std::span<const Vec3, 8> corners, double average_volume = 1);
 
 /// Statistics of a metric over a mesh.
@@ -95,7 +95,7 @@ struct MetricSummary {
 std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<const Metric> metrics,
                                            const RunContext& context = {});
 
-/// As above, for a list of cells as of `measure_cells()`.
+/// As above, for a list of cells as for `measure_cells()`.
 std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::span<const Hex> hexes,
                                            std::span<const Metric> metrics, const RunContext& context = {});
 
@@ -114,13 +114,13 @@ std::vector<double> layer_volumes(const mesh::HexMesh& mesh, const RunContext& c
 /// Mean `volume` of `cells` cells, from the sums of all layers.
 double mean_volume(std::span<const double> layers, std::size_t cells);
 
-/// The scaled Jacobian of selected cells of a mesh of order 1, with the bits of
-/// `metric_values()`. Single-threaded.
+/// The scaled Jacobian of selected cells of a mesh of order 1, bit for bit that of `metric_values()`.
+/// Single-threaded.
 /// @pre  `out` has the size of `cells`.
 void scaled_jacobians(const mesh::HexMesh& mesh, std::span<const std::uint32_t> cells, double* out);
 
-/// A table with one line per metric: name, minimum, mean, maximum, acceptable
-/// range, fraction of cells outside.
+/// A table with one line per metric: name, minimum, mean, maximum, acceptable range, fraction of cells
+/// outside.
 std::string to_table(std::span<const MetricSummary> summaries);
 
 } // namespace lacuna::quality

@@ -11,15 +11,15 @@ namespace lacuna::quality {
 
 /// Result of the proof of a list of cells.
 struct CellsProof : Proof {
-    /// The sides that one cell alone has, oriented outward, in an order that depends on the cells alone; a
-    /// triangle is {a, b, c, c}. Empty if a fault was found.
+    /// The sides that belong to one cell only, oriented outward, in an order that depends on the cells alone;
+    /// a triangle is {a, b, c, c}. Empty if a fault was found.
     std::vector<Quad> skin;
 };
 
 /// Prove that cells of any origin are a valid mesh, as `prove()` does for a swept mesh: each side used once
 /// or twice, and then in opposite directions; no quad against triangles; skin closed; no coincident or unused
 /// nodes; every Jacobian certified positive.
-/// @param cells  hexahedra, and others as of `measure_cells()`.
+/// @param cells  hexahedra, and others as for `measure_cells()`.
 /// @throw Cancelled
 /// @note  O(cells) if few sides meet at a node. Independent of the number of threads.
 CellsProof prove_cells(std::span<const Vec3> nodes, std::span<const Hex> cells,

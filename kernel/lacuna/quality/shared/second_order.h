@@ -46,8 +46,9 @@ std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell);
 /// Cells of a mesh whose Jacobian is not proved positive everywhere, ascending. Parallel.
 std::vector<std::size_t> invalid_cells(const mesh::HexMesh& mesh, const RunContext& context = {});
 
-/// Measure a cell of a list; empty: its middle nodes are where linear interpolation puts them, so it is a
-/// cell of order 1.
+/// Measure a cell of a list.
+/// @return empty if its middle nodes are where linear interpolation puts them, so that it is a cell of order
+///         1.
 /// @param cell  as `mesh::merged_nodes()`; a middle node of -1 is missing and interpolated linearly
 std::optional<CurvedCell> judge_listed(std::span<const Vec3> nodes, const mesh::CellNodes& cell);
 
@@ -55,8 +56,8 @@ std::optional<CurvedCell> judge_listed(std::span<const Vec3> nodes, const mesh::
 std::vector<std::size_t> invalid_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
                                        const RunContext& context = {});
 
-/// Measure a list of cells of order 1 and 2; straight cells as cells of
-/// order 1, the others with `judge_listed()`.
+/// Measure a list of cells of order 1 and 2; straight cells as cells of order 1, the others with
+/// `judge_listed()`.
 /// @param columns  as for `measure_cells()` of hexahedra.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
                       const RunContext& context = {}, std::span<const Index> columns = {});
