@@ -48,7 +48,7 @@ public:
         }
     }
 
-    /// The list position of a value. @pre the values ascend, and it is one of them
+    /// The list position of a value. @pre the values ascend and include it
     [[nodiscard]] std::size_t position(std::size_t value) const
     {
         const Range& range = ranges_[range_with(value)];
@@ -157,7 +157,8 @@ struct MeshView {
         int number = 0;                    ///< number among the entities of all dimensions, >= 0
         int region = 0;                    ///< number of the region; 0: none
         std::vector<std::string> groups{}; ///< names
-        std::size_t main = 0;              ///< index in `groups` of the one to use where a cell has only one
+        std::size_t main = 0;              ///< index in `groups` of the one to use in formats with one group
+                                           ///< per cell
         std::vector<int> bounds{};         ///< tags of the entities that bound it, if known
     };
     /// Cells of one shape.
@@ -235,13 +236,13 @@ struct MeshView {
     /// Content of a source file besides the mesh, which is copied verbatim.
     struct KeptText {
         std::string head, cards, tail;  ///< before, with and after the mesh
-        std::string instance;           ///< the only instance, whose name precedes names in `cards`
+        std::string instance;           ///< name of the only instance; names in `cards` start with it
         int highest_set = 0;            ///< highest number of a set in `cards`
         TextByIndex points;             ///< fields of a node's card after its coordinates
         std::vector<TextByIndex> cells; ///< by block: fields of a cell's card after its nodes
     };
 
-    /// Nodes that motions move onto each other, and the tags of both sides.
+    /// Pairs of periodic nodes, and the tags of the nodes on both sides.
     struct Periodic {
         PeriodicNodes nodes;
         std::array<std::vector<std::int64_t>, 2> tags;
@@ -258,7 +259,7 @@ struct MeshView {
     /// Named lists of entity numbers or of point indices.
     std::vector<std::pair<std::string, std::vector<int>>> lists;
     std::vector<Periodic> periodic;
-    /// For each block the directions of its cells, empty for blocks of other cells; null: not requested.
+    /// For each block, the directions of its cells; empty for blocks without solids. Null: not requested.
     std::shared_ptr<const std::vector<std::vector<CellFrame>>> frames;
     std::vector<GroupTag> group_tags; ///< group tags to keep from the source file
     std::vector<Region> regions;      ///< of a deck
