@@ -13,8 +13,8 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Number of points of the size raster along the longer side of a region: fine enough for an error of one
-/// percent if the sizes vary over a tenth of the region.
+/// Number of points of the size raster along the longer side of a region. If the sizes vary over a tenth of
+/// the region, the error is then one percent.
 constexpr int kCrossings = 96;
 
 std::size_t side_count(const quads::PlanarRegion& region)
