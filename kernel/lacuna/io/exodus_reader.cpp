@@ -20,14 +20,15 @@ namespace {
 /// An array of a netCDF file.
 struct NcArray {
     std::vector<std::size_t> lengths; ///< lengths of its dimensions
-    std::string element_type{};       ///< its attribute `elem_type`
-    std::string name{}, units{};      ///< its attributes of these names
+    std::string element_type{};       ///< attribute `elem_type`
+    std::string name{}, units{};      ///< attributes of these names
     const VtkType* type = nullptr;
     std::uint64_t begin = 0;
-    bool records = false; ///< one array per time step
+    bool records = false; ///< the array exists once per time step
 };
 
-/// The header of a netCDF file in a classic format: with offsets of 32 or 64 bits, or all counts of 64.
+/// The header of a netCDF file in a classic format: with 32-bit offsets, with 64-bit offsets, or with all
+/// counts of 64 bits.
 class NcHead {
 public:
     NcHead(Cursor& cursor) : cursor_(cursor)
@@ -61,7 +62,7 @@ public:
         return found == lengths_.end() ? 0 : found->second;
     }
 
-    /// The bytes of an array. @param values  the required number of values.
+    /// The bytes of an array. @param values  the number of values that it must have.
     [[nodiscard]] std::string_view bytes(const NcArray& array, const std::string& name,
                                          std::size_t values) const
     {
@@ -130,7 +131,7 @@ private:
         }
     }
 
-    /// @param array  receives the texts that describe it; may be null.
+    /// @param array  receives the texts of attributes that describe it; may be null.
     void skip_attributes(NcArray* array)
     {
         const std::uint64_t all = list(12);
@@ -166,7 +167,7 @@ private:
             }
             skip_attributes(&array);
             array.type = type_of(cursor_.integer());
-            count(); // number of bytes, which also follows from the dimensions
+            count(); // skip the number of bytes, which follows from the dimensions
             array.begin = wide_offsets_ ? cursor_.size() : static_cast<std::uint32_t>(cursor_.integer());
             arrays_.insert_or_assign(of, std::move(array));
         }
@@ -179,7 +180,8 @@ private:
         return number < 1 || number > 11 ? nullptr : vtk_type(kNames[number]);
     }
 
-    static constexpr std::uint64_t kMostTimes = 3; // each array is read at most twice
+    static constexpr std::uint64_t kMostTimes = 3; // limit on the bytes read, relative to the size of the
+                                                   // file: each array is read at most twice
 
     Cursor& cursor_;
     /// Bytes read so far; stops files in which many arrays share the same bytes.
@@ -263,7 +265,7 @@ private:
         into_.deck().point_tags = std::move(tags);
     }
 
-    /// Names of blocks or sets; "what_id" for those without a name.
+    /// Names of blocks or sets. Those without a name get "what_id".
     std::vector<std::string> names(const std::string& array, const std::string& what,
                                    const std::vector<std::int64_t>& ids) const
     {
@@ -323,8 +325,8 @@ private:
         return all;
     }
 
-    /// @param region  of its elements; none: one is added.
-    /// @return  number of its elements
+    /// @param region  region of the block's elements; none: one is added.
+    /// @return  number of the block's elements
     std::size_t read_block(const std::string& array, const std::string& name, int id, std::size_t first,
                            std::optional<Index>& region)
     {
@@ -356,8 +358,8 @@ private:
         return count;
     }
 
-    /// The shape by the beginning of the type word and the number of nodes; empty for points, which are
-    /// ignored.
+    /// The shape that the beginning of the type word and the number of nodes give; empty for point elements,
+    /// which are ignored.
     std::optional<DeckShape> shape_of(const std::string& type, std::size_t nodes,
                                       const std::string& name) const
     {
@@ -427,13 +429,14 @@ private:
     }
 
     static constexpr std::int64_t kMostTag = std::numeric_limits<int>::max() - 1;
-    static constexpr std::size_t kLongestName = 4096; // limit of a plausible name [bytes]
+    static constexpr std::size_t kLongestName = 4096; // longest name that is accepted [bytes]
 
     Cursor& cursor_;
     DeckBuilder& into_;
     NcHead head_;
     std::vector<DeckTag> numbers_;                 ///< numbers of all elements, block after block
-    std::vector<std::optional<DeckShape>> shapes_; ///< their shapes; empty: the element is ignored
+    std::vector<std::optional<DeckShape>> shapes_; ///< the shapes of these elements; empty: the element is
+                                                   ///< ignored
 };
 
 } // namespace
