@@ -15,7 +15,7 @@ struct Section {
     DeckShape shape = DeckShape::tri3; ///< shape of the section's elements
 };
 
-/// Shapes without middle nodes are read as they are; others are reduced to their corners.
+/// Solids and shells without middle nodes are read as they are; others are reduced to their corners.
 constexpr Section kSections[] = {{"Vertices", 4},
                                  {"Triangles", 4, true, DeckShape::tri3},
                                  {"TrianglesP2", 7, true, DeckShape::tri3},

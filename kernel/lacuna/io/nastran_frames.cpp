@@ -8,7 +8,8 @@
 namespace lacuna::io {
 namespace {
 
-constexpr int kDeepest = 200; // limit of nested frames; each level is a recursive call. Not measured
+constexpr int kDeepest = 200; // limit on the nesting of frames, because each level is a recursive call; not
+                              // measured
 
 /// Components of a point along the axes of a frame of this kind.
 Vec3 along_axes(char kind, const Vec3& p)

@@ -10,7 +10,7 @@
 namespace lacuna::io {
 namespace {
 
-/// For each element, the side of a solid on which it lies if it is two-dimensional; side 0: none.
+/// For each element, if it is two-dimensional: the side of a solid on which it lies. Side 0: none.
 std::vector<DeckSide> sides_below(const Deck& deck)
 {
     const std::vector<DeckTag> tags = element_tags(deck);

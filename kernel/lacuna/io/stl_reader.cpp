@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kHeader = 80; // bytes, of any content
 constexpr std::size_t kFacet = 50;  // bytes: a normal and three points as floats, and two unused bytes
 
-/// The text at the start of a header; empty if it is not text.
+/// The text at the start of a header; empty if the header does not start with text.
 std::string_view name_in(std::string_view header)
 {
     header = trimmed(header.substr(0, header.find('\0')));
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    /// Check the counts: only with these can the header of the next solid be found.
+    /// Check the counts of facets. Only correct counts lead to the header of the next solid.
     void check_counts() const
     {
         const std::string_view all = cursor_.rest();
@@ -82,7 +82,7 @@ private:
     void read_facet()
     {
         cursor_.expect("normal");
-        cursor_.line_end(); // the normal is recomputed from the corners
+        cursor_.line_end(); // skip the normal, which is recomputed from the corners
         cursor_.expect("outer");
         cursor_.expect("loop");
         std::array<Vec3, 3> corner;
@@ -97,7 +97,7 @@ private:
         add(corner);
     }
 
-    /// Check that the last word ends a block, written as one word or two.
+    /// Check that the last word ends a block: "endloop", or "end" followed by "loop".
     void end_of(const std::string& thing)
     {
         if (same_word(cursor_.last_word(), "end"))
@@ -164,7 +164,7 @@ bool is_binary_stl(std::string_view bytes)
 void read_stl(Cursor& cursor, DeckBuilder& into)
 {
     StlReader reader(cursor, into);
-    // Headers of binary files may begin with "solid" too, but their counts contain a byte 0.
+    // Headers of binary files may begin with "solid" too, but the count after them contains a zero byte.
     const bool text = !is_binary_stl(cursor.rest()) &&
                       same_word(trimmed(cursor.rest()).substr(0, 5), "solid") &&
                       cursor.rest().substr(0, kHeader + 4).find('\0') == std::string_view::npos;

@@ -9,7 +9,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Reads the geometry of a legacy file; data of points and cells follow and are ignored.
+/// Reads the geometry of a legacy file. The data of points and cells come after it and are ignored.
 class VtkReader {
 public:
     VtkReader(Cursor& cursor, DeckBuilder& into) : cursor_(cursor), into_(into) {}
@@ -29,7 +29,7 @@ public:
         while (cursor_.more()) {
             const std::string_view word = cursor_.word();
             if (same_word(word, "CELL_DATA") || same_word(word, "POINT_DATA")) {
-                // The first array of files with groups, see `note_groups()`.
+                // In files with groups, this is the first array; see `note_groups()`.
                 const std::string_view next = cursor_.rest().substr(0, 64);
                 if (next.find("\nSCALARS entity int") != std::string_view::npos) note_groups(groups_, into_);
                 break;
@@ -102,8 +102,8 @@ private:
         each_value(type, plausible(count, 3 * type.bytes, 3) * 3, take);
     }
 
-    /// Lists of points: each preceded by its length or, from version 5.1 on, first the offsets and then all
-    /// points.
+    /// Read lists of points. Each list follows its length; from version 5.1 on, all offsets come first, then
+    /// all points.
     void read_lists(std::vector<std::int64_t>& ends, std::vector<Index>& points)
     {
         ends.clear();
@@ -184,7 +184,7 @@ private:
         cursor_.line();
     }
 
-    /// A point number; must be valid.
+    /// A point number, checked to be an `Index`.
     Index place_of(std::int64_t value) const
     {
         const auto place = static_cast<Index>(value);
@@ -237,7 +237,7 @@ private:
         return count;
     }
 
-    /// The bytes of an array; they begin on the line after its header.
+    /// The bytes of an array, which begin on the line after its header.
     std::string_view array_bytes(const VtkType& type, std::uint64_t count)
     {
         cursor_.line();
@@ -265,7 +265,8 @@ private:
     bool binary_ = false;
     VtkCells cells_;
     std::vector<std::string_view> groups_;   ///< names of fields of whole numbers
-    std::vector<std::int64_t> unstructured_; ///< ends of CELLS, until their types are known
+    std::vector<std::int64_t> unstructured_; ///< ends of the lists in CELLS, kept until the cells' types are
+                                             ///< known
     std::vector<Index> unstructured_points_;
 };
 

@@ -95,7 +95,7 @@ void WholeFolder::commit()
         return remove_unfinished(); // now the old folder
     if (errno != EINVAL && errno != ENOSYS) fail(errno);
 #endif
-    // The file system cannot exchange names, so between the two renames there is no folder at the path.
+    // The file system cannot exchange names. So there is no folder at the path between the two renames.
     const std::string before = unfinished_ + "-before";
     if (::renameat(folder, name_.c_str(), folder, before.c_str()) != 0) fail(errno);
     if (::renameat(folder, unfinished_.c_str(), folder, name_.c_str()) != 0) {
