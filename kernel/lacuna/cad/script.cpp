@@ -146,7 +146,7 @@ private:
     void end_at(std::size_t from)
     {
         if (depth_ != 0)
-            refuse("where Exit within If, For or a macro ends the script is not known",
+            refuse("Exit is inside If, For or a macro, so the end of the script is not known",
                    "move Exit out of the block, or remove it");
         content_.skipped.push_back({"Exit", line_, from, text_.size()});
         at_ = text_.size();

@@ -37,7 +37,7 @@ Facets densely(std::span<const Vec3> points, std::span<const Triangle> triangles
     for (const Triangle& triangle : triangles)
         for (const Index corner : triangle) {
             if (corner < 0 || index(corner) >= points.size())
-                fail("a triangle has point number {} of {}", found(corner), points.size());
+                fail("a triangle uses point {}, but there are {} points", found(corner), points.size());
             local[index(corner)] = 0;
         }
     Facets facets;

@@ -118,19 +118,19 @@ void check(const HarmonicProblem& problem)
     for (const Triangle& triangle : problem.triangles)
         for (const Index corner : triangle)
             if (corner < 0 || corner >= count)
-                fail("a triangle has point number {} of {}", found(corner), count);
+                fail("a triangle uses point {}, but there are {} points", found(corner), count);
     for (const Index point : problem.fixed)
         if (point < 0 || point >= count)
-            fail("point {} is fixed, but the number of points is {}", found(point), count);
+            fail("point {} is fixed, but there are {} points", found(point), count);
     if (problem.fixed_values.rows() != static_cast<Eigen::Index>(problem.fixed.size()))
-        fail("{} points are fixed, but there are values for {}", needed(problem.fixed.size()),
+        fail("{} points are fixed, but {} have values", needed(problem.fixed.size()),
              found(problem.fixed_values.rows()));
     if (problem.corner_turns.empty()) return;
     if (problem.corner_turns.size() != problem.triangles.size())
         fail("expected turns for {} triangles, found {}", needed(problem.triangles.size()),
              found(problem.corner_turns.size()));
     if (problem.period.size() != problem.fixed_values.cols())
-        fail("the period has {} numbers, the values have {}", found(problem.period.size()),
+        fail("the period has {} numbers, but each value has {}", found(problem.period.size()),
              needed(problem.fixed_values.cols()));
 }
 

@@ -255,7 +255,7 @@ void check_left(const FacetSoup& soup, const Facets& facets, double given)
                                     found(facets.tolerance))
                           : Message("topology.small_facets",
                                     "{} facets are smaller than the tolerance of {:.4g}, which is derived "
-                                    "from the extent of all points, and {} are not",
+                                    "from the extent of all points; only {} are larger",
                                     found(facets.shrunk), found(facets.tolerance), facets.count());
     throw InvalidInput(std::move(message).remedy(
         "remove the point at {} if it is not part of the shape, or give a tolerance",

@@ -108,11 +108,11 @@ Message note_on(const NoiseSmoothed& moved)
 {
     if (moved.most == 0)
         return {"healing.noisy_facets",
-                "the facets are noisy, so faces are told apart by normals over patches"};
-    return Message("healing.noisy_facets",
-                   "the facets are noisy and were smoothed: points moved by {:.3g} in the mean and {:.3g} at "
-                   "most",
-                   moved.mean, moved.most)
+                "the facets are noisy, so faces are separated by the mean normals of patches"};
+    return Message(
+               "healing.noisy_facets",
+               "the facets are noisy and were smoothed: points moved by {:.3g} on average and {:.3g} at most",
+               moved.mean, moved.most)
         .remedy("load with keep_noise = true to leave them where they are");
 }
 

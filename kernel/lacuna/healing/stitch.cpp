@@ -481,8 +481,8 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
     const double reach = share_ * std::min(track(a).length(), track(b).length());
     if (!try_add(*free[0], b, reach)) return;
     report_.notes.push_back(Message("healing.edges_sewn",
-                                    "{} of {} and {} of {} have the same ends and are up to {:.3g} apart "
-                                    "between them; they were merged into the first",
+                                    "{} of {} and {} of {} have the same ends and are up to {:.3g} apart; "
+                                    "they were merged into the first",
                                     named(a), entity_of(model(), face_a), named(b),
                                     entity_of(model(), face_b),
                                     greatest_gap(track(a), track(b), tolerance_, context_))

@@ -444,9 +444,8 @@ private:
         // this element, so each line must be an element with the same number of nodes.
         if (further_ < 0) further_ = static_cast<std::ptrdiff_t>(further);
         if (further_ != static_cast<std::ptrdiff_t>(further) || (further > 0 && !from_start))
-            fail(
-                "expected {} nodes of {}, or in every line as many more as in the first; found another count",
-                needed(wanted - 1), type_);
+            fail("expected {} nodes of {}, or as many in each line as in the first; found another count",
+                 needed(wanted - 1), type_);
         if (further > 0) into_.pass_over_nodes(type_, further);
         if (given_ == wanted) finish_element();
     }
@@ -491,7 +490,7 @@ private:
         const std::string_view word = next_field(line);
         const Index step = word.empty() ? 1 : whole(word);
         if (step < 1 || last < first)
-            fail("expected a range as 'first, last, step' that rises, found {}, {}, {}", found(first), last,
+            fail("expected an increasing range 'first, last, step', found {}, {}, {}", found(first), last,
                  step);
         const DeckTag offset = of_instance_ < 0 ? 0 : into_.deck().instances[index(of_instance_)].offset;
         spend(index(last - first) / index(step));
@@ -663,7 +662,8 @@ private:
     /// amount is limited by the size of the files.
     void spend(std::size_t count)
     {
-        if (count > budget_) fail("ranges, sets and instances make more than the file could mean");
+        if (count > budget_)
+            fail("ranges, sets and instances generate too many entries for a file of this size");
         budget_ -= count;
     }
     // Number of set members and copied entities that each byte of the file may generate. It allows about

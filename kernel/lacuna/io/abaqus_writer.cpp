@@ -357,8 +357,8 @@ private:
             set.members = mesh::Numbers(std::move(kept));
         }
         view_ = std::make_shared<const MeshView>(std::move(own));
-        file_.notes.push_back(formatted("{} middle nodes of the bases of pyramids follow their corners by "
-                                        "equations, and are in no set of nodes",
+        file_.notes.push_back(formatted("{} middle nodes of pyramid bases depend on corners through "
+                                        "equations, so they are in no set of nodes",
                                         nodes.size()));
     }
 

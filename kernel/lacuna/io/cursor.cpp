@@ -240,7 +240,7 @@ std::uint64_t Cursor::plausible(std::uint64_t count, std::uint64_t bytes, std::u
     const std::uint64_t least = coding != Coding::text ? bytes : 2 * values; // in text, a digit and a blank
                                                                              // for each value
     if (count > (data_.size() - at_ + 1) / std::max<std::uint64_t>(least, 1))
-        fail("the file is cut off: it announces {} entries and has no room for them", count);
+        fail("the file is cut off: it announces {} entries, but is too short for them", count);
     return count;
 }
 

@@ -117,8 +117,8 @@ void check_content(const std::string& name, const FormatRow& format, std::string
     throw InvalidInput(Message("io.unreadable", "cannot read {}, line 1: expected {}, found {}", name,
                                format.name,
                                found(other != nullptr ? std::string(other->name)
-                                                      : formatted("what a {} file begins with", ending)))
-                           .remedy("use the file name ending of its contents, {}", ending));
+                                                      : formatted("the beginning of a {} file", ending)))
+                           .remedy("give the file the ending {}", ending));
 }
 
 } // namespace

@@ -170,7 +170,8 @@ void DeckBuilder::add_face(std::span<const Index> corners, Index region, const C
         cursor.fail("expected a face of three corners or more, found {}", found(corners.size()));
     for (const Index p : corners)
         if (p < 0 || index(p) >= points.size())
-            cursor.fail("expected a point of {}, found number {}", points.size(), found(std::int64_t(p) + 1));
+            cursor.fail("expected a point number up to {}, found {}", points.size(),
+                        found(std::int64_t(p) + 1));
     if (corners.size() == 4) return add_element(block_of(DeckShape::quad4, ""), tag, region, corners);
     const std::size_t triangles = block_of(DeckShape::tri3, "");
     const auto add_triangle = [&](Index a, Index b, Index c) {
@@ -239,9 +240,7 @@ Deck DeckBuilder::take(const std::string& path)
     const std::string passed = counted();
     if (!passed.empty()) deck_.notes.push_back(formatted("{}: passed over {}", path, passed));
     for (const auto& [type, count] : further_nodes_)
-        warn(formatted(
-            "elements {} list more nodes than they have; those beyond are left out, up to {} an element",
-            type, count));
+        warn(formatted("elements {} list too many nodes; up to {} an element are ignored", type, count));
     for (std::string& warning : deck_.warnings) warning.insert(0, path + ": ");
     for (std::size_t p = deck_.point_tags.size(); p < deck_.points.size(); ++p)
         deck_.point_tags.push_back(static_cast<DeckTag>(p) + 1);

@@ -98,12 +98,12 @@ public:
         name_labels();
         file_.notes = deck_.notes;
         if (shared_by_many_ > 0)
-            file_.notes.push_back(formatted("{}: {} sides are shared by more than two solids, which lie in "
-                                            "each other or are listed twice",
-                                            deck_.path, shared_by_many_));
+            file_.notes.push_back(formatted(
+                "{}: {} sides are shared by more than two solids, which overlap or are listed twice",
+                deck_.path, shared_by_many_));
         if (singles_ > 0)
-            file_.notes.push_back(formatted("{}: {} properties or sets of one shell each are taken as one",
-                                            deck_.path, singles_));
+            file_.notes.push_back(formatted(
+                "{}: {} properties or sets have one shell each and are read as one", deck_.path, singles_));
         return std::move(file_);
     }
 

@@ -103,7 +103,7 @@ public:
         const std::vector<DeckTag> elements = element_tags(into_.deck());
         const TagPlaces unique(elements, [&](Index a, Index) {
             main_.fail(Message(kUnreadable, "{} is there twice", numbered("element", elements[index(a)]))
-                           .remedy("number solids and shells together, each with a number of its own"));
+                           .remedy("give each solid and each shell its own number"));
         });
         name_regions();
         find_sides();
@@ -179,7 +179,7 @@ private:
             const bool wide = options.find("LONG=") != options.npos,
                        ten = options.find("I10=Y") != options.npos;
             if (begun_ && (wide != long_ || ten != ten_))
-                place_.fail("the fields of an included file are of another width than those of the deck");
+                place_.fail("the fields of an included file have another width than those of the deck");
             long_ = wide, ten_ = ten;
         } else if (keyword_ == "NODE") {
             mode_ = Mode::node;
@@ -216,7 +216,7 @@ private:
     void take_include(std::string_view name, int depth)
     {
         if (name.ends_with(" +"))
-            place_.fail(Message(kUnreadable, "INCLUDE: the name of the file goes on in the next line")
+            place_.fail(Message(kUnreadable, "INCLUDE: the name of the file continues on the next line")
                             .remedy("give it a shorter name"));
         const DeckPlace place = place_;
         Cursor& included = files_.include(std::string(name), place, depth);
@@ -229,7 +229,7 @@ private:
     Index number(std::string_view field, const char* what) const
     {
         if (field.starts_with('&') || field.starts_with("-&"))
-            place_.fail(Message(kUnreadable, "{} is a parameter, which is not read", shown(field))
+            place_.fail(Message(kUnreadable, "{} is a parameter; parameters are not read", shown(field))
                             .remedy("write its value"));
         if (field.empty()) return 0;
         const auto value = parse_integer<Index>(field);
@@ -308,7 +308,7 @@ private:
         std::ranges::copy(nodes.first(8), eight.begin());
         const auto corners_by = [&](const Degenerate& of) { return try_pattern(of, eight, add); };
         if (std::ranges::any_of(kDegenerate, corners_by) || std::ranges::any_of(kReadToo, corners_by)) return;
-        element_place_.fail("{} repeats nodes as no tetrahedron, pyramid or wedge does",
+        element_place_.fail("{} repeats nodes, but not as a tetrahedron, pyramid or wedge does",
                             numbered("element", head_line_[0]));
     }
 

@@ -35,9 +35,8 @@ public:
     {
         cursor_.has_bytes = true;
         if (cursor_.rest().starts_with("\x89HDF"))
-            cursor_.fail(
-                Message(kUnreadable, "this is netCDF-4, which is HDF5, and the classic format is expected")
-                    .remedy("nccopy -k 64-bit-offset in.exo out.exo writes it"));
+            cursor_.fail(Message(kUnreadable, "this file is netCDF-4 (HDF5); expected the classic format")
+                             .remedy("convert it with nccopy -k 64-bit-offset in.exo out.exo"));
         const std::string_view magic = cursor_.bytes(4);
         const char version = magic[3];
         if (!magic.starts_with("CDF") || (version != 1 && version != 2 && version != 5))
@@ -81,7 +80,7 @@ public:
         if (array.begin > file.size() || values > (file.size() - array.begin) / array.type->bytes)
             cursor_.fail("the file is cut off: expected {} values of {}", needed(values), name);
         taken_ += values * array.type->bytes;
-        if (taken_ > kMostTimes * file.size()) cursor_.fail("its arrays lie in each other");
+        if (taken_ > kMostTimes * file.size()) cursor_.fail("its arrays overlap");
         return file.substr(array.begin, values * array.type->bytes);
     }
 
@@ -139,7 +138,7 @@ private:
             const std::string of = name();
             const VtkType* type = type_of(cursor_.integer());
             const std::uint64_t length = count();
-            if (type == nullptr) cursor_.fail("expected a type of numbers in the attribute {}", shown(of));
+            if (type == nullptr) cursor_.fail("expected numbers or text in the attribute {}", shown(of));
             const std::uint64_t size = cursor_.plausible(length, type->bytes, 1) * type->bytes;
             const std::string_view text = cursor_.bytes(size);
             cursor_.bytes((4 - size % 4) % 4);
@@ -202,7 +201,8 @@ public:
         read_points();
         read_blocks();
         const TagPlaces places(numbers_, [&](Index, Index at) {
-            cursor_.fail("{} has the number of one before", numbered("element", numbers_[index(at)]));
+            cursor_.fail("{} has the same number as an earlier one",
+                         numbered("element", numbers_[index(at)]));
         });
         read_sets("ns", "node_ns", "num_nod_ns", DeckSet::Kind::nodes);
         read_sets("els", "elem_els", "num_ele_els", DeckSet::Kind::elements);
@@ -260,7 +260,7 @@ private:
         }
         std::vector<DeckTag> tags = numbers("node_num_map", "node_map", count);
         const TagPlaces unique(tags, [&](Index, Index at) {
-            cursor_.fail("{} has the number of one before", numbered("node", tags[index(at)]));
+            cursor_.fail("{} has the same number as an earlier one", numbered("node", tags[index(at)]));
         });
         into_.deck().point_tags = std::move(tags);
     }
@@ -379,7 +379,7 @@ private:
                                               static_cast<int>(nodes)))
                 return shape;
         }
-        cursor_.fail("block {}: elements {} of {} nodes are not known", shown(name), shown(type), nodes);
+        cursor_.fail("block {}: elements {} with {} nodes are unknown", shown(name), shown(type), nodes);
     }
 
     void read_sets(const std::string& kind, const std::string& list, const std::string& length,
@@ -424,7 +424,7 @@ private:
     {
         int side = 0;
         if (exodus < 1 || exodus > 6 || !abaqus_side(shape, static_cast<int>(exodus), side))
-            cursor_.fail("{} names side {}, which the element has not", array, exodus);
+            cursor_.fail("{} names side {}, which the element does not have", array, exodus);
         return side;
     }
 

@@ -205,7 +205,7 @@ private:
             throw InvalidInput(Message("io.other_model",
                                        "option 'with': the mesh has {}, but the first model does not",
                                        numbered("face", patch.face))
-                                   .remedy("put the model from which the volume was made first"));
+                                   .remedy("list the model from which the volume was made as the first"));
         return &*found;
     }
 

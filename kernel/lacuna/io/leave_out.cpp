@@ -330,10 +330,9 @@ private:
         };
         CardReader{[](DeckTag) {}, count}.read(deck_);
         for (const auto& [card, times] : cards)
-            found_.kept.notes.push_back(
-                formatted("note: {}: {} names nodes or elements that are left out, {} times; cards are kept "
-                          "as they stand, change them by hand",
-                          deck_.path, card, times));
+            found_.kept.notes.push_back(formatted("note: {}: {} names nodes or elements that are left out, "
+                                                  "{} times. The cards are kept unchanged: edit them by hand",
+                                                  deck_.path, card, times));
     }
 
     const Deck& deck_;
@@ -409,7 +408,7 @@ Deck close_gap(Deck deck, const RunContext& context)
             if (std::abs(deck.gap.replaced[{set.kind, set.name}] - 1) > kSameArea) lost.push_back(set.name);
     if (!lost.empty())
         log_line(context,
-                 formatted("note: {}: what was left out of these sets is not replaced, or in part: {}",
+                 formatted("note: {}: these sets lost members that no mesh has replaced, or only in part: {}",
                            deck.path, listed(lost)));
     deck.gap.gone.clear();
     if (deck.gap.names.empty()) return deck;

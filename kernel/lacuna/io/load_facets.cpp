@@ -48,7 +48,8 @@ double scale_of_cad(const std::vector<std::string>& paths, const std::string& un
     const auto stating = static_cast<std::size_t>(std::ranges::count_if(paths, states));
     if (unit.empty() || stating == 0) return 1;
     if (stating < paths.size() && unit != "mm")
-        throw InvalidInput(Message("io.unit", "{} states no unit, as the STEP or IGES files beside it do",
+        throw InvalidInput(Message("io.unit",
+                                   "{} states no unit, unlike the STEP or IGES files loaded with it",
                                    *std::ranges::find_if_not(paths, states))
                                .remedy("load it by itself, or as STEP"));
     return metres_of("mm") / metres_of(unit);

@@ -207,7 +207,7 @@ Content content_of(std::string_view bytes)
     if (meshes < 1) return refuse("it holds no mesh");
     if (meshes > 1) content.notes.push_back(formatted("the first of {} meshes is read", meshes));
     const med_int axes = LACUNA_MED_CALL(library, MEDmeshnAxis)(file, 1);
-    if (axes < 2 || axes > 3) return refuse("its mesh is not of two or three dimensions");
+    if (axes < 2 || axes > 3) return refuse("its mesh does not have two or three dimensions");
     char name[MED_NAME_SIZE + 1] = {}, text[MED_COMMENT_SIZE + 1] = {}, time[MED_SNAME_SIZE + 1] = {};
     char axis[3 * MED_SNAME_SIZE + 1] = {}, unit[3 * MED_SNAME_SIZE + 1] = {};
     med_int space = 0, dimension = 0, steps = 0;
@@ -258,7 +258,7 @@ Content content_of(std::string_view bytes)
         const std::uint64_t count = count_of(MED_CELL, shape.type, MED_CONNECTIVITY);
         const auto size = static_cast<std::uint64_t>(shape_info(shape.shape).nodes);
         if (count == 0) continue;
-        if (is_too_many(count * size)) return refuse("it counts more cells than it can hold");
+        if (is_too_many(count * size)) return refuse("it announces more cells than it can hold");
         Cells& cells = content.cells.emplace_back(Cells{.type = shape.type});
         cells.nodes.resize(count * size);
         if (LACUNA_MED_CALL(library, MEDmeshElementConnectivityRd)(file, name, step, iteration, MED_CELL,
@@ -278,7 +278,7 @@ Content content_of(std::string_view bytes)
         const med_int groups = LACUNA_MED_CALL(library, MEDnFamilyGroup)(file, name, f);
         if (groups < 1) continue;
         if (is_too_many(static_cast<std::uint64_t>(groups) * MED_LNAME_SIZE))
-            return refuse("it counts more groups than it can hold");
+            return refuse("it announces more groups than it can hold");
         std::string names(static_cast<std::size_t>(groups) * MED_LNAME_SIZE + 1, '\0');
         char family[MED_NAME_SIZE + 1] = {};
         Family own;
@@ -331,7 +331,8 @@ private:
         std::ranges::sort(sorted);
         const bool twice = std::ranges::adjacent_find(sorted) != sorted.end();
         if (all.size() == count && !twice && (all.empty() || sorted.front() >= 0)) return all;
-        if (!all.empty()) into_.warn(formatted("{} are numbered in their order: their numbers repeat", what));
+        if (!all.empty())
+            into_.warn(formatted("{} are numbered in order, because their numbers repeat", what));
         all.resize(count);
         for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<DeckTag>(i) + 1;
         return all;
@@ -340,10 +341,10 @@ private:
     std::size_t add_cells(const Cells& cells, std::span<const DeckTag> tags)
     {
         const auto shape = std::ranges::find(kShapes, cells.type, &MedShape::type);
-        if (shape == std::end(kShapes)) cursor_.fail("cells of type {} are not known", cells.type);
+        if (shape == std::end(kShapes)) cursor_.fail("the cell type {} is unknown", cells.type);
         const auto size = static_cast<std::size_t>(shape_info(shape->shape).nodes);
         const std::size_t count = cells.families.size();
-        if (cells.nodes.size() != count * size) cursor_.fail("a number of nodes does not fit the cells");
+        if (cells.nodes.size() != count * size) cursor_.fail("the number of nodes does not match the cells");
         const std::size_t block = into_.block_of(shape->shape, "");
         std::vector<Index> nodes(size);
         for (std::size_t e = 0; e < count; ++e) {
@@ -569,9 +570,9 @@ void read_med(Cursor& cursor, DeckBuilder& into)
 {
     cursor.has_bytes = true;
     const std::string_view bytes = cursor.rest();
-    if (!bytes.starts_with("\x89HDF")) cursor.fail("expected a MED file, which begins as HDF5 does");
+    if (!bytes.starts_with("\x89HDF")) cursor.fail("expected a MED file, which begins like HDF5");
     const std::string result = in_other_process(bytes.size(), [&] { return bytes_of(content_of(bytes)); });
-    if (result.empty()) cursor.fail("the MED library fails on it: the file is damaged");
+    if (result.empty()) cursor.fail("the MED library cannot read it: the file is damaged");
     Content content;
     Reader reader(result);
     reader(content);
@@ -594,7 +595,7 @@ DeckFile med_file(const View& view, const MeshFileOptions& options, const mesh::
     }
     if (image.no_library) tell_no_library();
     if (result.empty() || !image.error.empty())
-        throw BackendError("io.med_library", "the MED library fails to write the {}",
+        throw BackendError("io.med_library", "the MED library cannot write the {}",
                            image.error.empty() ? "file" : image.error);
     DeckFile file;
     file.notes = std::move(content.notes);

@@ -65,8 +65,8 @@ public:
         if (same_ && !clashes_ && scale == 1)
             all_.gap.gone.insert(all_.gap.gone.end(), more_.gap.gone.begin(), more_.gap.gone.end());
         else if (!more_.gap.gone.empty())
-            log_line(context_, formatted("note: sets of {} do not get the cells that replace what was left "
-                                         "out of it: they have other names, numbers or units now",
+            log_line(context_, formatted("note: sets of {} do not get the cells that replace its left-out "
+                                         "parts: their names, numbers or units have changed",
                                          more_.path));
         all_.gap.node = std::max(all_.gap.node, more_.gap.node + node_offset_);
         all_.gap.cell = std::max(all_.gap.cell, more_.gap.cell + cell_offset_);
@@ -189,8 +189,8 @@ private:
         if (!same_ || clashes_ || !more_.instances.empty()) {
             log_line(context_, formatted("cards of {} are left out: {}", more_.path,
                                          !same_     ? "they are of another format"
-                                         : clashes_ ? "they name numbers and sets that are others now"
-                                                    : "they name nodes by their instances"));
+                                         : clashes_ ? "they refer to numbers and sets that have changed"
+                                                    : "they refer to nodes by instance"));
             return;
         }
         if (all_.format != DeckFormat::abaqus) {

@@ -203,11 +203,11 @@ private:
         element_ = options_.element.empty() ? (second ? "C3D20" : "C3D8") : options_.element;
         const bool wedges = parts_.cells()[1].begin < parts_.cells()[1].end;
         if (wedges && is_layer(element_) && layer_wedge(element_).empty())
-            throw InvalidInput(Message("io.element",
-                                       "element = \"{}\": the mesh has wedges, and there is no "
-                                       "such element of six nodes",
-                                       element_)
-                                   .remedy("use SC8R, COH3D8 or GK3D8"));
+            throw InvalidInput(
+                Message("io.element",
+                        "element = \"{}\": the mesh has wedges, but there is no such element with six nodes",
+                        element_)
+                    .remedy("use SC8R, COH3D8 or GK3D8"));
         if (is_abaqus_element(element_, shape)) return;
         throw InvalidInput("io.element", "element = \"{}\": expected an Abaqus name of a hexahedron of {}",
                            element_,
@@ -581,9 +581,8 @@ private:
         if (takes_place() && options_.format == deck_.format) {
             material_ = deck_.regions[index(place_)].material;
             if (extended_ >= 0) return; // the mesh is another piece of one that was added before
-            log_line(context_,
-                     formatted("{} takes the place of the region of that name, whose cards stay{}", volume(),
-                               options_.material.empty() ? "" : "; material is not looked at"));
+            log_line(context_, formatted("{} replaces the region of that name and keeps its cards{}",
+                                         volume(), options_.material.empty() ? "" : "; material is ignored"));
             return;
         }
         if (material_.empty()) {

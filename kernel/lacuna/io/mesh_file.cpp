@@ -175,11 +175,11 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
     const View view = view_of(deck, format);
     for (std::size_t b = 0; b < deck.blocks.size(); ++b)
         if (!row.omits_middles && std::ranges::find(deck.blocks[b].nodes, -1) != deck.blocks[b].nodes.end())
-            refuse_element(view->blocks[b], format.word, "some have not all their middle nodes");
+            refuse_element(view->blocks[b], format.word, "some lack middle nodes");
     if (deck.format == DeckFormat::abaqus && deck.instances.size() > 1 && !deck.texts.empty() &&
         format.deck == DeckFormat::abaqus)
         tell({formatted("the {} instances become one mesh, sets are named instance_set, and cards are not "
-                        "carried over: they name nodes by their instances",
+                        "copied: they refer to nodes by instance",
                         deck.instances.size())},
              path, context);
     std::vector<std::string> notes;
@@ -188,7 +188,7 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
         deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
     if (format.deck != deck.format && texts)
         notes.push_back(formatted(
-            "materials, loads and other cards of {} are of another format and not carried over", deck.path));
+            "materials, loads and other cards of {} are of another format and not copied", deck.path));
     MeshFileOptions own = options;
     own.unit = common_unit(options.unit, "the mesh", deck.unit, deck.path);
     write_view(row, view, {}, notes, own, path, context, nullptr);

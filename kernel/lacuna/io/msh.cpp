@@ -199,8 +199,8 @@ public:
         number_cells();
         const bool can_overlap = options.version != 2.2;
         if (options.all_groups && !can_overlap)
-            file_.notes.emplace_back("MSH 2.2 holds one group an element, so groups = \"all\" is not "
-                                     "followed; version = 4.1 holds all");
+            file_.notes.emplace_back("MSH 2.2 holds one group per element, so groups = \"all\" is ignored; "
+                                     "version = 4.1 holds all");
         name_groups(options.all_groups && can_overlap);
         if (view->point_tags.given() && view->points > 0)
             nodes_ = view->point_tags.bounds(view->points);

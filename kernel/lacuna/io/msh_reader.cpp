@@ -53,7 +53,7 @@ public:
     {
         for (std::string_view line; !(line = cursor_.full_line()).empty();) {
             if (line.front() != '$')
-                cursor_.fail("expected a section, as $Nodes; this is no MSH file, or it is damaged");
+                cursor_.fail("expected a section such as $Nodes; this is no MSH file, or it is damaged");
             read_section(std::string(line.substr(1)));
         }
         if (version_ == 0) cursor_.fail("this is no MSH file: it has no $MeshFormat");
@@ -99,7 +99,7 @@ private:
         const std::int64_t bytes = cursor_.text_integer();
         if (version != 4.1 && version != 4 && !(version >= 2 && version < 3))
             cursor_.fail(Message(kUnreadable, "expected version 1.0, 2.2, 4.0 or 4.1")
-                             .remedy("save the mesh anew as one of them"));
+                             .remedy("save the mesh in one of these versions"));
         if (bytes != 8)
             cursor_.fail("numbers of {} bytes are not read; expected {}", found(bytes), needed(8));
         version_ = version >= 4 ? 4 : 2;
@@ -109,7 +109,7 @@ private:
         if (binary == 1) {
             cursor_.coding = std::endian::native == std::endian::little ? Coding::little : Coding::big;
             if (cursor_.raw_integer() != 1)
-                cursor_.fail(Message(kUnreadable, "the bytes are in another machine's order")
+                cursor_.fail(Message(kUnreadable, "the file has the byte order of another machine")
                                  .remedy("save the mesh as text"));
         } else if (binary != 0) {
             cursor_.fail("expected 0 for text or 1 for binary in $MeshFormat");
@@ -225,7 +225,7 @@ private:
         if (into_.points().size() != count)
             cursor_.fail("the file announces {} nodes and holds {}", count, into_.points().size());
         tags_.emplace(into_.deck().point_tags, [&](Index, Index node) {
-            cursor_.fail("{} of the file has the tag of one before", numbered("node", node + 1));
+            cursor_.fail("{} of the file has the same tag as an earlier one", numbered("node", node + 1));
         });
         nodes_known_ = true;
     }
@@ -399,7 +399,7 @@ private:
     Index position(DeckTag tag) const
     {
         const Index node = tags_->find(tag);
-        if (node < 0) cursor_.fail("a cell names {}, which is not there", numbered("node", tag));
+        if (node < 0) cursor_.fail("a cell names {}, which does not exist", numbered("node", tag));
         return node;
     }
 
@@ -620,7 +620,7 @@ private:
             }
             region = found->second;
         }
-        into_.pass_over("cells that stand once more for a further group",
+        into_.pass_over("cells that are repeated for a further group",
                         static_cast<std::size_t>(std::ranges::count(copy, true)));
         block = without_elements(block, [&](std::size_t e) { return copy[e]; });
     }

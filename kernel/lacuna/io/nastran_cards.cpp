@@ -57,7 +57,7 @@ std::string stepped(std::string_view field, std::string_view step, const DeckPla
     if (whole && by) return std::to_string(std::int64_t(*whole) + *by);
     const auto real = parse_real(field, Exponents::fortran), more = parse_real(step, Exponents::fortran);
     if (whole || !real || !more)
-        place.fail("cannot add {} to {} of the card that is replicated", shown(step), shown(field));
+        place.fail("cannot add {} to {} of the replicated card", shown(step), shown(field));
     std::array<char, 32> text{};
     std::string sum(text.data(), std::to_chars(text.data(), text.data() + text.size(), *real + *more).ptr);
     // without a point, the sum would become an integer
@@ -195,7 +195,7 @@ void BulkData::include(Cursor& cursor, std::string_view rest, std::uint64_t from
         const char quote = name[0];
         while (name.find(quote, 1) == std::string::npos) {
             if (cursor.at_end() || name.size() > DeckFiles::kLongestName)
-                place.fail("INCLUDE: the name has no end");
+                place.fail("INCLUDE: the name has no closing quote");
             name += cursor.line();
         }
         name = name.substr(1, name.find(quote, 1) - 1);
@@ -289,14 +289,14 @@ bool BulkData::take_fields(const DeckPlace& place)
         // the deck names it. If none does, its name is only a remark of the user.
         const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && is_awaited(first.substr(1));
         if (first.size() > 1 && (!open_ || another || unsaid)) return false;
-        if (!open_) place.fail("a continuation {} of no card", shown(first));
+        if (!open_) place.fail("the continuation {} belongs to no card", shown(first));
         if (first.size() > 1 && marker_.size() <= 1 && unasked_.empty()) unasked_ = shown(first);
         check_half(card_, is_large(first), place);
     } else if (const std::string_view name = first.substr(0, first.find('*')); !replicates(name)) {
         begin_card(name, place);
     } else {
         if (!open_ || (card_use_ != CardUse::keep && is_named(marker_)))
-            place.fail("expected the card that = repeats right above it, whole");
+            place.fail("expected a complete card right above = to repeat");
         begin_replica(place);
         steps_.clear();
     }
@@ -359,7 +359,8 @@ bool BulkData::hand_over(const Card& card, CardUse use)
                                                    std::pair(superelements_, card.text(3)));
         const bool again = !fresh && known->second.first != superelements_;
         if (again && known->second.second != card.text(3))
-            card.fail(Message(kUnreadable, "superelements are read as one deck, and another has another {}",
+            card.fail(Message(kUnreadable,
+                              "superelements are read as one deck, but another one has a different {}",
                               known->first)
                           .remedy("renumber one of them"));
         if (again) return false;
@@ -404,7 +405,7 @@ void BulkData::replicate(std::string_view count, const DeckPlace& place)
         place.fail("expected =n with a count above 0 right below a card that begins with =, found ={}",
                    count.substr(0, kField));
     if (index(*times) > room_)
-        place.fail(Message(kUnreadable, "={} makes more cards than a deck of this size may", *times)
+        place.fail(Message(kUnreadable, "={} generates too many cards for a deck of this size", *times)
                        .remedy("write them out"));
     room_ -= index(*times);
     for (Index n = 0; n < *times && card_use_ != CardUse::keep; ++n) {
@@ -492,15 +493,15 @@ void BulkData::finish()
     if (!continuations_.empty()) {
         const Waiting& line = std::ranges::min_element(continuations_, {}, place)->second;
         const std::string text = shown(line.raw.substr(0, kField));
-        if (cards_.empty()) line.card.place.fail("a continuation {} of no card", text);
+        if (cards_.empty()) line.card.place.fail("the continuation {} belongs to no card", text);
         const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
-        card.card.fail("its continuation {} is not there, and {} is a continuation of no card",
+        card.card.fail("its continuation {} is missing, and the continuation {} belongs to no card",
                        shown(card.marker), text);
     }
     if (!cards_.empty() && !unasked_.empty()) {
         const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
-        card.card.fail("its continuation {} is not there, and no card names {}", shown(card.marker),
-                       unasked_);
+        card.card.fail("its continuation {} is missing, and no card names the continuation {}",
+                       shown(card.marker), unasked_);
     }
     // No continuation with these names exists, so the names were only remarks: pass on the cards as they are.
     std::map<std::uint64_t, const Waiting*> in_order;

@@ -187,7 +187,7 @@ private:
                 !(grids_[index(first)] == grids_[index(second)]))
                 bulk_.files()
                     .place_of(grids_[index(second)].place)
-                    .fail("the number of this GRID is that of another elsewhere");
+                    .fail("another GRID with this number lies elsewhere");
             repeated.resize(grids_.size(), false);
             repeated[index(second)] = true;
         });
@@ -258,7 +258,8 @@ private:
     Vec3 node_in_basic(Index tag, const DeckPlace& place)
     {
         const Index node = tags_->find(tag);
-        if (node < 0) place.fail("the coordinate system names {}, which is not there", numbered("node", tag));
+        if (node < 0)
+            place.fail("the coordinate system names {}, which does not exist", numbered("node", tag));
         return in_basic(index(node));
     }
 
@@ -269,12 +270,11 @@ private:
         if (default_frame_ != 0) place.fail("GRDSET of superelements that are read as one deck is ambiguous");
         const std::vector<DeckTag> tags = element_tags(into_.deck());
         const TagPlaces elements(tags, [&](Index, Index again) {
-            place.fail(Message(kUnreadable, "superelements are read as one deck, and {} is there twice",
+            place.fail(Message(kUnreadable, "superelements are read as one deck, but {} occurs twice",
                                numbered("element", tags[index(again)]))
                            .remedy("renumber one of them"));
         });
-        into_.warn(formatted("read as one deck with its superelements, of which there are {}",
-                             bulk_.superelements()));
+        into_.warn(formatted("read as one deck with its superelements ({})", bulk_.superelements()));
     }
 
     /// An element without a property has the property of its own number. If no card defines such properties,

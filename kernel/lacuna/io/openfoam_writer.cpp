@@ -194,8 +194,8 @@ private:
             neighbours.push_back(of.neighbour);
         }
         if (inside > 0)
-            notes.push_back(formatted("{} quads and triangles that are no faces outside are not written: a "
-                                      "polyMesh has patches there alone",
+            notes.push_back(formatted("{} quads and triangles inside the mesh are not written: a polyMesh "
+                                      "has patches on its boundary only",
                                       inside));
     }
 

@@ -52,7 +52,7 @@ public:
         const std::string_view rest = cursor_.rest();
         if (std::ranges::any_of(rest, [](char c) { return c != 0 && c != '\n' && !is_blank(c); }))
             cursor_.fail_at(cursor_.position(),
-                            "expected a header of 80 bytes and a count of facets, found {} bytes more",
+                            "expected a header of 80 bytes and a count of facets, found only {} more bytes",
                             found(rest.size()));
     }
 
@@ -66,7 +66,7 @@ private:
             const std::uint64_t room = (all.size() - begin) / kFacet;
             if (count > room)
                 cursor_.fail_at(at + kHeader,
-                                "the header announces {} facets and the bytes after it hold {}{}", count,
+                                "the header announces {} facets, but the bytes after it hold {}{}", count,
                                 room, at == 0 ? "" : ": it or a count before it is wrong");
             at = begin + kFacet * count;
         }
@@ -118,7 +118,7 @@ private:
                 Vec3& p = points.emplace_back();
                 for (std::size_t i = 0; i < 3; ++i)
                     p[Index(i)] = from_bytes<float>(bytes.data() + 12 + 4 * (3 * corner + i), false);
-                if (!p.allFinite()) cursor_.fail("expected finite coordinates, found one that is none");
+                if (!p.allFinite()) cursor_.fail("expected finite coordinates, found one that is not finite");
             }
         }
         const auto room = into_.add_elements(into_.block_of(DeckShape::tri3, ""), count, label());

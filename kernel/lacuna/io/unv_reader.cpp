@@ -82,7 +82,7 @@ public:
         }
         if (datasets == 0) cursor_.fail_at(0, "expected -1, which begins a dataset, found none");
         const TagPlaces tags(into_.deck().point_tags, [&](Index, Index node) {
-            cursor_.fail("{} of the file has the tag of one before", numbered("node", node + 1));
+            cursor_.fail("{} of the file has the same tag as an earlier one", numbered("node", node + 1));
         });
         for (const auto& [frame, position] : frames_used_)
             if (frames_turned_.contains(frame))

@@ -64,7 +64,7 @@ private:
             read_lists(cells_.ends, cells_.points);
             into_.pass_over(same_word(word, "LINES") ? "lines" : "vertices", cells_.ends.size());
         } else if (same_word(word, "CELLS")) {
-            if (!unstructured_.empty()) cursor_.fail("a second section CELLS");
+            if (!unstructured_.empty()) cursor_.fail("the section CELLS occurs twice");
             read_lists(unstructured_, unstructured_points_);
         } else if (same_word(word, "CELL_TYPES")) {
             const std::uint64_t count = cursor_.size();
@@ -74,13 +74,13 @@ private:
         } else if (same_word(word, "FIELD")) {
             skip_field();
         } else {
-            cursor_.fail("expected a section, as POINTS or CELLS, found {}", found(shown(word)));
+            cursor_.fail("expected a section such as POINTS or CELLS, found {}", found(shown(word)));
         }
     }
 
     void read_points()
     {
-        if (!into_.points().empty()) cursor_.fail("a second section POINTS");
+        if (!into_.points().empty()) cursor_.fail("the section POINTS occurs twice");
         const std::uint64_t count = cursor_.size();
         if (!is_index(count)) cursor_.fail("too many points");
         const VtkType& type = needed_type(cursor_.word("a type of numbers"));
@@ -91,11 +91,12 @@ private:
             points.resize(count);
             if (count > 0) type.reals(bytes.data(), true, 3 * count, points.front().data());
             if (!std::ranges::all_of(points, [](const Vec3& p) { return p.allFinite(); }))
-                cursor_.fail("expected finite coordinates, found one that is none");
+                cursor_.fail("expected finite coordinates, found one that is not finite");
             return;
         }
         const auto take = [&](std::uint64_t i, double value) {
-            if (!std::isfinite(value)) cursor_.fail("expected finite coordinates, found one that is none");
+            if (!std::isfinite(value))
+                cursor_.fail("expected finite coordinates, found one that is not finite");
             if (i % 3 == 0) points.emplace_back();
             points.back()[static_cast<Index>(i % 3)] = value;
         };
@@ -224,7 +225,7 @@ private:
     {
         const VtkType* type = vtk_type(name);
         if (type == nullptr)
-            cursor_.fail("expected a type of numbers, as float, found {}", found(shown(name)));
+            cursor_.fail("expected a number type such as float, found {}", found(shown(name)));
         return *type;
     }
 

@@ -237,7 +237,7 @@ private:
         cells.ends = wholes(piece.offsets, "offsets", piece.cells);
         cells.types = wholes(piece.types, "types", piece.cells);
         const std::int64_t all = cells.ends.empty() ? 0 : cells.ends.back();
-        if (all < 0) cursor_.fail_at(piece.offsets.position, "expected offsets that rise");
+        if (all < 0) cursor_.fail_at(piece.offsets.position, "expected increasing offsets");
         read_places(piece.connectivity, static_cast<std::uint64_t>(all), cells.points);
         cells.first_cell = cells_;
         cells_ += static_cast<DeckTag>(piece.cells);
@@ -335,7 +335,8 @@ private:
         if (array.format != "binary" && array.format != "appended")
             fail("expected format ascii, binary or appended, found {}", found(shown(array.format)));
         const bool appended = array.format == "appended";
-        if (appended && array.offset > appended_.size()) fail("the appended data end before it begins");
+        if (appended && array.offset > appended_.size())
+            fail("the array begins after the end of the appended data");
         const std::string_view from = appended ? appended_.substr(array.offset) : array.text;
         if (!compressor_.empty() && compressor_ != "vtkZLibDataCompressor")
             cursor_.fail_at(array.position,

@@ -40,7 +40,7 @@ fs::path resolved(const std::string& path)
 {
     throw InvalidInput(Message("io.no_folder", "the folder '{}' cannot be used: {}", path,
                                std::generic_category().message(error))
-                           .remedy("create it first, or name another place"));
+                           .remedy("create it first, or give another path"));
 }
 
 /// Beginning of the name of a temporary file next to the path; the number of the process follows. State
@@ -127,7 +127,7 @@ OutputPath OutputPath::below(const std::shared_ptr<const Folder>& folder, const 
     fs::path inside = fs::path(path);
     if (inside.is_absolute()) {
         inside = inside.lexically_relative(folder->path());
-        if (inside.empty() || *inside.begin() == "..") throw outside("it is a path of another place");
+        if (inside.empty() || *inside.begin() == "..") throw outside("it leads to another place");
     }
     OutputPath result(path);
     result.folder_ = folder;
@@ -163,13 +163,13 @@ std::pair<std::shared_ptr<const Folder>, std::string> OutputPath::place() const
     if (!fs::is_directory(parent, ignored))
         throw InvalidInput(
             Message("io.no_folder", "cannot write '{}': there is no folder '{}'", path_, parent.string())
-                .remedy("create it first, or name another place"));
+                .remedy("create it first, or give another path"));
     return {std::make_shared<const Folder>(parent.string()), target.filename().string()};
 }
 
 WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text()), cached_(share_of_memory())
 {
-    if (path_.empty()) throw InvalidInput("io.no_path", "no file name was given to write to");
+    if (path_.empty()) throw InvalidInput("io.no_path", "no file name was given");
     std::tie(folder_, name_) = path.place();
     struct stat before = {};
     const bool exists = ::fstatat(folder_->descriptor(), name_.empty() ? "." : name_.c_str(), &before,
@@ -257,7 +257,7 @@ void WholeFile::fail(int error)
     Message failed("io.write_failed", "cannot write '{}': {}. No partial file was left", path_,
                    std::generic_category().message(error));
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
-        failed = failed.remedy("make room, or name another disk");
+        failed = failed.remedy("free some space, or write to another disk");
     if (error == EMFILE) failed = failed.remedy("ask for fewer partitions");
     throw BackendError(std::move(failed));
 }

@@ -46,7 +46,7 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
         if (!S_ISDIR(before.st_mode))
             throw InvalidInput(
                 Message("io.not_replaced", "cannot write '{}': it exists and is not a folder", path_)
-                    .remedy("remove it, or name another place"));
+                    .remedy("remove it, or give another path"));
         for (const std::string& name : names_in(folder_->descriptor(), name_)) {
             struct stat status = {};
             const std::string inside = name_ + "/" + name;
@@ -58,7 +58,7 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
                     Message("io.not_replaced",
                             "cannot write '{}': the folder already contains '{}', which would be lost", path_,
                             name)
-                        .remedy("move that file away, or name another place"));
+                        .remedy("move that file away, or give another path"));
         }
     } else if (errno != ENOENT) {
         fail(errno);

@@ -229,7 +229,7 @@ void DeckBuilder::resolve(const TagPlaces& nodes, const Fail& fail)
             const Index place = nodes.find(node);
             if (place < 0)
                 fail(places_[b][i / per],
-                     Message(kUnreadable, "{} of type {} names {}, which is not there",
+                     Message(kUnreadable, "{} of type {} names {}, which does not exist",
                              numbered("element", block.tags[i / per]), block.type, numbered("node", node)));
             node = place;
         }
