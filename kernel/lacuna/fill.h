@@ -32,7 +32,7 @@ namespace lacuna::fill {
 /// Options for sweeping one volume.
 struct SweepRequest {
     sweep::SweepOptions options;
-    /// With `options.layered`: whether the pieces of a cut volume may also create their nodes on writing.
+    /// With `options.layered`: whether pieces of a cut volume may also compute their nodes during writing.
     bool layered_parts = true;
 };
 
@@ -113,7 +113,7 @@ struct FilledShell {
                    ///< faces
     double min_scaled_jacobian = 1, mean_scaled_jacobian = 1; ///< over the corners of all quads, each
                                                               ///< measured in its own plane
-    double area = 0, face_area = 0; ///< of the quads, and of the faces' facets [model length²]
+    double area = 0, face_area = 0; ///< area of the quads, and of the facets of the faces [model length²]
     std::vector<std::string> report;
 };
 

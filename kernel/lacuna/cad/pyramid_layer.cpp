@@ -31,8 +31,8 @@ constexpr double kAboveLeast = 1.5;
 constexpr int kLowerings = 5;
 
 struct Pyramid {
-    Vec3 centre, up;   ///< of the quad; `up` is the unit normal into the volume
-    double height = 0; ///< of the apex
+    Vec3 centre, up;   ///< `centre` of the quad; `up`: unit normal of the quad, into the volume
+    double height = 0; ///< height of the apex over the quad
     double least = 0;  ///< any greater height gives a valid pyramid
 
     [[nodiscard]] Vec3 apex() const { return centre + height * up; }

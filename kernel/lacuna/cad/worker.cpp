@@ -338,7 +338,7 @@ std::string Worker::last_words() const
 void Worker::died(const Task& task)
 {
     // The stream may close shortly before the process ends.
-    constexpr int kTries = 100; // of 10 ms: a large process takes time to end
+    constexpr int kTries = 100; // 10 ms each: a large process takes time to end
     for (int i = 0; i < kTries && !has_ended(process_); ++i) ::usleep(10'000);
     end("it crashed on " + task.subject);
     throw BackendError(Message("cad.worker_ended",

@@ -24,11 +24,11 @@ struct WriteCadOptions {
 /// The solid that was written, measured after reading it back.
 struct WrittenCad {
     double volume = 0;       ///< volume of the solid [model length³]
-    double facet_volume = 0; ///< inside the facets of the sealed volume [model length³]
+    double facet_volume = 0; ///< volume inside the facets of the sealed volume [model length³]
     std::size_t faces = 0;   ///< number of faces of the solid
     std::size_t planes = 0;  ///< void faces written as planes
     std::size_t fitted = 0;  ///< void faces written as one or more fitted surfaces
-    double tolerance = 0;    ///< used for sewing [model length]
+    double tolerance = 0;    ///< tolerance that was used for sewing [model length]
 };
 
 /// Write a sealed volume as one CAD solid, in a `.step`, `.stp` or `.brep` file. STEP files declare `unit`.

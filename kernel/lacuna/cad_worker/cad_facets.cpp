@@ -48,8 +48,8 @@ std::vector<double> distances(int face, const std::vector<Vec3>& at, const std::
     return off;
 }
 
-/// Replace parameters whose surface points are too far from their points by the parameters of the closest
-/// surface points.
+/// Check that the surface gives the point `at` for its parameters. Where it does not, replace the parameters
+/// by those of the closest point of the surface.
 void mend_parameters(int face, const std::vector<Vec3>& at, std::vector<Vec2>& uv, double allowed)
 {
     std::vector<double> off;

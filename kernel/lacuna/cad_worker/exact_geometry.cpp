@@ -124,7 +124,7 @@ void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const Parameter
         const int other = 1 - k;
         if (across[k] > 1e-6 * across[other] || (it.target - it.at).norm() <= precision) continue;
         constexpr int kDirections = 12;
-        constexpr double kInward = 0.02; // relative to the box: off the pole, but near it
+        constexpr double kInward = 0.02; // share of the box by which a start is moved off the pole
         std::vector<Vec2> ring(kDirections);
         const bool at_low = it.uv[other] - box.low[other] < side[other] / 2;
         for (int i = 0; i < kDirections; ++i) {

@@ -28,8 +28,8 @@ struct CadSource {
     std::unique_ptr<const GmshModel> model;
     std::string path;
     double scale = 1;                            ///< model length / file length
-    double diagonal = 0;                         ///< of the bounding box [file length]
-    std::unordered_map<int, ParameterBox> boxes; ///< for every face
+    double diagonal = 0;                         ///< diagonal of the bounding box [file length]
+    std::unordered_map<int, ParameterBox> boxes; ///< parameter rectangle of every face
 };
 
 /// Project points to a face, each starting at its start parameters: damped Gauss-Newton for all points at

@@ -22,7 +22,7 @@ constexpr double kCellsAlong = 4;
 struct Lattice {
     std::size_t sides;
     std::array<std::vector<double>, 2> knots;
-    std::vector<SurfaceFrame> frames; ///< at u index i, v index j: i · (sides + 1) + j
+    std::vector<SurfaceFrame> frames; ///< frame at u index i and v index j is at i · (sides + 1) + j
 
     [[nodiscard]] const SurfaceFrame& at(int axis, std::size_t along, std::size_t across) const
     {

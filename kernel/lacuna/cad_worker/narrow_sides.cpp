@@ -24,7 +24,7 @@ constexpr double kMost = 8;
 struct Side {
     Vec3 from, to;
     std::size_t edge = 0;
-    double sag = 0; ///< of the curve over the segment [file length]
+    double sag = 0; ///< sag of the curve over the segment [file length]
 };
 
 /// Sag of a segment, from the arc through its ends and the next point.

@@ -44,7 +44,8 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
     };
     std::vector<Index> of(index(static_cast<Index>(rows)), -1);
     count = 0;
-    for (Eigen::Index row = 0; row < rows; ++row) { // complete neighbourhoods first
+    for (Eigen::Index row = 0; row < rows; ++row) { // first, rows whose neighbours are all free form
+                                                    // aggregates with them
         bool bare = true, any = false;
         if (of[std::size_t(row)] >= 0) continue;
         each_strong(row, [&](Index other, double) {

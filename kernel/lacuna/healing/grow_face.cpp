@@ -129,7 +129,7 @@ private:
     const topology::Model& model_;
     double least_cosine_ = 0;
     std::vector<Cell> cells_;
-    std::vector<Index> cell_of_triangle_; ///< in the order of the faces
+    std::vector<Index> cell_of_triangle_; ///< cell of each triangle, in the order of the faces
     std::unordered_map<std::uint64_t, std::vector<Index>> users_;
     Index seed_ = -1;
 };

@@ -30,7 +30,7 @@ namespace {
 constexpr int kNoisyReach = 8;
 
 struct Flood {
-    std::vector<Index> face;   ///< for each facet
+    std::vector<Index> face;   ///< the face that each facet belongs to
     std::vector<bool> flipped; ///< facets oriented against their face
     Index faces = 0;
 };
@@ -346,7 +346,7 @@ private:
     const RunContext& context_;
     double feature_;
     int reach_;
-    std::vector<Index> kind_; ///< for each segment; -1 within a face
+    std::vector<Index> kind_; ///< kind of each segment; -1: the segment is within a face
     std::vector<bool> done_;  ///< segments already chained
     Incidence at_;            ///< edge segments at each point
     std::vector<bool> is_vertex_;

@@ -399,7 +399,7 @@ private:
     std::vector<Side> sides_;
     std::vector<Label> label_of_shell_, labels_;
     std::map<Label, int> numbers_;
-    std::vector<std::vector<std::string>> names_; ///< for each region
+    std::vector<std::vector<std::string>> names_; ///< all names of each region
     std::size_t shared_by_many_ = 0, singles_ = 0;
     FacetFile file_;
 };

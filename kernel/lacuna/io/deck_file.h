@@ -35,8 +35,8 @@ using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
 
 /// What meshes that joined a deck earlier have added to it.
 struct JoinedBefore {
-    GroupSets sets{};                       ///< sets of their groups
-    std::map<std::string, Index> regions{}; ///< regions, by the names of their meshes
+    GroupSets sets{};                       ///< sets of the meshes' groups
+    std::map<std::string, Index> regions{}; ///< regions, by the names of the meshes
 };
 
 /// Combine a deck with the mesh that fills a void of it into one conformal mesh. The deck keeps its numbers.

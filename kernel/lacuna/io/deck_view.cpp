@@ -277,7 +277,8 @@ private:
     const Bulk& bulk_;
     MeshView& view_;
     SetLists lists_;
-    std::vector<int> list_, dimension_; ///< for each element
+    std::vector<int> list_, dimension_; ///< for each element: the number of its list of sets, and its
+                                        ///< dimension
     std::map<std::tuple<int, Index, int>, Index> known_;
     std::vector<Index> place_of_region_; ///< for each entity
 };

@@ -728,9 +728,9 @@ private:
     View view_;
     SideNodes sides_;
     MeshView::KeptText own_;
-    const MeshView::KeptText* kept_ = nullptr; ///< of the deck, or `own_`
+    const MeshView::KeptText* kept_ = nullptr; ///< kept text of the deck, or `own_`
     DeckFile file_;
-    std::string end_;                            ///< of a keyword's line
+    std::string end_;                            ///< end of a line with a keyword
     std::map<Index, std::set<DeckShape>> forms_; ///< shapes of the elements in each region
     std::set<Index> cohesive_;                   ///< regions of cohesive elements
     std::vector<int> parts_;                     ///< parts that the kept text defines

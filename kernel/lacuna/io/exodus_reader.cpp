@@ -185,7 +185,7 @@ private:
     Cursor& cursor_;
     /// Bytes read so far; stops files in which many arrays share the same bytes.
     mutable std::uint64_t taken_ = 0;
-    Cursor whole_ = cursor_; ///< at the beginning of the file
+    Cursor whole_ = cursor_; ///< cursor at the beginning of the file
     bool wide_ = false, wide_offsets_ = false;
     std::vector<std::size_t> dimensions_;
     std::map<std::string, std::size_t> lengths_;
@@ -302,7 +302,8 @@ private:
         const NcArray* property = head_.find("eb_prop2");
         const bool several = property != nullptr && property->name == kRegionProperty;
         const std::vector<std::int64_t> whole = several ? head_.wholes(*property, "eb_prop2", count) : id;
-        std::map<std::int64_t, std::optional<Index>> regions; // by the id of their first block
+        std::map<std::int64_t, std::optional<Index>> regions; // region of the blocks, by the id of its first
+                                                              // block
         std::size_t first = 0;
         for (std::size_t b = 0; b < count; ++b) {
             std::optional<Index> own;

@@ -10,8 +10,8 @@
 namespace lacuna::io {
 
 struct FacetFileOptions {
-    bool binary = true;      ///< of .stl and .msh; .obj is always text
-    bool all_groups = false; ///< of .msh: as `MeshFileOptions::all_groups`
+    bool binary = true;      ///< for .stl and .msh; .obj is always text
+    bool all_groups = false; ///< for .msh, see `MeshFileOptions::all_groups`
 };
 
 /// Write the facets of a sealed volume, oriented outward; the file is complete or does not appear. The file

@@ -78,7 +78,7 @@ public:
                     found.shell = block->tags[e];
                     continue;
                 }
-                if (found.side.side > 0) return; // between two solids
+                if (found.side.side > 0) return; // the face is between two solids
                 found.side = {block->tags[e], side};
                 const Quad& face = face_corners(block->shape)[index(side - 1)];
                 for (std::size_t k = 0; k < 4; ++k) // a triangle repeats its last corner
@@ -161,7 +161,7 @@ private:
     const NewCells& added_;
     /// Numbers in the part with the volume's name, otherwise in everything left out; increasing
     std::vector<DeckTag> cells_, nodes_;
-    std::vector<Face> skin_;   ///< of the elements left out
+    std::vector<Face> skin_;   ///< skin of the elements that were left out
     std::vector<Index> on_;    ///< for each quad of the new skin, its face in `skin_`; -1: none
     std::vector<double> area_; ///< area of each of these quads
 };

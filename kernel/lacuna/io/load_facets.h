@@ -22,8 +22,8 @@ struct FacetFile {
         label_tag; ///< tag of each label in the file, that of a surface entity, property or group; 0: none
     /// Data of a label in the file besides its name.
     struct Label {
-        std::vector<std::string> groups;               ///< as `topology::Face::groups`
-        std::vector<std::vector<std::string>> regions; ///< as `topology::Face::regions`
+        std::vector<std::string> groups;               ///< see `topology::Face::groups`
+        std::vector<std::vector<std::string>> regions; ///< see `topology::Face::regions`
     };
     std::vector<Label> labels;
     std::vector<std::string> notes; ///< ignored content with counts; one sentence each

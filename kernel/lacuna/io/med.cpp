@@ -422,7 +422,7 @@ private:
     Cursor& cursor_;
     DeckBuilder& into_;
     Content content_;
-    std::map<std::int32_t, std::vector<DeckTag>> cells_of_; ///< by family
+    std::map<std::int32_t, std::vector<DeckTag>> cells_of_; ///< numbers of the cells of each family
     std::map<std::int32_t, Index> region_of_;
 };
 

@@ -297,7 +297,8 @@ private:
     /// Number the elements: as in the view or, in an unpartitioned file, in file order.
     void number_cells()
     {
-        std::vector<std::map<std::size_t, std::size_t>> number(view_->blocks.size()); // of the next element
+        std::vector<std::map<std::size_t, std::size_t>> number(view_->blocks.size()); // next number, by
+                                                                                      // entity
         std::size_t next = 1;
         for (const Row& row : rows_) {
             number[row.block][row.entity] = next;

@@ -637,7 +637,7 @@ private:
     };
     Place last_place_{};
     std::map<Place, std::size_t> regions_;
-    std::vector<Place> place_of_;                ///< for each region
+    std::vector<Place> place_of_;                ///< entity and group of each region
     std::map<Index, std::set<int>> more_groups_; ///< further physical groups of regions, in version 2
     /// For each region: the number of cells in the group that names it, and whether that group has a number
     /// only.

@@ -225,7 +225,7 @@ private:
 
     const MeshView& view_;
     const RunContext& context_;
-    std::vector<CellFace> found_;                   ///< by cell
+    std::vector<CellFace> found_;                   ///< the faces of all cells, cell by cell
     std::map<Index, std::vector<Index>> of_entity_; ///< boundary faces of each entity; -1: faces without an
                                                     ///< entity
     std::vector<Index> place_; ///< for each view point: index among the points used; -1: unused

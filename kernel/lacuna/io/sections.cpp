@@ -195,7 +195,7 @@ void write_varying(const std::vector<Chunk>& chunks, const WriteAt& write, Share
         std::uint64_t own = 0;
         for (std::size_t i = 0; i < count; ++i) own += filled[i].size();
         const std::vector<std::uint64_t> lengths = gather_values(team, own);
-        const std::ptrdiff_t before = team != nullptr ? team->rank : 0; // processes that write before it
+        const std::ptrdiff_t before = team != nullptr ? team->rank : 0; // processes before this one
         std::uint64_t at = std::accumulate(lengths.begin(), lengths.begin() + before, offset);
         offset = std::accumulate(lengths.begin(), lengths.end(), offset);
         for (std::size_t i = 0; i < count; at += filled[i++].size()) write(at, filled[i]);

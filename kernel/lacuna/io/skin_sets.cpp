@@ -32,7 +32,8 @@ Deck skin_as_sets(Deck deck, DeckFormat format)
     const bool has_faces = from.is_mesh && from.skin == Format::Skin::quads && deck.format != DeckFormat::unv;
     if (!has_faces || format_of(format).skin == Format::Skin::quads) return deck;
     const std::vector<DeckSide> below = sides_below(deck);
-    std::unordered_map<DeckTag, std::vector<std::string>> names; // for the elements that become sets
+    std::unordered_map<DeckTag, std::vector<std::string>> names; // for each element that becomes sets: the
+                                                                 // names of these sets
     each_element(deck, [&](const DeckBlock& block, std::size_t e, std::size_t i) {
         if (below[i].side > 0) names[block.tags[e]];
     });

@@ -61,7 +61,7 @@ private:
 
     std::string path_;
     std::shared_ptr<const Folder> folder_; ///< null: the path is resolved when the file is opened
-    std::string name_;                     ///< inside the folder
+    std::string name_;                     ///< name of the file inside the folder
 };
 
 /// A file that appears completely or not at all.
@@ -113,8 +113,8 @@ private:
     void open_named();
     struct LeftOver {
         int folder;              ///< folder that contains it
-        const char* name;        ///< inside the folder
-        pid_t process = 0;       ///< that created it, according to its name
+        const char* name;        ///< name of the file inside the folder
+        pid_t process = 0;       ///< the process that created it, according to its name
         std::time_t written = 0; ///< time of the last write [s]
     };
     /// Remove abandoned files next to the path whose names begin with `prefix`.
@@ -124,13 +124,13 @@ private:
     void remove_placed() const noexcept;
 
     std::string path_;                     ///< for messages
-    std::shared_ptr<const Folder> folder_; ///< that contains the file
-    std::string name_;                     ///< inside the folder
+    std::shared_ptr<const Folder> folder_; ///< the folder that contains the file
+    std::string name_;                     ///< name of the file inside the folder
     std::string unfinished_;               ///< temporary name; empty: none
     int descriptor_ = -1;
     std::uint64_t end_ = 0;                   ///< end of the appended bytes
     std::uint64_t reserved_ = 0;              ///< end of the reserved space
-    std::uint64_t cached_;                    ///< as `cache_up_to()`
+    std::uint64_t cached_;                    ///< see `cache_up_to()`
     std::atomic<bool> can_pass_cache_ = true; ///< false once the system has reported that it cannot
 };
 

@@ -66,7 +66,7 @@ Vec3 centroid(const HexMesh& mesh, std::size_t level)
 {
     const Vec3* const node = mesh.nodes.data() + level * index(mesh.nodes_per_layer);
     Vec3 normal = Vec3::Zero();
-    const auto area = [&](const Quad& q, std::size_t k) { // of the triangle of corners 0, k, k + 1
+    const auto area = [&](const Quad& q, std::size_t k) { // area vector of triangle 0, k, k + 1
         const Vec3& from = node[q[0]];
         return Vec3((node[q[k]] - from).cross(node[q[k + 1]] - from) / 2);
     };

@@ -80,7 +80,7 @@ private:
 /// A face or curve of a loaded model.
 struct CadEntity {
     std::shared_ptr<const CadSource> source;
-    int tag = 0; ///< in the source file
+    int tag = 0; ///< tag of the entity in the source file
 };
 
 /// A face of a loaded model, as an exact surface.

@@ -16,7 +16,7 @@ std::vector<SkinSide> skin_sides(const mesh::ClosedSkin& skin);
 
 /// The triangles that remain to be filled with tetrahedra once each quad has a pyramid.
 struct PyramidLayer {
-    std::vector<Vec3> points;                      ///< those of the skin, then the apex of each quad
+    std::vector<Vec3> points;                      ///< the points of the skin, then the apex of each quad
     std::vector<std::vector<Triangle>> face_sides; ///< for each face of the skin: the triangle itself, or the
                                                    ///< four sides of its pyramid
 };

@@ -103,13 +103,13 @@ private:
     std::timed_mutex busy_; ///< held during a request
     std::unique_ptr<cad_protocol::Channel> channel_;
     cad_protocol::Descriptor process_; ///< a pidfd
-    cad_protocol::Descriptor words_;   ///< its output
+    cad_protocol::Descriptor words_;   ///< file that receives the output of the process
     cad_protocol::Hello hello_;
     pid_t pid_ = 0;
     pid_t owner_ = 0;                 ///< the process that started it: the host
     bool ended_ = false;              ///< the process ended by itself or was killed by this object; guarded
                                       ///< by `busy_`
-    int status_ = 0;                  ///< its exit status, as from wait()
+    int status_ = 0;                  ///< exit status of the process, as from wait()
     std::string end_;                 ///< why this object killed it
     std::atomic<bool> spent_ = false; ///< loading or meshing failed, so the state of Gmsh is unknown
     std::mutex released_mutex_;

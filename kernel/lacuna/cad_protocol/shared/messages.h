@@ -58,7 +58,7 @@ struct SentFile {
 struct LoadFile {
     enum Format : std::uint8_t { step, iges, brep, script };
     std::uint8_t format = step;
-    std::string path;               ///< as given by the user, for messages
+    std::string path;               ///< path as the user gave it, for messages
     std::vector<SentFile> contents; ///< the file itself, then the files that a script merges
 };
 
@@ -89,7 +89,7 @@ struct LoadReply {
         std::vector<std::array<Vec2, 3>> uv;
     };
     std::uint64_t model = 0; ///< handle of the model
-    double diagonal = 0;     ///< of the exact bounding box [file length]
+    double diagonal = 0;     ///< diagonal of the exact bounding box [file length]
     std::vector<Vec3> points;
     std::vector<std::int32_t> vertex_tags; ///< vertex k is point k
     std::vector<Edge> edges;
@@ -144,7 +144,7 @@ struct FillSkinRequest {
     std::vector<std::vector<Triangle>> shells;
 };
 struct FillSkinReply {
-    std::vector<Vec3> points; ///< those of the request first
+    std::vector<Vec3> points; ///< points of the request, then inner points
     std::vector<Quad> tets;   ///< the corners of each tetrahedron
 };
 
@@ -217,7 +217,7 @@ struct MakeSolidReply {
 };
 
 struct ReleaseRequest {
-    std::uint64_t handle = 0; ///< of a model or a solid under construction
+    std::uint64_t handle = 0; ///< handle of a model or a solid under construction
 };
 
 // --- bytes --------------------------------------------------------------------------------------------

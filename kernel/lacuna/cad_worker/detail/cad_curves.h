@@ -18,7 +18,8 @@ struct CadCurveInfo {
     double length = 0;          ///< length of a fine polyline [file length]
     std::vector<double> params; ///< parameters of that polyline, ascending
     std::vector<Vec3> points;
-    std::vector<std::size_t> pieces; ///< in CadWire::pieces, along the curve; empty if the curve is a point
+    std::vector<std::size_t> pieces; ///< indices in CadWire::pieces, in order along the curve; empty if the
+                                     ///< curve is a point
 };
 
 /// A part of a curve between two vertices. Pieces that coincide within the tolerance are sewn to one edge of
@@ -33,9 +34,9 @@ struct CadPiece {
 
 /// The edge of a set of sewn pieces; the master piece defines its shape.
 struct CadEdge {
-    std::size_t master = 0; ///< in CadWire::pieces
+    std::size_t master = 0; ///< index in CadWire::pieces
     int tag = 0;
-    std::vector<double> params; ///< on the master's curve, both ends included
+    std::vector<double> params; ///< parameters on the master's curve, both ends included
     std::vector<Index> points;  ///< model points
 };
 

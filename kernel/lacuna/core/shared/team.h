@@ -56,7 +56,8 @@ public:
 };
 
 /// The strings of all processes, by rank. Only valid inside `do_together()`. Null: this process works alone.
-/// @throw TeamFailed  a process failed; has its code, and its message with the number of the process.
+/// @throw TeamFailed  another process failed. The error has the code of that failure, and its message with
+///        the number of the process.
 std::vector<std::string> gather(const Team* team, const std::string& own);
 
 /// Run `work` on all processes of a team. If it fails on one process it fails on all, at the next `gather()`

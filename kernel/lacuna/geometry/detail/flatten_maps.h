@@ -13,7 +13,7 @@ namespace lacuna::geometry::flat {
 /// The shape of a triangle in the plane, with derived quantities.
 struct Shape {
     double area = 0;              ///< limited from below, against rounding
-    std::array<Vec2, 3> gradient; ///< of the hat function of each corner
+    std::array<Vec2, 3> gradient; ///< gradient of the hat function of each corner
     bool thin = false;            ///< degenerate: the height is at most √ε times the longest side
 };
 

@@ -68,7 +68,8 @@ public:
     struct FacetPosition {
         Index triangle = -1;             ///< -1 only if there are no triangles
         Vec3 barycentric = Vec3::Zero(); ///< in [0, 1], sum 1
-        double distance = 0;             ///< from the triangle; zero up to rounding inside the facets
+        double distance = 0;             ///< distance of the point from the triangle; zero up to rounding
+                                         ///< inside the facets
     };
     /// The triangle at a point; outside all triangles, the closest point of the closest triangle.
     [[nodiscard]] FacetPosition locate(const Vec2& place) const;

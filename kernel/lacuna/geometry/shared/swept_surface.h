@@ -61,7 +61,7 @@ private:
 struct SweptEdge {
     std::shared_ptr<const ExactCurve> curve; ///< null: the polyline
     std::vector<Vec3> points;
-    std::vector<double> params; ///< of each point
+    std::vector<double> params; ///< parameter of each point
 };
 
 /// The surface that an edge sweeps between two heights. Its parameters are the parameter of the edge and the

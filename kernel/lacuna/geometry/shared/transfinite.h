@@ -10,8 +10,8 @@ namespace lacuna::geometry {
 
 /// Options of `transfinite()`.
 struct TransfiniteOptions {
-    /// How the ends of a grid line on opposite sides are weighted: by the arc length of the sides (true), so
-    /// that graded sides give a graded grid, or by the number of the point (false).
+    /// How a point on a side is located: by its relative arc length (true), so that graded sides give a
+    /// graded grid, or by its number (false).
     bool by_arc_length = true;
 };
 

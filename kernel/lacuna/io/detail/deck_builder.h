@@ -172,7 +172,7 @@ private:
 
     Deck deck_;
     std::map<std::pair<int, int>, Index> regions_;
-    std::vector<std::vector<std::uint64_t>> places_; ///< for each element of each block
+    std::vector<std::vector<std::uint64_t>> places_; ///< place in the file of each element of each block
     std::map<std::string, std::size_t> passed_over_;
     std::map<std::string, std::size_t> further_nodes_; ///< for each element type, the largest number of
                                                        ///< surplus nodes

@@ -28,8 +28,8 @@ struct BulkPlace {
 struct AddedMesh {
     std::span<const Index> points; ///< the deck's point for each node of the mesh; -1: the node is new
     double scale = 1;              ///< factor from the mesh's coordinates to the deck's
-    bool skin_cells = false;       ///< quads of the skin become elements, and groups of the skin sets of
-                                   ///< these
+    bool skin_cells = false;       ///< quads of the skin become elements; groups of the skin become sets of
+                                   ///< these elements
     /// Quads of the skin that are elements of the deck already, by their sorted nodes; new quads are added.
     /// Null: meshes do not share quads.
     std::map<Quad, DeckTag>* skin_tags = nullptr;

@@ -114,7 +114,8 @@ private:
     DeckPlace first_superelement_;
     std::map<std::string, std::pair<int, std::string>> known_;  ///< superelement and fields of cards that are
                                                                 ///< read and kept, by card
-    std::multimap<std::string, Waiting> cards_, continuations_; ///< by the names of continuations
+    std::multimap<std::string, Waiting> cards_, continuations_; ///< waiting cards and continuations, by the
+                                                                ///< name of the continuation
     std::deque<std::string> owned_;                             ///< fields of the waiting cards
     std::optional<std::vector<std::string>> awaited_; ///< names that lines of the deck give to their
                                                       ///< continuations, sorted

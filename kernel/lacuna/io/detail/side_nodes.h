@@ -31,7 +31,7 @@ private:
     static Nodes nodes_of(mesh::CellShape shape, std::span<const Index> cell, int side);
 
     std::vector<mesh::CellSide> sides_; ///< rising
-    std::vector<Nodes> nodes_;          ///< for each of them
+    std::vector<Nodes> nodes_;          ///< nodes of each of these sides
 };
 
 } // namespace lacuna::io

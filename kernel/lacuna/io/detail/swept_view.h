@@ -47,7 +47,7 @@ public:
 
     const mesh::HexMesh& mesh;
     mesh::CellKinds kinds;
-    std::size_t triangles, quads; ///< of the source
+    std::size_t triangles, quads; ///< numbers of triangles and quads of the source
     std::array<std::size_t, 4> count;
 
 private:

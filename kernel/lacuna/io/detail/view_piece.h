@@ -14,7 +14,7 @@ namespace lacuna::io {
 struct PieceView {
     std::shared_ptr<const mesh::MeshView> view;
     mesh::Runs ghost_points;
-    std::vector<mesh::Runs> ghost_cells; ///< for each block
+    std::vector<mesh::Runs> ghost_cells; ///< for each block, the mark of each cell
 };
 
 /// View one part with its ghosts. The ghosts are among the part's own cells, in the original order. Points

@@ -13,7 +13,7 @@ namespace lacuna::io {
 struct MeshSkin {
     topology::OpenVolume volume; ///< closed; all its faces are walls, and have the tags and names of the
                                  ///< patches
-    std::vector<FaceId> face;    ///< for each patch
+    std::vector<FaceId> face;    ///< the face of each patch
 };
 
 /// @throw InvalidInput "io.skin_in_pieces"  a patch has no quads, or its quads are not connected.

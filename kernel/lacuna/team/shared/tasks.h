@@ -21,12 +21,12 @@ namespace lacuna::team {
 /// Options of writing a layered mesh.
 struct LayeredFile {
     bool binary = true;
-    double version = 4.1;                   ///< of the MSH format
+    double version = 4.1;                   ///< version of the MSH format
     std::vector<quality::Metric> quality{}; ///< written as cell fields; not for decks
     std::string material{};                 ///< material name, for decks
     io::PartitionOptions partition{};       ///< for .msh and .pvtu
-    bool all_groups = false;                ///< for .msh, as `io::MeshFileOptions::all_groups`
-    std::string unit{};                     ///< as `io::MeshFileOptions::unit`
+    bool all_groups = false;                ///< for .msh, see `io::MeshFileOptions::all_groups`
+    std::string unit{};                     ///< see `io::MeshFileOptions::unit`
 };
 
 /// Write a mesh whose nodes are computed during writing. The ending of the path determines the format. A
