@@ -78,8 +78,8 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
     }
 }
 
-/// Cubic interpolation through the four nearest samples: the error of the arc
-/// length is far below any tolerance.
+/// The curve parameter at a share, by cubic interpolation through the four nearest samples. The error of the
+/// arc length is far below any tolerance.
 double EdgeShape::parameter(double share) const
 {
     const std::size_t n = fine_shares_.size();

@@ -126,7 +126,7 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
     }
     Task task{formatted("a region of {} boundary sides", sides), "filling it with quads"};
     task.context = &context;
-    task.points = sides * sides / 16; // quads of a round region with this number of boundary segments
+    task.points = sides * sides / 16; // estimate: quads in a round region with this number of boundary sides
     try {
         auto reply =
             Worker::current(&context, task.subject)->ask<RecombineReply>(Opcode::recombine, request, task);

@@ -130,7 +130,8 @@ struct Deck {
     std::string path;
     DeckFormat format = DeckFormat::nastran;
     double version = 0;              ///< version of the format, for .msh and .vtk
-    std::string unit{};              ///< declared unit of its lengths, as `metres_of()`; empty: none
+    std::string unit{};              ///< declared unit of its lengths, a name that `metres_of()` knows;
+                                     ///< empty: none
     std::vector<Vec3> points;        ///< in the basic frame [the file's length], in the file's order
     std::vector<DeckTag> point_tags; ///< unique
     /// Fields of a node's card after its coordinates, as in the file, separated by commas; for example the

@@ -39,11 +39,11 @@ struct JoinedBefore {
     std::map<std::string, Index> regions{}; ///< regions, by the names of the meshes
 };
 
-/// Combine a deck with the mesh that fills a void of it into one conformal mesh. The deck keeps its numbers.
-/// A skin node that coincides with a node of the deck is that node; middle nodes are those of the deck's
-/// sides.
+/// Combine a deck with the mesh that fills one of its voids into one conformal mesh. The deck keeps its
+/// numbers. Where a skin node of the mesh coincides with a node of the deck, the deck's node is used. Middle
+/// nodes on sides of the deck are the deck's, too.
 ///
-/// Groups of the skin become sets as in `write_mesh()`; in UNV also sets of nodes. The new region gets the
+/// Groups of the skin become sets as in `write_mesh()`, but sets of nodes in UNV. The new region gets the
 /// number after the highest property. If several nodes of the deck coincide, the skin uses the node of the
 /// elements whose face it shares; if it shares none, that of the elements whose side it shares.
 ///

@@ -302,8 +302,8 @@ private:
         const NcArray* property = head_.find("eb_prop2");
         const bool several = property != nullptr && property->name == kRegionProperty;
         const std::vector<std::int64_t> whole = several ? head_.wholes(*property, "eb_prop2", count) : id;
-        std::map<std::int64_t, std::optional<Index>> regions; // region of the blocks, by the id of its first
-                                                              // block
+        std::map<std::int64_t, std::optional<Index>> regions; // region of each group of blocks, by the id of
+                                                              // its first block
         std::size_t first = 0;
         for (std::size_t b = 0; b < count; ++b) {
             std::optional<Index> own;

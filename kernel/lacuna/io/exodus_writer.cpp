@@ -216,7 +216,7 @@ struct Block {
 /// The positions, from 0, of nodes or elements in the file, by their numbers.
 class Places {
 public:
-    /// Add the numbers that follow those added before.
+    /// Add numbers. Their positions follow those of the numbers added before.
     void add(const mesh::Numbers& numbers, std::size_t begin, std::size_t end)
     {
         numbers.each_range(begin, end, [&](std::size_t first, std::size_t last) {
@@ -291,7 +291,8 @@ private:
     struct Set {
         std::string name;
         mesh::Ranges members{};                             ///< positions of the members, from 1
-        std::shared_ptr<std::vector<std::int32_t>> sides{}; ///< for each member; null: not a set of sides
+        std::shared_ptr<std::vector<std::int32_t>> sides{}; ///< for each member, the number of its side;
+                                                            ///< null: not a set of sides
     };
 
     void find_blocks()

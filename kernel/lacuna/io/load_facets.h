@@ -38,8 +38,8 @@ struct FacetFile {
 /// | .obj | points and polygons; more than four corners are split | an `o` or `g` line; numbered in order |
 /// | .msh | 1.0, 2.x, 4.0 and 4.1, text and binary | an entity; a physical group |
 /// | .unv | nodes 15, 781, 2411; elements 71, 780, 2412; groups 752 to 2477 | a property; a group |
-/// | .bdf .nas .dat | Nastran bulk data: free, small, large fields; INCLUDE beside it | a property |
-/// | .inp | Abaqus, CalculiX: parts, instances, assemblies; INCLUDE beside it | a section; a set or surface |
+/// | .bdf .nas .dat | Nastran bulk data: free, small, large fields; INCLUDE in its folder | a property |
+/// | .inp | Abaqus, CalculiX: parts, instances; INCLUDE in its folder | a section; a set or surface |
 /// | .vtk | legacy 1 to 5.1, text and binary: polygons, strips, cells | all one |
 /// | .vtu | text, base64 and appended, compressed by zlib | all one |
 /// | .mesh | Medit, text | a reference number |

@@ -82,7 +82,7 @@ CadWire read_wire(double tolerance);
 /// edge.
 void divide(CadWire& wire, const Fineness& fineness, const std::vector<double>& refinement);
 
-/// Parameters of a piece at the points of its edge, and those points, both in the direction of the piece.
+/// Parameters and model points of a piece at the points of its edge, in the direction of the piece.
 struct PieceNodes {
     std::vector<double> params;
     std::vector<Index> points;

@@ -24,12 +24,12 @@ public:
     /// The faces at an edge; a face that uses it twice is listed twice.
     [[nodiscard]] const std::vector<FaceId>& users(EdgeId e) const { return users_[e.index()]; }
     [[nodiscard]] bool is_free(EdgeId e) const { return !is_gone(e) && users_[e.index()].size() == 1; }
-    /// Is the edge used twice by the same face?
+    /// Whether the same face uses the edge twice.
     [[nodiscard]] bool is_seam(EdgeId e) const
     {
         return users(e).size() == 2 && users(e).front() == users(e).back();
     }
-    /// Has a face at the edge a mesh that must be kept?
+    /// Whether a face at the edge has a mesh that must be kept.
     [[nodiscard]] bool keeps_mesh(EdgeId e) const;
     /// Edges of each face in loop order, one entry per use.
     [[nodiscard]] std::vector<std::vector<EdgeId>> edges_of_faces() const;
