@@ -102,7 +102,7 @@ private:
         const Vec3 along = (at(to) - at(from)).normalized(), foot = (at(from) + at(to)) / 2;
         const auto across = [&](const Vec3& v) -> Vec3 { return v - v.dot(along) * along; };
         const Vec3 base = across(p.centre - foot);
-        const Vec3 x = base.normalized(), y = x.cross(along); // into the face, and off it into the volume
+        const Vec3 x = base.normalized(), y = x.cross(along); // x: away from the side; y: into the volume
         double angle = kFullTurn, share = kShare;
         const std::size_t triangles = skin_.triangles.size(), self = triangles + quad;
         auto side = std::lower_bound(sides_.begin(), sides_.end(), std::pair(to, from),

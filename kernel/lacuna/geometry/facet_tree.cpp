@@ -196,9 +196,9 @@ FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> tri
     bounds_ = node_.front().box;
 }
 
-/// Build the nodes over triangles [begin, end), starting at node `self`; the
-/// lower half precedes the upper half.
-/// @return  the node after them.
+/// Build the nodes over the triangles [begin, end), starting at node `self`. The nodes of the lower half come
+/// before those of the upper half.
+/// @return  index of the node after the last one that was built.
 std::uint32_t FacetTree::build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
                                int threads, const RunContext& context)
 {
@@ -394,8 +394,8 @@ Vec3 heights_over(const Corners& of, const Corners& plane, const Vec3& normal, d
     return result;
 }
 
-/// The interval that a triangle occupies on the line in which two planes intersect: between the parameters of
-/// its corners on the other plane and of its sides that cross that plane.
+/// The interval that a triangle occupies on the line in which two planes intersect. Its ends are corners on
+/// the other plane, or places where sides cross that plane.
 std::pair<double, double> stretch(const Corners& c, const Vec3& heights, const Vec3& origin, const Vec3& line)
 {
     std::pair<double, double> range{kInfinity, -kInfinity};

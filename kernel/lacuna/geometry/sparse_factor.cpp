@@ -17,7 +17,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 /// Number of multiplications between checks for cancelling.
 constexpr long kWorkBetweenPolls = 100'000;
 
-/// The rows of L that each row of a matrix fills, found with the elimination tree.
+/// For each row of L, the columns in which it has entries, found with the elimination tree.
 class RowPattern {
 public:
     explicit RowPattern(int size) : parent_(index(size), -1), met_(index(size), -1), row_(index(size)) {}

@@ -146,7 +146,7 @@ std::vector<Vec3> patch_normals(const Facets& facets, const FacetSides& sides, c
     for (const Triangle& corners : facets.corner) area.push_back(area_vector(facets.points, corners));
     std::vector<double> flattest(facets.count(), -1);
     std::vector<Index> seen(facets.count(), -1);
-    std::vector<std::pair<Index, bool>> patch; // facets in order of their distance; reversed?
+    std::vector<std::pair<Index, bool>> patch; // facets in order of distance, and whether each is reversed
     for (Index seed = 0; index(seed) < facets.count(); ++seed) {
         if (index(seed) % kBetweenPolls == 0) check_cancelled(context);
         patch.assign(1, {seed, false});

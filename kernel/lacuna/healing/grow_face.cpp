@@ -159,7 +159,7 @@ void arrange(const topology::Model& before, Index seed, GrownFace& found)
 {
     topology::ModelBuilder model(std::move(found.model));
     const std::size_t count = before.faces.size();
-    std::vector<std::vector<std::size_t>> parts(count + 1); // by label, the largest first
+    std::vector<std::vector<std::size_t>> parts(count + 1); // faces of each label, the largest first
     for (std::size_t f = 0; f < model.faces.size(); ++f) parts[std::stoul(model.faces[f].name)].push_back(f);
     for (std::vector<std::size_t>& of : parts)
         std::ranges::stable_sort(of, std::greater{},

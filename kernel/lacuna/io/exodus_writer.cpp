@@ -213,7 +213,7 @@ struct Block {
     int whole = 0; ///< id of the first block of its region
 };
 
-/// The positions, from 0, of nodes or elements in the file, by their numbers.
+/// Maps the numbers of nodes or elements to their positions in the file, from 0.
 class Places {
 public:
     /// Add numbers. Their positions follow those of the numbers added before.

@@ -196,7 +196,7 @@ private:
         }
     }
 
-    /// Null if the patch belongs to a void face.
+    /// The model's face on which a patch lies; null for a patch of a void face.
     [[nodiscard]] const topology::Face* face_of(const mesh::SkinPatch& patch) const
     {
         if (patch.face == 0) return nullptr;

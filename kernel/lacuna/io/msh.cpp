@@ -396,7 +396,7 @@ private:
                  all + numbers_.gap() + "$EndEntities\n";
     }
 
-    /// Add an entity for each part of each entity.
+    /// For each entity and each part that has a share of it, add the entity of that share.
     void add_part_entities()
     {
         // If entities are numbered over all dimensions together, so are the entities of parts.

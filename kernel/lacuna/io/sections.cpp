@@ -292,7 +292,7 @@ void write_file(const OutputPath& path, const std::vector<Section>& sections, Si
 {
     SharedFiles shared({path}, team);
     shared.write(0, sections, sizes, "writing " + path.text(), context, team);
-    gather(team, {}); // everything is written
+    gather(team, {}); // wait until all processes have written
     if (!shared.files.empty()) shared.files.front()->commit();
 }
 
@@ -307,7 +307,7 @@ void write_files(const std::vector<FileOfSet>& files, const OutputPath& head_pat
     for (std::size_t f = begin; f < end; ++f)
         shared.write(f, files[f].sections(), Sizes::exact, "writing " + files[f].path.text(), context,
                      nullptr);
-    gather(team, {}); // everything is written
+    gather(team, {}); // wait until all processes have written
     if (shared.files.empty()) return;
     shared.files.back()->append(head);
     commit_together(shared.files);

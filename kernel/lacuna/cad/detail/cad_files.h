@@ -34,7 +34,7 @@ struct CadFiles {
     std::vector<Message> notes;                        ///< script commands that are skipped
 };
 
-/// The first bytes of a file, `most` at most.
+/// The first bytes of a file: all, or at most the number `most`.
 std::string text_of(const cad_protocol::Descriptor& file, std::size_t most);
 
 /// Open CAD files and check that their contents agree with their endings. A script is parsed. Files of its

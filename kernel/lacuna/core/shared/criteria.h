@@ -41,8 +41,8 @@ inline constexpr double kCreaseAngle = 30;
 /// 270°).
 inline constexpr double kCornerBelow = 135, kReversalAbove = 225;
 
-/// Two edges belong to one curve if they turn by less than 20°, of which this is the cosine: imprints split
-/// circles into edges of single chords, and coarse circles have some twenty chords.
+/// Cosine of 20°. Two edges belong to one curve if they turn by less: imprints split circles into edges of
+/// single chords, and even coarse circles have some twenty chords.
 inline constexpr double kOneCurve = 0.94;
 
 /// An edge continues a line beyond a vertex if they turn by less than 45°, half way between straight and a
