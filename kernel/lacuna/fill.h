@@ -124,7 +124,7 @@ struct FilledShell {
 FilledShell quads(const topology::Model& model, const std::vector<FaceId>& faces,
                   const sweep::SweepOptions& options = {}, const RunContext& context = {});
 
-/// A model with one face for each region of the shell, which keeps the quads. It can be shown or swept.
+/// A model of the shell with one face for each region. The faces keep the quads. It can be shown or swept.
 topology::Model model_of(const FilledShell& shell, const RunContext& context = {});
 
 } // namespace lacuna::fill

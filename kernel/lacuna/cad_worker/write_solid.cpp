@@ -39,8 +39,8 @@ std::string faults_of_model(double diagonal)
     return open == 0 ? "" : formatted("{} open edges", open);
 }
 
-/// Cut a box around the faces by the faces. @return the part that is bounded by exactly these faces; 0 if
-/// there is none.
+/// Divide a box, which encloses the faces, by the faces. @return the part that is bounded by exactly these
+/// faces; 0 if there is none.
 ///
 /// Sewing removes the zero-length edges at poles and tips, after which Open CASCADE reports the faces there
 /// as invalid. Cutting keeps these edges but takes longer.

@@ -117,7 +117,7 @@ std::vector<std::string_view> nastran_fields(std::string_view line);
 struct TextNumbers {
     std::set<DeckTag> nodes, cells;
     DeckTag set = 0, property = 0;       ///< the highest ones
-    std::vector<std::string> surfaces{}; ///< names in Abaqus
+    std::vector<std::string> surfaces{}; ///< names of surfaces in Abaqus
 };
 TextNumbers numbers_in_text(const Deck& deck);
 
