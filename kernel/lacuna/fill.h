@@ -32,7 +32,7 @@ namespace lacuna::fill {
 /// Options for sweeping one volume.
 struct SweepRequest {
     sweep::SweepOptions options;
-    /// With `options.layered`: whether the pieces of a cut volume may also create their nodes on writing.
+    /// With `options.layered`: whether pieces of a cut volume may also compute their nodes during writing.
     bool layered_parts = true;
 };
 
@@ -42,15 +42,15 @@ struct Request {
     std::optional<matching::MatchOptions> match; ///< none: the volume is matched only if closing needs it
     std::optional<closure::CloseOptions> close;  ///< none: default closing shapes
     SweepRequest sweep;
-    /// The meshes that the model was read from, whose mid-side nodes are reused at order 2. `scale` is
-    /// the factor from their coordinates to those of the model.
+    /// The meshes that the model was read from; order 2 reuses their mid-side nodes. `scale` converts their
+    /// coordinates to those of the model.
     std::vector<std::shared_ptr<const io::Deck>> decks;
     double scale = 1;
-    std::string unit; ///< declared unit of the model's lengths, as `io::metres_of()`; empty: none
+    std::string unit; ///< unit of the model's lengths, a name that `io::metres_of()` knows; empty: none
 };
 
 /// Mesh the void that the faces of a model bound: open(), match(), close() and sweep().
-/// @throw  as these; the model is not modified.
+/// @throw  what these functions throw; the model is not modified.
 Filled fill(const topology::Model& model, const Request& request = {}, const RunContext& context = {});
 
 /// Close a volume if it is still open, and sweep it. A volume with steps or branches, or one that makes a
@@ -67,8 +67,8 @@ struct Member {
     const FilledVolume* mesh = nullptr;
     const FilledParts* parts = nullptr;
     sweep::SweepOptions options{}; ///< for `volume`
-    /// Whether these options were given for this volume alone: then this volume must have the faces that they
-    /// name. Otherwise at least one volume of the assembly must have them.
+    /// Whether these options were given for this volume alone. If so, this volume must have the faces that
+    /// they name; otherwise it is enough that one volume of the assembly has them.
     bool own_boundary_layers = false, own_intervals = false;
 };
 
@@ -80,9 +80,11 @@ struct Member {
 Filled sweep(std::span<const Member> members, const RunContext& context = {});
 
 /// A copy of a mesh, rotated, translated or mirrored. Cells of a mirrored mesh stay positive: their quads are
-/// turned over. In an assembly, nodes of a copy move by rounding onto those of other members.
-/// @param by    keeps all lengths.
-/// @param name  region of the copy, or of several regions the start of their names; empty: as they are.
+/// turned over. In an assembly, nodes of the copy that differ from those of other members by rounding only
+/// are moved onto them.
+/// @param by    a motion or mirroring that keeps all lengths.
+/// @param name  name of the copy's region. If the mesh has several regions, their names start with it. Empty:
+///              regions keep their names.
 /// @pre  the mesh stores its nodes.
 /// @throw InvalidInput "fill.copy_mixed"  the mesh has tetrahedra.
 FilledVolume moved(FilledVolume mesh, const Eigen::Affine3d& by, const std::string& name = {});
@@ -93,33 +95,36 @@ struct PatternOptions {
     bool numbered = false; ///< regions are named `name_1`, `name_2` …; else copies are one region
 };
 
-/// A mesh and copies of it, each moved by `step` against the one before, as one mesh.
+/// A mesh and its copies as one mesh. Each copy is the previous one, moved by `step`.
 ///
-/// Faces that coincide become one, with common nodes, and are in no group. The groups of copies are joined.
-/// Copies are compared with the first mesh alone, since two copies lie as that and a third.
-/// @throw InvalidInput "fill.pattern_count"; "fill.copy_mixed"; as `sweep::sweep_assembly()`: copies that
-///        overlap, or share a face in part. NotSweepable "assembly.not_shared"  faces coincide and their
-///        quads differ; "assembly.hanging_node". Cancelled
-/// @note  24 bytes per node, and the quads of the source for each copy.
+/// Faces that coincide become one: they share their nodes and leave their groups. Copies of a group form one
+/// group. Only the first mesh is compared with the copies: any two copies are placed like the first mesh and
+/// one of its copies.
+/// @throw InvalidInput "fill.pattern_count"; "fill.copy_mixed"; as `sweep::sweep_assembly()`: copies overlap,
+///        or share part of a face. NotSweepable "assembly.not_shared": faces coincide, but their quads
+///        differ; "assembly.hanging_node". Cancelled
+/// @note  Memory: 24 bytes per node, and the source quads of each copy.
 FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const PatternOptions& options = {},
                     const RunContext& context = {});
 
 /// Quads on faces, without layers.
 struct FilledShell {
-    io::Deck deck; ///< quads of 4, 8 or 9 nodes and kept triangles; a region for each face or name of faces
-    double min_scaled_jacobian = 1, mean_scaled_jacobian = 1; ///< of the quads' corners, in their planes
-    double area = 0, face_area = 0; ///< of the quads, and of the faces' facets [model length²]
+    io::Deck deck; ///< quads of 4, 8 or 9 nodes and kept triangles; one region for each face, or each name of
+                   ///< faces
+    double min_scaled_jacobian = 1, mean_scaled_jacobian = 1; ///< over the corners of all quads, each
+                                                              ///< measured in its own plane
+    double area = 0, face_area = 0; ///< area of the quads, and of the facets of the faces [model length²]
     std::vector<std::string> report;
 };
 
 /// Mesh faces of a model with quads that conform along common edges. Given quads are kept.
-/// @param options  those of the source's quads: size, curvature, gap, quads, order, second_order
-/// @throw InvalidInput  as `sweep::check()`; "fill.no_faces"  there are no faces. NotSweepable  as
-///        `surface::mesh_source()`; "sweep.folded_quads"  names the face and the place. Cancelled
+/// @param options  used: size, curvature, gap, quads, order, second_order
+/// @throw InvalidInput  as `sweep::check()`; "fill.no_faces": there are no faces. NotSweepable  as
+///        `surface::mesh_source()`; "sweep.folded_quads": the message names the face and the place. Cancelled
 FilledShell quads(const topology::Model& model, const std::vector<FaceId>& faces,
                   const sweep::SweepOptions& options = {}, const RunContext& context = {});
 
-/// The quads as a model, one face for each region, that keeps them: to be shown, or swept.
+/// A model of the shell with one face for each region. The faces keep the quads. It can be shown or swept.
 topology::Model model_of(const FilledShell& shell, const RunContext& context = {});
 
 } // namespace lacuna::fill

@@ -458,8 +458,8 @@ TEST_CASE("parts are put in place instance by instance, and numbers stay findabl
              {"*Element, type=C3D8\n1,1,2,3\n*Node\n", "line 2: expected 8 nodes"},
              {"*Node\n1,0,0,0\n*Element, type=S3\n1,1,1,9\n", "names node 9"},
              {"*Elset, elset=a\nb\n", "'b'"},
-             {"*Elset, elset=a, generate\n1, 900000000, 1\n", "more than the file"},
-             {"*Nset, nset=a, generate\n5, 1, 1\n", "rises"},
+             {"*Elset, elset=a, generate\n1, 900000000, 1\n", "too many entries"},
+             {"*Nset, nset=a, generate\n5, 1, 1\n", "increasing"},
              {"*Ngen\n1,5\n", "*NGEN"},
              {"*System\n1,2,3\n", "*SYSTEM"},
              {"*Include, input=/etc/passwd\n", "deck's folder"},
@@ -620,7 +620,7 @@ TEST_CASE("named continuations of Nastran are found wherever they lie, and kept 
     const std::string flat = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
     const std::string astray = flat + "CTRIA3,7,1,1,2,3,,,,+W\n+X,1,2\n";
     CHECK(has(deck_failure("a.bdf", astray),
-              "line 4: CTRIA3: its continuation '+W' is not there, and '+X,1,2'"));
+              "line 4: CTRIA3: its continuation '+W' is missing, and the continuation '+X,1,2'"));
     CHECK(io::read_deck("a.bdf", flat + "CTRIA3,7,1,1,2,3,,,,+Y\nCTRIA3,8,1,1,2,3\n").element_count() == 2);
 }
 

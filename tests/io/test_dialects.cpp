@@ -181,14 +181,14 @@ TEST_CASE("replicated cards of Nastran are what they would be written out")
     const std::string flat = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
     const std::string face = "CTRIA3,7,1,1,2,3\n";
     for (const auto& [deck, words] : std::vector<std::pair<std::string, std::string>>{
-             {"=,*(1),=,*(1.),==\n" + flat + face, "line 1: expected the card that = repeats"},
+             {"=,*(1),=,*(1.),==\n" + flat + face, "line 1: expected a complete card right above ="},
              {flat + "=(2)\n" + face, "line 4: expected =n"},
              {flat + "=,*(1),*(2),==\n" + face, "line 4: cannot add '2' to ''"},
              {flat + "=,*(1.5),==\n" + face, "line 4: cannot add '1.5' to '3'"},
              {flat + "=,*(1),=,*(1.),==\n=(0)\n" + face, "line 5: expected =n"},
-             {flat + "=,*(1),=,*(1.),==\n=999999\n" + face, "line 5: =999999 makes more cards"},
+             {flat + "=,*(1),=,*(1.),==\n=999999\n" + face, "line 5: =999999 generates too many cards"},
              {flat + "CTRIA3,7,1,1,2,3,,,,+A\n=,*(1),==\n+A\n",
-              "line 5: expected the card that = repeats"}}) {
+              "line 5: expected a complete card right above ="}}) {
         CAPTURE(deck);
         CHECK_MESSAGE(has(dialect_failure("x.bdf", deck), words), dialect_failure("x.bdf", deck));
     }
@@ -253,7 +253,7 @@ TEST_CASE("decks that end with END BULK, lines without a name and continuations 
     }
     const std::string flat = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
     CHECK(has(dialect_failure("x.bdf", flat + "CTRIA3,7,1,1,2,3,,,,+W\n+X,1,2\n"),
-              "'+X,1,2' is a continuation of no"));
+              "the continuation '+X,1,2' belongs to no card"));
     CHECK(has(dialect_failure("x.bdf", flat + "2.5,7,1,1,2,3\n"), "expected the name of a bulk data card"));
 }
 
@@ -273,16 +273,16 @@ TEST_CASE("superelements are one deck where their numbers do not clash, which is
         const io::Deck read = io::read_deck("x.bdf", head + main + part + "ENDDATA\n");
         CHECK(content_of(read) == content_of(block));
         REQUIRE(read.warnings.size() == 1);
-        CHECK(read.warnings[0] == "x.bdf: read as one deck with its superelements, of which there are 1");
+        CHECK(read.warnings[0] == "x.bdf: read as one deck with its superelements (1)");
         REQUIRE(read.texts.size() == 3);
         CHECK(read.texts[0].text == head + "BEGIN BULK\n");
         CHECK(read.texts[1].text == "MAT1,7,2.1+5,,.3\nPSOLID,1,7\n");
         const std::string all = head + main + part;
         for (const auto& [more, words] : std::vector<std::pair<std::string, std::string>>{
-                 {hex_card(block, 0), "element 1 is there twice"},
-                 {"GRID,1,,5.,5.,5.\n", "the number of this GRID is that of another"},
-                 {"PSOLID,1,8\n", "another has another PSOLID 1"},
-                 {"MAT1,7,1.+5,,.3\n", "another has another MAT1 7"},
+                 {hex_card(block, 0), "element 1 occurs twice"},
+                 {"GRID,1,,5.,5.,5.\n", "another GRID with this number"},
+                 {"PSOLID,1,8\n", "another one has a different PSOLID 1"},
+                 {"MAT1,7,1.+5,,.3\n", "another one has a different MAT1 7"},
                  {"SELOC,3,1,2,3,4,5,6\n", "moved, repeated or mirrored"},
                  {"SEBULK,4,MIRROR,3\n", "moved, repeated or mirrored"}}) {
             if (block.cells() < 2 && has(words, "element")) continue;
@@ -335,7 +335,7 @@ TEST_CASE("MSH files of version 1.0, and physical names of version 2.0, which ha
         CHECK(has(dialect_failure("x.msh", wrong), "has 8 nodes, not 9"));
         wrong = old;
         wrong.replace(wrong.find("$ELM\n"), 5 + cells.size(), "$ELM\n999999999\n");
-        CHECK(has(dialect_failure("x.msh", wrong), "no room"));
+        CHECK(has(dialect_failure("x.msh", wrong), "too short"));
         wrong = named;
         wrong.replace(wrong.find("2 0 8"), 5, "2.2 0 8");
         CHECK(has(dialect_failure("x.msh", wrong), "expected a small whole number, found"));
@@ -441,7 +441,7 @@ TEST_CASE("nodes that an element lists too many are left out with a warning, one
         const io::Deck read = io::read_deck("x.inp", text);
         CHECK(content_of(read) == content_of(block));
         REQUIRE(read.warnings.size() == 1);
-        CHECK(has(read.warnings[0], "elements C3D8 list more nodes than they have"));
+        CHECK(has(read.warnings[0], "elements C3D8 list too many nodes"));
         CHECK(has(read.warnings[0], "up to " + std::to_string(further) + " an element"));
         if (block.cells() > 1) CHECK(has(dialect_failure("x.inp", wrong), "found another count"));
     }

@@ -485,7 +485,7 @@ refused(whole:gsub("       2       9\n", "       1       9\n"), "element 1", "is
 refused("*KEYWORD\n*END\n", "*NODE")
 refused(whole:gsub("%*ELEMENT_BEAM",
     "*ELEMENT_SHELL\n       2       7     101     102     103     104\n*ELEMENT_BEAM"),
-  "element 2", "number solids and shells together")
+  "element 2", "each shell its own number")
 lacuna.convert(at "columns.k", at "columns.feb")
 check.fails(function() lacuna.load(at "columns.feb") end, ".feb")
 

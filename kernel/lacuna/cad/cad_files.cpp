@@ -24,7 +24,7 @@ using io::ending_of;
 
 namespace {
 
-constexpr std::size_t kHead = 4096; // bytes at the beginning, from which the format is recognised
+constexpr std::size_t kHead = 4096; // number of bytes at the beginning by which the format is recognised
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 /// Longest script that is parsed [bytes]; larger than anything written by hand or by Gmsh.
 constexpr std::size_t kLongestScript = std::size_t{64} << 20;
@@ -36,7 +36,7 @@ constexpr std::size_t kMostContents = 100;
     throw BackendError("cad.unreadable", "{} cannot be read: {}", path, std::strerror(error));
 }
 
-/// Write bytes at a place of a file. @param path  for messages
+/// Write bytes at an offset of a file. @param path  name for messages
 void write_at(const Descriptor& file, std::string_view bytes, std::uint64_t at, const std::string& path)
 {
     for (std::size_t done = 0; done < bytes.size();) {
@@ -58,10 +58,10 @@ std::uint64_t digest_of(std::string_view bytes, std::uint64_t before)
 {
     constexpr std::uint64_t kPrime = 0x100000001b3ULL;
     const std::uint64_t mixed = (before ^ std::hash<std::string_view>()(bytes)) * kPrime;
-    return mixed ^ (mixed >> 32); // multiplication leaves low bits independent of a word's upper half
+    return mixed ^ (mixed >> 32); // without this, low bits would not depend on the upper half of a word
 }
 
-/// Whether Gmsh treats a merged file as a script.
+/// Whether Gmsh runs a merged file as a script.
 bool runs_as_script(const std::string& name, const std::string& head)
 {
     const std::string ending = ending_of(name);
@@ -70,8 +70,8 @@ bool runs_as_script(const std::string& name, const std::string& head)
     return !is_step(head) && !is_brep(head);
 }
 
-/// Append a copy of a regular file to the last of the files. A newline is added to a script: without one,
-/// Gmsh's parser silently drops an incomplete last command.
+/// Append a copy of a regular file to the contents of the last of the files. A script gets a newline at its
+/// end: without one, Gmsh's parser silently drops an incomplete last command.
 void add_copy(CadFiles& files, const std::string& folder, const std::string& name, int flags,
               const RunContext& context)
 {
@@ -149,8 +149,8 @@ void skip_commands(CadFiles& files, const Descriptor& script, const std::string&
     write_at(script, text, 0, path);
 }
 
-/// Parse the last of the files, a script, and add the files that it merges, recursively.
-/// @param first  its descriptor
+/// Parse a script, which is the last of the files, and add the files that it merges, recursively.
+/// @param first  index of the script's descriptor
 void add_merged(CadFiles& files, std::size_t first, const std::string& folder, const RunContext& context)
 {
     const std::vector<SentFile>& contents = files.request.files.back().contents;
@@ -219,7 +219,7 @@ CadFiles open_cad_files(const CadOrder& order, const RunContext& context)
         file.format = format_of(path, text_of(files.descriptors[first], kHead));
         if (file.format == LoadFile::script) add_merged(files, first, folder, context);
     }
-    // Seal the copies: no process can modify them any more.
+    // Seal the copies, so that no process can modify them.
     for (const Descriptor& copy : files.descriptors)
         ::fcntl(copy.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL);
     return files;

@@ -24,7 +24,7 @@ bool collinear(std::span<const Vec3> points, double tolerance)
     });
 }
 
-/// Whether a void edge is a polyline of a source, moved along a path with all its kinks.
+/// Whether a void edge is a polyline of a source that was moved along a path and kept its kinks.
 bool is_moved_polyline(const Model& model, EdgeId edge)
 {
     return std::ranges::any_of(model.uses_of_edge(edge), [&](const FaceUse& use) {
@@ -78,8 +78,8 @@ EdgeShape::EdgeShape(const Model& model, EdgeId id)
     }
 }
 
-/// Cubic interpolation through the four nearest samples: the error of the arc
-/// length is far below any tolerance.
+/// The curve parameter at a share, by cubic interpolation through the four nearest samples. The error of the
+/// arc length is far below any tolerance.
 double EdgeShape::parameter(double share) const
 {
     const std::size_t n = fine_shares_.size();

@@ -9,17 +9,17 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Points per request. The overhead of a request is then negligible, and cancelling and other threads wait
-/// for at most 0.1 s. Measured on a million points of a sphere, where it is also faster than 100,000 points
-/// per request.
+/// Number of points per request. The overhead of a request is then negligible, and cancelling and other
+/// threads wait for at most 0.1 s. Measured on a million points of a sphere, for which requests of 100,000
+/// points are slower.
 constexpr std::size_t kAtOnce = 20'000;
-/// How long a request for points may continue after it is cancelled [s]. If it ends within this time the
-/// process, with the models it holds, need not be killed.
+/// Time that a request for points may continue after it is cancelled [s]. If the request ends within this
+/// time, the process and the models it holds need not be killed.
 constexpr double kGrace = 0.3;
 
 /// Ask the process that holds a face or curve for points, `kAtOnce` at a time. Overwrites the points, and on
 /// a surface their parameters.
-/// @param kind   of the entity, for messages
+/// @param kind   kind of the entity, for messages
 /// @param doing  as in Task
 /// @param make   `make(handle, from, count)` makes the request for some of the points.
 template <class Reply, class Make>
@@ -84,7 +84,7 @@ void CadSource::renew(const Held& gone, const Message& why, const RunContext& co
 CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Message& why,
                                       const RunContext& context) const
 {
-    RunContext quiet = context; // the progress shown is that of the current stage, not of reloading
+    RunContext quiet = context; // the stage that is running reports progress, not the reload
     quiet.progress = {};
     Message trouble("cad.file_changed", "{} has changed since it was loaded", path_);
     try {

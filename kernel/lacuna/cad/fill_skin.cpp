@@ -23,13 +23,14 @@ using mesh::TetMesh;
 
 namespace {
 
-/// More tetrahedra than this are refused.
+/// Limit on the number of tetrahedra.
 constexpr double kMostTets = 1e7;
-/// Tetrahedra that Gmsh makes, over the volume by that of a regular one with the mean longest side of the
-/// skin's triangles: 0.79, 0.64 and 0.58 for balls of 1e3, 1e4 and 1e5 triangles.
+/// Gmsh's number of tetrahedra, relative to the volume divided by that of a regular tetrahedron. The regular
+/// tetrahedron's side is the mean longest side of the skin's triangles. Measured for balls of 1e3, 1e4 and
+/// 1e5 triangles: 0.79, 0.64 and 0.58.
 constexpr double kTetShare = 0.6;
-/// A tetrahedron counts as half a point in the limits of the CAD process: 1 kB and 0.25 ms, where a ball of
-/// 1e5 triangles takes 0.6 kB and 0.06 ms.
+/// In the limits of the CAD process, a tetrahedron counts as half a point: 1 kB and 0.25 ms. A ball of 1e5
+/// triangles takes 0.6 kB and 0.06 ms per tetrahedron.
 constexpr double kPointsPerTet = 0.5;
 
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
@@ -70,7 +71,7 @@ void check_numbers(const ClosedSkin& skin)
                            words_for(skin));
 }
 
-/// Six times the volume that facets enclose, seen from a point near them.
+/// Six times the volume that facets enclose. The origin should be near the facets, for precision.
 double enclosed(const std::vector<Vec3>& points, const std::vector<Triangle>& facets, const Vec3& origin)
 {
     double sum = 0;
@@ -80,7 +81,7 @@ double enclosed(const std::vector<Vec3>& points, const std::vector<Triangle>& fa
 }
 
 /// The facets of each connected part of the skin, the outermost first.
-/// @throw InvalidInput  there is not one outer part around cavities.
+/// @throw InvalidInput  there is more than one outer part, or none.
 std::vector<std::vector<Triangle>> split_into_shells(const ClosedSkin& skin, const PyramidLayer& layer,
                                                      const std::vector<SkinSide>& sides)
 {
@@ -142,8 +143,8 @@ double expected_tets(const std::vector<Vec3>& points, const std::vector<std::vec
                            .remedy("use another 'size'"));
 }
 
-/// Check that tetrahedra are positive, that each facet of the shells is a face of one of them, and that they
-/// have the volume of the shells.
+/// Check that all tetrahedra are positive, that each facet of the shells is a face of exactly one
+/// tetrahedron, and that the total volume is that of the shells.
 void check_filled(const std::vector<std::vector<Triangle>>& shells, const FillSkinReply& reply,
                   std::size_t given, const RunContext& context)
 {

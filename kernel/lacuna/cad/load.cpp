@@ -59,7 +59,7 @@ void compact(topology::ModelBuilder& model)
     model.diagonal = bounds.isEmpty() ? 0 : bounds.diagonal().norm();
 }
 
-/// Make the model of a reply, without loops.
+/// Make the model of a reply, without its loops.
 void build_model(topology::ModelBuilder& model, LoadReply reply, double scale,
                  const std::shared_ptr<const CadSource>& source)
 {
@@ -81,8 +81,8 @@ void build_model(topology::ModelBuilder& model, LoadReply reply, double scale,
     compact(model);
 }
 
-/// Read CAD files into one model through the CAD process. Tags continue from file to file, as in Gmsh.
-/// The warnings name faces left out, other than slivers, and script commands that are skipped.
+/// Read CAD files into one model through the CAD process. Tags continue from file to file, as in Gmsh. The
+/// warnings name the faces left out, except slivers, and the script commands that are skipped.
 io::LoadedFiles import_cad(const std::vector<std::string>& paths, const LoadOptions& options,
                            const RunContext& context, const Limits& limits)
 {

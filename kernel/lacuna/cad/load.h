@@ -22,18 +22,18 @@ using io::LoadOptions;
 /// Read files into one model: STEP, IGES, BREP, GEO, and what io::load_facets() reads.
 ///
 /// CAD faces get facets (chord error and angle bounded by curvature), exact curves and surfaces, and the tags
-/// that Gmsh shows for the file. Loose faces are sewn and oriented consistently. Faces that still do not
-/// share edges are joined by healing::stitch(); Model::notes lists what it leaves out or apart.
+/// that Gmsh shows for the file. Loose faces are sewn and oriented consistently. healing::stitch() joins
+/// faces that still do not share edges. Model::notes lists the faces that were left out or stay unconnected.
 ///
-/// CAD files are read by a separate process (lacuna-cad), started at the first CAD file, so that it can
-/// crash, hang or be cancelled without harm. It holds the exact geometry for the lifetime of the model. A GEO
-/// script runs no commands, writes nothing, and includes and merges only files of its own folder. Other
-/// formats do not need the process.
-/// @param limits  of that process.
-/// @throw InvalidInput  as io::load_facets(); a file is not of its CAD format, or a script does more than
-///                      make geometry ("cad.script"); names the file.
-/// @throw BackendError  the error of Gmsh, with the file; how the process ended ("cad.worker_ended",
-///                      "cad.time_limit", "cad.memory_limit"), or that it was not found ("cad.no_worker").
+/// A separate process (lacuna-cad), started at the first CAD file, reads CAD files. So it can crash, hang or
+/// be cancelled without harm. It holds the exact geometry for the lifetime of the model. A GEO script can
+/// neither run commands nor write; it can include and merge only files of its own folder. Other formats do
+/// not need the process.
+/// @param limits  limits of that process.
+/// @throw InvalidInput  as io::load_facets(); a file does not have the CAD format of its ending, or a script
+///        does more than make geometry ("cad.script"). Names the file.
+/// @throw BackendError  Gmsh's error, with the file; the process ended ("cad.worker_ended", "cad.time_limit",
+///        "cad.memory_limit") or was not found ("cad.no_worker").
 topology::Model load(const std::vector<std::string>& paths, const LoadOptions& options = {},
                      const RunContext& context = {}, const Limits& limits = {});
 /// As load(), and also returns the meshes of finite element files.
@@ -46,12 +46,13 @@ io::LoadedFiles load_files(const std::vector<std::string>& paths, const LoadOpti
 ///                      ("cad.recombine"). InvalidInput  as quads::check(). BackendError  the process ended.
 quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext& context = {});
 
-/// Fill a closed skin with tetrahedra by Gmsh, in the CAD process, with a pyramid on each of its quads. Cells
-/// have about the size of the skin's faces; each face is on one cell. A skin with cavities is one outer part
-/// and one part for each cavity. The result is the same to the bit for the same skin.
+/// Fill a closed skin with tetrahedra by Gmsh, in the CAD process, and put a pyramid on each quad of the
+/// skin. Cells have about the size of the skin's faces, and each face belongs to one cell. A skin with
+/// cavities consists of one outer part and one part for each cavity. The same skin gives the same result to
+/// the bit.
 /// @pre   every point is a corner of a face.
-/// @post  the nodes are the skin's points, the apexes of its quads in order, then those inside; the cells are
-///        the pyramids in the order of the quads, then tetrahedra; all are positive.
+/// @post  the nodes are the skin's points, then the apexes of its quads in order, then the inner nodes. The
+///        cells are the pyramids in the order of the quads, then the tetrahedra. All cells are positive.
 /// @throw InvalidInput  the skin is open, inside out or in several parts ("cad.skin_open"). NotSweepable  its
 ///                      faces cross ("cad.skin_crosses"), a quad is not convex ("cad.skin_quad"), Gmsh fails
 ///                      ("cad.fill_skin"), or more than 1e7 tetrahedra are needed ("cad.tet_count").

@@ -17,21 +17,22 @@ using mesh::ClosedSkin;
 
 namespace {
 
-/// Height over the side of a square base. Over 24 distorted blocks, 0.5 gives the fewest tetrahedra among
-/// 0.35, 0.4 and 0.5, at the same least scaled Jacobian.
+/// Height of a pyramid over the side of a square base. Of 0.35, 0.4 and 0.5, measured on 24 distorted blocks,
+/// 0.5 gives the fewest tetrahedra, at the same least scaled Jacobian.
 constexpr double kHeight = 0.5;
-/// Share of an angle or a gap that a pyramid may take: the pyramid on the other side and the tetrahedra
-/// between them get the other two thirds.
+/// Share of an angle or a gap that a pyramid may take. The pyramid on the other side and the tetrahedra
+/// between the two pyramids get the other two thirds.
 constexpr double kShare = 1.0 / 3;
-/// Height over the least one at which a pyramid on a warped quad is valid. With 2, pyramids cross others.
+/// On a warped quad, a pyramid is valid above a least height; its height is this multiple of that. With 2,
+/// pyramids cross others.
 constexpr double kAboveLeast = 1.5;
-/// How often a pyramid is lowered. Each time its height above the least one is halved; a pyramid that is 32
-/// times too flat has no better shape than none.
+/// Number of times that a pyramid is lowered. Each time, the part of its height above the least height is
+/// halved. A pyramid that is 32 times too flat is no better than none.
 constexpr int kLowerings = 5;
 
 struct Pyramid {
-    Vec3 centre, up;   ///< of the quad; `up` is the unit normal into the volume
-    double height = 0; ///< of the apex
+    Vec3 centre, up;   ///< `centre` of the quad; `up`: unit normal of the quad, into the volume
+    double height = 0; ///< height of the apex over the quad
     double least = 0;  ///< any greater height gives a valid pyramid
 
     [[nodiscard]] Vec3 apex() const { return centre + height * up; }
@@ -95,13 +96,13 @@ private:
         return (at(q[0]) + at(q[1]) + at(q[2]) + at(q[3])) / 4;
     }
 
-    /// The height at which the pyramid takes its share of the angle to its neighbour at a side.
+    /// The height at which the pyramid takes its allowed share of the angle to the neighbour at a side.
     [[nodiscard]] double height_beside(std::size_t quad, Index from, Index to, const Pyramid& p) const
     {
         const Vec3 along = (at(to) - at(from)).normalized(), foot = (at(from) + at(to)) / 2;
         const auto across = [&](const Vec3& v) -> Vec3 { return v - v.dot(along) * along; };
         const Vec3 base = across(p.centre - foot);
-        const Vec3 x = base.normalized(), y = x.cross(along); // into the face, and off it into the volume
+        const Vec3 x = base.normalized(), y = x.cross(along); // x: away from the side; y: into the volume
         double angle = kFullTurn, share = kShare;
         const std::size_t triangles = skin_.triangles.size(), self = triangles + quad;
         auto side = std::lower_bound(sides_.begin(), sides_.end(), std::pair(to, from),
@@ -122,7 +123,8 @@ private:
             if (turn < 0) turn += kFullTurn;
             if (turn >= angle) continue;
             angle = turn;
-            share = face < triangles ? 1.5 * kShare : kShare; // a triangle has no pyramid
+            share = face < triangles ? 1.5 * kShare : kShare; // a triangle has no pyramid, so the share is
+                                                              // larger
         }
         const double steep = share * angle;
         const double rise = p.up.dot(y) * std::cos(steep) - p.up.dot(x) * std::sin(steep);
@@ -135,8 +137,8 @@ private:
     geometry::FacetTree tree_;
 };
 
-/// The faces of the skin that cross another, each with one of the pyramids.
-/// @throw NotSweepable  two faces of the skin cross that have no pyramid.
+/// The faces of the skin that cross another face; one of each crossing pair has a pyramid.
+/// @throw NotSweepable  two faces without pyramids cross.
 std::vector<bool> crossing_faces(const std::vector<Vec3>& points, const std::vector<Triangle>& facets,
                                  const std::vector<Index>& face_of, Index triangles,
                                  const RunContext& context)
@@ -152,7 +154,7 @@ std::vector<bool> crossing_faces(const std::vector<Vec3>& points, const std::vec
         tree,
         [&](Index a, Index b) {
             const Triangle &s = facets[index(a)], &t = facets[index(b)];
-            // Neighbours along a side can only fold onto each other.
+            // Two facets with a common side can meet elsewhere only if they fold onto each other.
             if (std::ranges::count_if(s, [&](Index p) { return std::ranges::count(t, p) > 0; }) >= 2)
                 return true;
             if (!geometry::triangles_cross(corners(a), corners(b), contact)) return true;

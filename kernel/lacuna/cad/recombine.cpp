@@ -13,8 +13,8 @@ using namespace cad_protocol;
 
 namespace {
 
-/// Number of points of the size raster along the longer side of a region: fine enough for an error of one
-/// percent if the sizes vary over a tenth of the region.
+/// Number of points of the size raster along the longer side of a region. If the sizes vary over a tenth of
+/// the region, the error is then one percent.
 constexpr int kCrossings = 96;
 
 std::size_t side_count(const quads::PlanarRegion& region)
@@ -126,7 +126,7 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
     }
     Task task{formatted("a region of {} boundary sides", sides), "filling it with quads"};
     task.context = &context;
-    task.points = sides * sides / 16; // quads of a round region with this number of boundary segments
+    task.points = sides * sides / 16; // estimate: quads in a round region with this number of boundary sides
     try {
         auto reply =
             Worker::current(&context, task.subject)->ask<RecombineReply>(Opcode::recombine, request, task);

@@ -24,7 +24,7 @@ constexpr std::array kRefused{
 constexpr std::string_view kSkipped =
     " Save Print CreateFile Plugin Mesh Remesh RefineMesh OptimizeMesh AdaptMesh RelocateMesh RecombineMesh "
     "TransformMesh SetOrder PartitionMesh UnpartitionMesh RenumberMeshNodes RenumberMeshElements ";
-/// Words that begin and end commands that may be run never or several times, each between blanks.
+/// Words that begin and end blocks of commands that may run several times or never. Words are between blanks.
 constexpr std::string_view kBegins = " If For Macro Function ", kEnds = " EndIf EndFor Return ";
 /// Commands that are followed by a file name, each between blanks.
 constexpr std::string_view kFiles = " Include Merge MergeFile ShapeFromFile ListFromFile ";
@@ -146,7 +146,7 @@ private:
     void end_at(std::size_t from)
     {
         if (depth_ != 0)
-            refuse("where Exit within If, For or a macro ends the script is not known",
+            refuse("Exit is inside If, For or a macro, so the end of the script is not known",
                    "move Exit out of the block, or remove it");
         content_.skipped.push_back({"Exit", line_, from, text_.size()});
         at_ = text_.size();

@@ -23,11 +23,11 @@ namespace {
 
 /// Precision of splines relative to the diagonal: a hundredth of the default tolerance.
 constexpr double kPrecision = 1e-8;
-/// The same for walls and edges made by a known motion, which are exact: a spline through a circle of this
-/// precision encloses its area to 1e-10.
+/// The same for walls and edges that a known motion makes. These are exact: a spline of this precision
+/// through a circle encloses the circle's area to 1e-10.
 constexpr double kMotionPrecision = 1e-10;
-/// Most interpolation points of a filled surface, for each inner loop and for the facets: its cost grows with
-/// the cube of their number.
+/// Limit on the interpolation points of a filled surface: for each inner loop, and for the facets. The cost
+/// grows with the cube of the number of points.
 constexpr std::size_t kLeadingPoints = 40;
 
 /// The surface that an edge sweeps: one spline surface, or one for each segment of a polyline.
@@ -110,7 +110,7 @@ public:
             check_cancelled(context_);
             try {
                 SolidFace made = plan(FaceId(f));
-                // Parts of a divided CAD face are that face.
+                // A CAD face that was divided into several faces is written once.
                 if (made.kind != SolidFace::exact || written_.insert({made.source, made.face}).second)
                     plan_.request.faces.push_back(std::move(made));
             } catch (const BackendError& error) {
@@ -190,8 +190,8 @@ private:
 
     // --- faces ------------------------------------------------------------------------------------------
 
-    /// A smooth surface over the outer loop, through points of the facets and of the inner loops, which are
-    /// then trimmed from it.
+    /// A smooth surface over the outer loop, through points of the facets and of the inner loops. The inner
+    /// loops then trim the surface.
     SolidFace filling(FaceId id, SolidFace made)
     {
         made.kind = SolidFace::filling;
@@ -249,7 +249,8 @@ private:
         ++plan_.fitted;
         if (const auto* swept = dynamic_cast<const geometry::SweptSurface*>(face.surface.get())) {
             made.kind = SolidFace::patches;
-            // Of curved edges that precision takes 16,000 poles, and Open CASCADE minutes.
+            // For curved edges this precision would need 16,000 poles, and Open CASCADE would take minutes.
+            // So only straight segments get it.
             made.surfaces = swept_patches(*swept, swept->has_kinks() ? motion_precision_ : precision_);
             return made;
         }

@@ -10,8 +10,8 @@ namespace lacuna::cad {
 
 namespace {
 
-/// Most intervals between the interpolated points of a spline. A circle is met to 3e-10 of its radius by 256;
-/// five turns of a helix enclose their volume to 2e-7 by 512.
+/// Limit on the intervals between the interpolated points of a spline. With 256, a circle is met to 3e-10 of
+/// its radius; with 512, five turns of a helix enclose their volume to 2e-7.
 constexpr std::size_t kMostSides = 512;
 /// Number of lines in each direction along which a surface is probed.
 constexpr std::size_t kProbes = 5;
@@ -28,7 +28,8 @@ std::vector<double> evenly(std::size_t sides)
 Eigen::MatrixXd poles_through(const SplineAxisData& axis, const Eigen::MatrixXd& values)
 {
     const std::vector<double> at = evenly(static_cast<std::size_t>(values.rows()) - 1);
-    // Rows of B-splines have a few weights beside their diagonal, and need no pivots (de Boor).
+    // Each row of the B-spline matrix has only a few entries near its diagonal, and elimination needs no
+    // pivots (de Boor).
     Eigen::MatrixXd rows = basis_rows(axis, at), poles = values;
     const Eigen::Index n = rows.rows(), band = axis.degree + 2;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -44,7 +45,7 @@ Eigen::MatrixXd poles_through(const SplineAxisData& axis, const Eigen::MatrixXd&
         poles.row(i) -= rows.row(i).segment(i + 1, width) * poles.middleRows(i + 1, width);
         poles.row(i) /= rows(i, i);
     }
-    poles.row(0) = values.row(0); // exactly, as other splines share these corners
+    poles.row(0) = values.row(0); // set exactly, because other splines share these corners
     poles.bottomRows(1) = values.bottomRows(1);
     return poles;
 }
@@ -57,7 +58,7 @@ Eigen::MatrixXd rows_of(std::span<const Vec3> points)
     return rows;
 }
 
-/// Number of intervals needed to interpolate a function of one parameter whose values are lists of points.
+/// Number of intervals needed to interpolate a function of one parameter. Its values are lists of points.
 std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::span<const double>)>& lines,
                       double precision)
 {

@@ -19,7 +19,8 @@ using namespace topology;
 
 namespace {
 
-/// Most spans of the correction in each direction. A power of two: its knots are then knots of the surface.
+/// Limit on the spans of the correction in each direction. A power of two, so that its knots are also knots
+/// of the surface.
 constexpr std::size_t kMostSpans = 16;
 
 /// Piecewise linear map from the parameter of the patch to the share of a side, so that the breaks of
@@ -43,7 +44,7 @@ struct BreakMap {
     }
 };
 
-/// Pair the breaks of opposite sides: in order if their numbers agree, else
+/// Pair the breaks of opposite sides. If both sides have the same number, they are paired in order; otherwise
 /// every break is used on both sides.
 std::pair<BreakMap, BreakMap> pair_breaks(const std::vector<double>& a, const std::vector<double>& b)
 {
@@ -84,7 +85,7 @@ std::vector<EdgeUse> backward(std::vector<EdgeUse> uses)
 /// A displacement added to the Coons patch; zero on all four sides.
 struct Correction {
     SplineAxisData u, v;
-    std::array<Eigen::MatrixXd, 3> poles; ///< u by v; the outermost are zero
+    std::array<Eigen::MatrixXd, 3> poles; ///< (number in u) × (number in v); the outermost poles are zero
 };
 
 /// A Coons patch over the unit square: bottom and top are curves in u, left and right in v.
@@ -121,8 +122,8 @@ public:
         return places;
     }
 
-    /// Fit the patch to the facets, if their points are farther from the patch than
-    /// their chords are from the sides.
+    /// Fit the patch to the facets, if their points are farther from the patch than their chords are from the
+    /// sides.
     void follow(const Model& model, const Face& face);
     [[nodiscard]] bool follows() const { return correction_.has_value(); }
 
@@ -189,7 +190,8 @@ struct Laid {
     }
 
 private:
-    /// Give the facets their own points: a point on a seam, which the loop passes twice, is duplicated.
+    /// Duplicate points so that facets on the two sides of a seam, which the loop passes twice, have their
+    /// own points.
     std::vector<Triangle> cut_open(const Model& model, const Face& face)
     {
         std::map<Segment, std::size_t> facet_at; // facet of each directed side
@@ -292,7 +294,7 @@ std::vector<SplineSurfaceData> void_patches(const Model& model, const Face& face
 {
     Patch patch(model, sides);
     patch.follow(model, face);
-    // A surface fitted to facets is not more precise than the facets.
+    // A surface fitted to facets need not be more precise than the facets.
     if (patch.follows()) precision *= 10;
     std::vector<SplineSurfaceData> surfaces;
     const std::vector<double>&u = patch.breaks_u(), &v = patch.breaks_v();

@@ -32,8 +32,8 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// Time limit of a request: a constant, plus a share for each million bytes of files and each thousand
-/// points. The shared CAD cases (10 to 86 kB) take 0.1 to 1 s; a file that hangs must fail within 20 s.
+/// Time limit of a request: a constant, plus an amount for each million bytes of files and each thousand
+/// points. The shared CAD cases (10 to 86 kB) take 0.1 to 1 s. A file that hangs must fail within 20 s.
 constexpr double kSeconds = 12, kSecondsPerMegabyte = 100, kSecondsPerThousand = 0.5;
 constexpr double kMostSeconds = 3600;
 /// Address space of a request: the libraries take about 0.6 GB, a model of 86 kB less than 0.2 GB.
@@ -63,7 +63,7 @@ double seconds_for(const Task& task)
     return task.limits.may_raise ? task.limits.seconds : std::min(task.limits.seconds, seconds);
 }
 
-/// @param charged  memory for files and points in the process, beyond the constant part [bytes].
+/// @param charged  memory for the files and points in the process, besides the constant part [bytes].
 std::uint64_t memory_for(const Task& task, std::uint64_t charged)
 {
     auto memory = static_cast<std::uint64_t>(from_environment("LACUNA_CAD_MEGABYTES") * 1e6);
@@ -87,7 +87,7 @@ Clock::time_point after(double seconds)
     return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-/// Limit elapsed time; after cancelling, wait `grace` seconds more.
+/// Limit the elapsed time. After cancelling, wait at most `grace` seconds more.
 Channel::Patience patience_of(const RunContext* context, double seconds, double grace = 0)
 {
     std::optional<Clock::time_point> cancelled;
@@ -109,8 +109,8 @@ double processor_seconds(pid_t process)
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-/// A request is limited by processor time, so that a good file does not fail on a busy machine. A process
-/// that waits uses none, so elapsed time is limited too, to this multiple.
+/// Requests are limited by processor time, so that a good file does not fail on a busy machine. A process
+/// that waits uses none. So elapsed time is limited too, to this multiple.
 constexpr double kWallFactor = 4;
 
 Channel::Patience patience_of(const RunContext* context, double seconds, double grace, pid_t worker)
@@ -173,7 +173,7 @@ pid_t spawn(const std::string& program, int socket, int words)
     return pid;
 }
 
-/// A copy of a descriptor above the standard ones, which are overwritten in the CAD process.
+/// Duplicate a descriptor to a number above those that are overwritten in the CAD process.
 Descriptor raised(int number)
 {
     constexpr int kFirst = 10;
@@ -181,8 +181,8 @@ Descriptor raised(int number)
     return number > 3 ? std::move(low) : Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, kFirst));
 }
 
-/// The current process of this host, replaced in a child of fork(). Never destroyed, as static objects of the
-/// host may use it at exit.
+/// The current process of this host; a child made by fork() gets its own. Never destroyed, because static
+/// objects of the host may use it at exit.
 struct Current {
     pid_t owner = ::getpid();
     std::mutex mutex;
@@ -217,7 +217,7 @@ std::shared_ptr<Worker> Worker::current(const RunContext* context, const std::st
     const std::lock_guard lock(current.mutex);
     if (current.worker && !current.worker->spent_) {
         const std::unique_lock busy(current.worker->busy_, std::try_to_lock);
-        // A busy process is running; check an idle one.
+        // A busy process is running. Check an idle one.
         if (busy) current.worker->notice_end();
         if (!busy || !current.worker->ended_) return current.worker;
     }
@@ -253,7 +253,7 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
             Message("cad.no_worker", "the CAD process does not start: {}", std::strerror(errno))
                 .remedy("check the installation of lacuna-cad"));
     Descriptor ours = raised(ends[0]), theirs = raised(ends[1]);
-    // Large enough that a large message needs few waits.
+    // Large buffers, so that a large message needs few waits.
     constexpr int kBuffer = 1 << 20;
     for (const int end : {ours.get(), theirs.get()})
         ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &kBuffer, sizeof(kBuffer));
@@ -306,7 +306,7 @@ void Worker::end(std::string why) noexcept
     ended_ = true;
     siginfo_t info{};
     const auto id = static_cast<id_t>(process_.get());
-    // If the process has just ended by itself, keep its own exit status.
+    // If the process has just ended by itself, record its own exit status instead of the kill.
     if (process_ && ::waitid(P_PIDFD, id, &info, WEXITED | WNOHANG) == 0 && info.si_pid == 0) {
         ::syscall(SYS_pidfd_send_signal, process_.get(), SIGKILL, nullptr, 0);
         while (::waitid(P_PIDFD, id, &info, WEXITED) != 0 && errno == EINTR) {}
@@ -338,7 +338,7 @@ std::string Worker::last_words() const
 void Worker::died(const Task& task)
 {
     // The stream may close shortly before the process ends.
-    constexpr int kTries = 100; // of 10 ms: a large process takes time to end
+    constexpr int kTries = 100; // 10 ms each: a large process takes time to end
     for (int i = 0; i < kTries && !has_ended(process_); ++i) ::usleep(10'000);
     end("it crashed on " + task.subject);
     throw BackendError(Message("cad.worker_ended",
@@ -413,7 +413,7 @@ Frame Worker::exchange(Opcode opcode, const std::string& bytes, const Task& task
         end("it was stopped while working on " + task.subject);
         throw;
     }
-    // Gmsh keeps its lock if meshing throws, and meshes nothing after that.
+    // If meshing throws, Gmsh keeps its lock and cannot mesh any more.
     const bool meshing = opcode == Opcode::recombine || opcode == Opcode::fill_skin;
     spent_ = spent_ || opcode == Opcode::load || (meshing && failure.kind == Failure::backend);
     switch (failure.kind) {

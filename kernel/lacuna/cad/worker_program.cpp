@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "lacuna-cad";
-/// Number of folders above a program or library that may be the root of its installation:
-/// four for lib/<machine>/lua/5.4.
+/// A program or library may lie this number of folders below the root of its installation: four for
+/// lib/<machine>/lua/5.4.
 constexpr int kMostLevels = 4;
 
 /// Add the folder of a binary, and libexec of its installation.

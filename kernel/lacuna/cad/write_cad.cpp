@@ -67,7 +67,7 @@ std::string bytes_of(const Descriptor& file, bool step)
     return bytes;
 }
 
-/// State a unit in a STEP file, which Open CASCADE writes in millimetres; lengths stay.
+/// Declare the unit of a STEP file, which Open CASCADE writes in millimetres. The numbers stay as they are.
 void state_unit(std::string& bytes, const std::string& unit)
 {
     if (unit.empty() || unit == "mm") return;

@@ -11,11 +11,12 @@
 namespace lacuna::cad {
 
 struct WriteCadOptions {
-    /// Largest gap that sewing closes [model length]; 0: the tolerance of the model, then ten times as much
-    /// in each further attempt.
+    /// Largest gap that sewing closes [model length]. With 0, the first attempt uses the tolerance of the
+    /// model, and each further attempt ten times as much.
     double tolerance = 0;
     double deviation =
-        0.05;        ///< allowed difference of the solid's volume from that inside the facets, relative [-]
+        0.05;        ///< allowed relative difference between the volume of the solid and that of the facets
+                     ///< [-]
     Limits limits{}; ///< limits of the CAD process
     std::string unit{}; ///< unit of the model's lengths, which a STEP file states; empty: millimetres
 };
@@ -23,21 +24,21 @@ struct WriteCadOptions {
 /// The solid that was written, measured after reading it back.
 struct WrittenCad {
     double volume = 0;       ///< volume of the solid [model length³]
-    double facet_volume = 0; ///< inside the facets of the sealed volume [model length³]
+    double facet_volume = 0; ///< volume inside the facets of the sealed volume [model length³]
     std::size_t faces = 0;   ///< number of faces of the solid
     std::size_t planes = 0;  ///< void faces written as planes
     std::size_t fitted = 0;  ///< void faces written as one or more fitted surfaces
-    double tolerance = 0;    ///< used for sewing [model length]
+    double tolerance = 0;    ///< tolerance that was used for sewing [model length]
 };
 
-/// Write a sealed volume as one CAD solid: `.step`, `.stp` (which states `unit`) or `.brep`. The file appears
-/// only if everything succeeds.
+/// Write a sealed volume as one CAD solid, in a `.step`, `.stp` or `.brep` file. STEP files declare `unit`.
+/// The file appears only if everything succeeds.
 ///
 /// Given CAD faces are copied from their source file, scaled as the model was. A planar void face becomes a
 /// plane bounded by the exact given edges, lines and splines. A void face with four logical sides becomes
 /// spline surfaces (see void_patches()). Other void faces become filled surfaces over their edges and some
-/// points of their facets. Given faces without an exact surface are written if they are planar. The faces are
-/// sewn, and the file is read back: it must contain one closed solid.
+/// points of their facets. Given faces without an exact surface must be planar. The faces are sewn, and the
+/// file is read back: it must contain one closed solid.
 ///
 /// @throw InvalidInput  the volume is not sealed (names free edges); a curved face has no exact surface
 ///                      (names it; write_facets() can write it); an unknown ending, a missing folder.

@@ -31,11 +31,12 @@ std::vector<double> evenly(double low, double high, std::size_t sides)
     return params;
 }
 
-/// Single-linkage clusters of points within the tolerance: the smallest index in the cluster of each point.
+/// Group points by single linkage within the tolerance. Returns, for each point, the smallest index in its
+/// group.
 std::vector<std::size_t> clusters(const std::vector<CadVertex>& vertices, double tolerance)
 {
     geometry::UnionFind sets(vertices.size());
-    // After sorting along x, only neighbours within the tolerance are compared.
+    // After sorting along x, only points within the tolerance along x are compared.
     std::vector<std::size_t> order(vertices.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -166,13 +167,13 @@ OnCurve closest_on_curve(const CadCurveInfo& curve, const Vec3& p, double low, d
     return {t, (at - p).norm()};
 }
 
-/// Parameters at which vertices of other faces lie on a curve used by one face, with these vertices.
+/// Parameters at which vertices of other faces lie on a curve that only one face uses, and these vertices.
 std::vector<std::pair<double, Index>> cuts_of(const CadWire& wire, const CadCurveInfo& curve,
                                               const std::vector<Index>& loose_points, double tolerance)
 {
     Eigen::AlignedBox3d box;
     for (const Vec3& p : curve.points) box.extend(p);
-    // An arc extends beyond the box of its polyline by less than one segment.
+    // An arc extends beyond the box of its polyline by less than one segment, so enlarge the box by that.
     const double reach = curve.length / static_cast<double>(kFineSides) + tolerance;
     const Index from = wire.vertices[index(curve.from)].point;
     const Index to = wire.vertices[index(curve.to)].point;
@@ -218,7 +219,8 @@ void cut_into_pieces(CadWire& wire, double tolerance)
     }
 }
 
-/// Whether piece `b` coincides with piece `a`, and if so, whether in the opposite direction.
+/// Whether piece `b` coincides with piece `a`. If so, the value says whether it runs in the opposite
+/// direction; else empty.
 std::optional<bool> runs_against(const CadWire& wire, const CadPiece& a, const CadPiece& b, double tolerance)
 {
     const CadCurveInfo& on_a = wire.curves[a.curve];
@@ -240,7 +242,8 @@ void sew_pieces(CadWire& wire, double tolerance)
     std::map<std::pair<Index, Index>, std::vector<std::size_t>> with_ends;
     int next_tag = 0;
     for (const CadCurveInfo& curve : wire.curves) next_tag = std::max(next_tag, curve.tag);
-    // Sort by curve tag: the curve with the lowest tag defines tag and shape of the edge.
+    // Sort by curve tag: among coincident curves, the one with the lowest tag defines tag and shape of the
+    // edge.
     std::vector<std::size_t> order(wire.pieces.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -254,7 +257,8 @@ void sew_pieces(CadWire& wire, double tolerance)
             const CadPiece& master = wire.pieces[wire.edges[e].master];
             if (master.curve == piece.curve) continue;
             const auto against = runs_against(wire, piece, master, tolerance);
-            // Compare in both directions, so that a short piece is not merged with a part of a longer one.
+            // Compare in both directions, so that a short piece is not merged with a longer one that contains
+            // it.
             if (!against || !runs_against(wire, master, piece, tolerance)) continue;
             piece.edge = e;
             piece.reversed = *against;
@@ -269,7 +273,7 @@ void sew_pieces(CadWire& wire, double tolerance)
     }
 }
 
-/// A polyline of a curve, so fine that it turns little between segments except at kinks.
+/// A fine polyline of a curve. It turns little from segment to segment, except at kinks.
 struct FineCurve {
     std::vector<double> params, weight; ///< weight of the segment that ends at the parameter
 };
@@ -307,7 +311,7 @@ FineCurve weigh(const CadCurveInfo& curve, double low, double high, const Finene
     FineCurve fine{{samples.front().t}, {0}};
     for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
         const double by_length = (samples[i + 1].at - samples[i].at).norm() / fineness.max_size;
-        // Limit the weight to 1 at a kink, where more points do not reduce the turn.
+        // Limit the weight to 1 at a kink, because more points there do not reduce the turn.
         const double by_turn = std::min(turn(samples[i], samples[i + 1]) / fineness.turn, 1.0);
         fine.params.push_back(samples[i + 1].t);
         fine.weight.push_back(std::max(by_length, by_turn));
@@ -319,7 +323,7 @@ FineCurve weigh(const CadCurveInfo& curve, double low, double high, const Finene
 std::vector<double> share_out(const FineCurve& fine, double refinement, std::size_t least)
 {
     const double total = std::accumulate(fine.weight.begin(), fine.weight.end(), 0.0);
-    // Rounding must not add a segment to a whole circle.
+    // Subtract a slack before rounding up, so that rounding errors do not add a segment to a whole circle.
     const auto wanted = static_cast<std::size_t>(std::max(0.0, std::ceil(total * refinement - kCountSlack)));
     const std::size_t sides = std::max(least, wanted);
     if (!(total > 0)) return evenly(fine.params.front(), fine.params.back(), sides);

@@ -16,18 +16,19 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Images of one model point closer than this are merged into one corner of the boundary. [grid cells]
+/// If two images of one model point are closer than this, they are merged into one corner of the boundary.
+/// [grid cells]
 constexpr double kSameCorner = 0.25;
-/// Distance that grid points keep from the boundary. [grid cells]
+/// Minimum distance of grid points from the boundary. [grid cells]
 constexpr double kClearance = 0.5;
 
 /// A curve in the parameter rectangle of a face.
 struct BorderChain {
     std::vector<Vec2> uv;
-    std::vector<Vec2> other;   ///< the other image of the curve; empty if there is one only
+    std::vector<Vec2> other;   ///< the other image of the curve, on a seam; empty if there is only one
     std::vector<Index> points; ///< model points
     bool pole = false;         ///< the curve is a single point
-    bool slit = false;         ///< the face is on both sides, at the same parameters
+    bool slit = false;         ///< the face is on both sides of the curve, with the same parameters
 };
 
 std::vector<Vec2> parameters_on_face(const CadCurveInfo& curve, const std::vector<double>& params, int face,
@@ -47,7 +48,8 @@ std::vector<double> distances(int face, const std::vector<Vec3>& at, const std::
     return off;
 }
 
-/// Replace parameters that do not give back their points by those of the closest points of the surface.
+/// Check that the surface gives the point `at` for its parameters. Where it does not, replace the parameters
+/// by those of the closest point of the surface.
 void mend_parameters(int face, const std::vector<Vec3>& at, std::vector<Vec2>& uv, double allowed)
 {
     std::vector<double> off;
@@ -76,8 +78,8 @@ double outside(const std::vector<Vec2>& uv, const Eigen::AlignedBox2d& bounds)
     return sum;
 }
 
-/// A curve that was a seam before the face was trimmed has two images. Choose the one inside the rectangle of
-/// the face or, if both are, the one that connects to the other curves.
+/// A curve that was a seam before the face was trimmed has two images. Choose the image inside the parameter
+/// rectangle of the face or, if both are inside, the one that connects to the other curves.
 void choose_sides(std::vector<BorderChain>& border, int face)
 {
     std::vector<double> low, high;
@@ -212,7 +214,7 @@ public:
         }
     }
 
-    /// Connect ends that do not meet: some files omit the curve at a pole.
+    /// Connect ends that do not meet, because some files omit the curve at a pole.
     GridDomain finish()
     {
         std::vector<int> degree(domain_.nodes.size(), 0);
@@ -315,7 +317,7 @@ void add_grid_points(GridDomain& domain, const FaceGrid& grid)
     }
 }
 
-/// Triangles inside the boundary; empty if its segments intersect.
+/// Triangles inside the boundary; empty if boundary segments intersect.
 std::vector<Triangle> triangulate(const GridDomain& domain)
 {
     std::vector<Vec2> places;
@@ -328,7 +330,7 @@ std::vector<Triangle> triangulate(const GridDomain& domain)
     try {
         made.emplace(places, all);
         for (const GridDomain::Segment& s : domain.segments) made->fix_segment(s.a, s.b);
-    } catch (const Error&) { // A boundary point coincides with another one or lies on a segment.
+    } catch (const Error&) { // a boundary point coincides with another one, or lies on a segment
         return {};
     }
     geometry::DelaunayMesh& mesh = *made;
@@ -346,8 +348,8 @@ std::vector<Triangle> triangulate(const GridDomain& domain)
     return inside;
 }
 
-/// Whether two facets have the same directed side: in some files, a surface of revolution covers itself
-/// because it turns twice around its axis.
+/// Whether two facets have the same directed side. This happens in some files, where a surface of revolution
+/// turns twice around its axis and so covers itself.
 bool covers_itself(const std::vector<Triangle>& triangles)
 {
     std::vector<std::pair<Index, Index>> sides;

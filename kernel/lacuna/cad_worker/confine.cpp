@@ -38,7 +38,7 @@ struct Offered {
     std::array<char, 512> path{};
     int descriptor = -1;
 };
-/// Fixed array, as a signal handler reads it: the most files of one request, and three more.
+/// A fixed array, because a signal handler reads it. One request sends at most 250 files.
 std::array<Offered, 256> offered_files;
 
 const Offered* find_offered(const char* path)
@@ -50,11 +50,11 @@ const Offered* find_offered(const char* path)
 
 // --- the trap -----------------------------------------------------------------------------------------
 
-/// Value of the unused sixth argument in system calls of this file. Code that learns it can only open files
-/// for reading, within the limits of Landlock.
+/// A secret value that system calls of this file pass as their unused sixth argument. Code that learns it
+/// could only open files for reading, within the limits of Landlock.
 std::uint64_t own_mark;
 
-/// Flags that a read-only open does not have.
+/// Flags that an open for reading only does not have.
 constexpr int kWriting = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND | (O_TMPFILE & ~O_DIRECTORY);
 
 long own_call(long number, long a, long b, long c, long d, long e = 0)
@@ -77,8 +77,8 @@ long open_offered(const Offered& file, long flags)
     return own_call(SYS_openat, AT_FDCWD, reinterpret_cast<long>(own.data()), O_RDONLY | O_CLOEXEC, 0);
 }
 
-/// Answer a call that opens or inspects a path. An offered file is answered from its descriptor; other paths
-/// are passed to the kernel, but not opened for writing.
+/// Answer a trapped call that opens or inspects a path. For an offered file, the answer comes from its
+/// descriptor. Other paths are passed to the kernel, but never opened for writing.
 long answer_at(long number, const std::array<long, 6>& a)
 {
     const auto* path = reinterpret_cast<const char*>(a[1]);
@@ -142,7 +142,8 @@ void on_trap(int, siginfo_t* info, void* context)
 
 // --- the filter ---------------------------------------------------------------------------------------
 
-/// A seccomp filter. Calls without a rule fail with EPERM; calls of another architecture kill the process.
+/// A seccomp filter. A call without a rule fails with EPERM; a call of another architecture kills the
+/// process.
 class Filter {
 public:
     Filter() : rules_{seccomp_init(SCMP_ACT_ERRNO(EPERM)), seccomp_release}
@@ -152,7 +153,7 @@ public:
             seccomp_attr_set(rules_.get(), SCMP_FLTATR_CTL_TSYNC, 1) != 0)
             fail();
     }
-    /// Action for a call if all conditions hold.
+    /// Set the action for a call, used if all conditions hold.
     void on(int number, std::uint32_t action, std::initializer_list<scmp_arg_cmp> conditions = {})
     {
         if (seccomp_rule_add_array(rules_.get(), action, number, static_cast<unsigned>(conditions.size()),
@@ -164,9 +165,9 @@ public:
     {
         on(number, SCMP_ACT_ALLOW, {masked(argument, mask, value)});
     }
-    /// Trap a call without the mark.
+    /// Trap a call that does not carry the mark.
     void trap_unmarked(int number) { on(number, SCMP_ACT_TRAP, {{5, SCMP_CMP_NE, own_mark, 0}}); }
-    /// Allow a call with the mark if the lower half of an argument has no bit of the mask.
+    /// Allow a call that carries the mark, if the lower half of an argument has no bit of the mask.
     void allow_marked(int number, unsigned argument = 0, std::uint32_t mask = 0)
     {
         on(number, SCMP_ACT_ALLOW, {{5, SCMP_CMP_EQ, own_mark, 0}, masked(argument, mask, 0)});
@@ -191,7 +192,7 @@ private:
 Filter make_filter()
 {
     Filter filter;
-    // Path-based calls that create, remove, rename or link have no rule, so they fail.
+    // Calls that create, remove, rename or link by path have no rule, so they fail.
     for (const int number : {SCMP_SYS(openat), SCMP_SYS(newfstatat), SCMP_SYS(faccessat)})
         filter.trap_unmarked(number);
     filter.allow_marked(SCMP_SYS(openat), 2, kWriting);
@@ -227,7 +228,7 @@ Filter make_filter()
 
 // --- Landlock -----------------------------------------------------------------------------------------
 
-/// The structure of the newest kernels; older kernels get its first part.
+/// Landlock's structure in the newest kernels; older kernels get only its first part.
 struct Ruleset {
     std::uint64_t files = 0, net = 0, scoped = 0;
 };
@@ -238,7 +239,7 @@ long landlock_version()
     return ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
 }
 
-/// Restrict this process. @param size  of the part of the rules that the kernel knows
+/// Restrict this process. @param size  size of the part of the rules that the kernel knows
 /// @param readable  folders in which files may be read. @return false if it failed
 bool restrict_by(const Ruleset& rules, std::size_t size, std::initializer_list<const char*> readable)
 {

@@ -16,9 +16,9 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Number of steps with first derivatives only; later steps use second derivatives too. Near the surface, a
-/// step with first derivatives gains a digit or more; points as far away as the radius of curvature need
-/// second derivatives.
+/// The first steps of a projection use first derivatives only; after this number, they use second derivatives
+/// too. Near the surface, a step with first derivatives gains a digit or more. Points that are as far away as
+/// the radius of curvature need second derivatives.
 constexpr int kCheapSteps = 8;
 constexpr int kMaxSteps = 60;
 /// Convergence tolerance, relative to the diagonal of the model.
@@ -33,7 +33,7 @@ struct Iterate {
     bool done = false;
 };
 
-/// Parameters that a step may change: those at the border of the box do not leave it.
+/// Which parameters a step may change: a parameter at the border of the box must not leave the box.
 std::array<bool, 2> free_parameters(const ParameterBox& box, const Vec2& uv, const Vec2& descent)
 {
     std::array<bool, 2> open{true, true};
@@ -65,7 +65,7 @@ std::pair<Vec2, double> step_of(const Iterate& it, const SurfaceFrame& frame, co
     const std::array<bool, 2> open = free_parameters(box, it.uv, descent);
     Vec2 step = Vec2::Zero();
     if (open[0] && open[1]) {
-        // At a pole one derivative vanishes: a minimal damping keeps the matrix regular.
+        // At a pole one derivative vanishes. A minimal damping keeps the matrix regular.
         const double least = 1e-14 * normal.trace();
         normal(0, 0) += it.damping * normal(0, 0) + least;
         normal(1, 1) += it.damping * normal(1, 1) + least;
@@ -106,7 +106,7 @@ std::size_t advance(std::vector<Iterate>& all, std::vector<std::size_t>& active,
         } else {
             it.done = false;
             it.damping = it.damping == 0 ? 0.1 : it.damping * 10;
-            // The step is zero up to rounding.
+            // With such damping, a step is zero up to rounding.
             if (it.damping > 1e12) it.done = true;
         }
     }
@@ -114,7 +114,8 @@ std::size_t advance(std::vector<Iterate>& all, std::vector<std::size_t>& active,
     return active.size();
 }
 
-/// Move a start at a pole, where one parameter is undefined, to the best of a few points around the pole.
+/// If an iterate starts at a pole, where one parameter is undefined, move it to the best of a few points
+/// around the pole.
 void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const ParameterBox& box, double precision)
 {
     const Vec2 side = box.high - box.low;
@@ -123,7 +124,7 @@ void leave_pole(Iterate& it, const SurfaceFrame& frame, int tag, const Parameter
         const int other = 1 - k;
         if (across[k] > 1e-6 * across[other] || (it.target - it.at).norm() <= precision) continue;
         constexpr int kDirections = 12;
-        constexpr double kInward = 0.02; // relative to the box: off the pole, but near it
+        constexpr double kInward = 0.02; // share of the box by which a start is moved off the pole
         std::vector<Vec2> ring(kDirections);
         const bool at_low = it.uv[other] - box.low[other] < side[other] / 2;
         for (int i = 0; i < kDirections; ++i) {
@@ -232,12 +233,13 @@ std::vector<Vec3> plain_form(int tag, double first, double last)
     const std::string kind = gmsh_type(1, tag);
     const bool line = kind == "Line";
     if (!line && kind != "Circle" && kind != "Ellipse") return {};
-    // Gmsh's first derivatives are exact, its second derivatives are finite differences.
+    // Gmsh's first derivatives are exact, while its second derivatives are finite differences. So only first
+    // ones are used.
     const Vec3 start = curve_points(tag, {0.0}).front();
     const std::vector<Vec3> along = curve_tangents(tag, {0.0, kRightAngle});
     geometry::PlainCurve plain{{start, along[0]}};
     if (!line) {
-        // The tangent at kRightAngle as computed: its cosine is 6e-17, not 0.
+        // Use the tangent at the parameter kRightAngle itself, whose cosine is 6e-17, not 0.
         const Vec3 out = std::cos(kRightAngle) * along[0] - along[1];
         plain.form = {start - out, out, along[0]};
     }

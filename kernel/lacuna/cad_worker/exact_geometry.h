@@ -13,36 +13,37 @@
 
 namespace lacuna::cad_worker {
 
-/// A rectangle in the parameter plane. If the surface is closed, its side is one period.
+/// A rectangle in the parameter plane. In a direction in which the surface is closed, it covers one period.
 struct ParameterBox {
     Vec2 low = Vec2::Zero(), high = Vec2::Zero();
     std::array<bool, 2> closed{false, false};
 
-    /// Move parameters into the box: by periods if the surface is closed, else to the nearest border.
+    /// Move parameters into the box: by periods in closed directions, else to the nearest border.
     [[nodiscard]] Vec2 bring_in(Vec2 uv) const;
 };
 
-/// Data shared by the exact surfaces and curves of one import. Gmsh stores lengths of the file; model lengths
-/// are `scale` times as large.
+/// Data that the exact surfaces and curves of one import share. Gmsh stores lengths as in the file; model
+/// lengths are `scale` times as large.
 struct CadSource {
     std::unique_ptr<const GmshModel> model;
     std::string path;
     double scale = 1;                            ///< model length / file length
-    double diagonal = 0;                         ///< of the bounding box [file length]
-    std::unordered_map<int, ParameterBox> boxes; ///< for every face
+    double diagonal = 0;                         ///< diagonal of the bounding box [file length]
+    std::unordered_map<int, ParameterBox> boxes; ///< parameter rectangle of every face
 };
 
-/// Project points to a face, each near its start parameters: damped Gauss-Newton on all points at once, with
-/// second derivatives if it converges slowly.
-/// @param points  in and out [model length].
+/// Project points to a face, each starting at its start parameters: damped Gauss-Newton for all points at
+/// once. Second derivatives are added for points that converge slowly.
+/// @param points  replaced by their projections [model length].
 void project_on_face(const CadSource& source, int tag, std::span<Vec3> points, std::span<Vec2> uv);
 
 /// Points of a curve at its own parameters [model length].
 std::vector<Vec3> evaluate_curve(const CadSource& source, int tag, const std::vector<double>& params);
 
-// Gmsh's flat arrays converted to vectors, in file lengths. Call within a session, with the model current.
+// Gmsh's flat arrays as vectors, in file lengths. Call these functions within a session in which the model is
+// the current one.
 
-/// The coordinates of points in a row, as Gmsh takes and returns them.
+/// The coordinates of points one after the other, as Gmsh takes and returns them.
 template <class Vec>
 std::vector<double> flat(const std::vector<Vec>& points)
 {
@@ -62,7 +63,7 @@ std::vector<Eigen::Matrix<double, dimension, 1>> unflat(const std::vector<double
 
 std::vector<Vec3> curve_points(int tag, const std::vector<double>& params);
 /// Defining points of a curve that is a line segment or an elliptic arc; else empty. The type that Gmsh
-/// reports is not trusted: the form is compared with the curve, up to rounding.
+/// reports is not trusted: points of the form are compared with the curve, up to rounding.
 std::vector<Vec3> plain_form(int tag, double first, double last);
 std::vector<Vec3> curve_tangents(int tag, const std::vector<double>& params);
 std::vector<Vec3> surface_points(int tag, const std::vector<Vec2>& uv);

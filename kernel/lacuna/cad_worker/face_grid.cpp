@@ -12,8 +12,8 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Limit on the aspect ratio of cells: a cylinder needs no division along its rulings, but flattening faces
-/// does not work well with slivers.
+/// Limit on the aspect ratio of cells. A cylinder needs no division along its rulings, but flattening does
+/// not work well with long, thin facets.
 constexpr double kMaxAspect = 5;
 /// Least number of cells along the longer side of a face.
 constexpr double kCellsAlong = 4;
@@ -22,7 +22,7 @@ constexpr double kCellsAlong = 4;
 struct Lattice {
     std::size_t sides;
     std::array<std::vector<double>, 2> knots;
-    std::vector<SurfaceFrame> frames; ///< at u index i, v index j: i · (sides + 1) + j
+    std::vector<SurfaceFrame> frames; ///< frame at u index i and v index j is at i · (sides + 1) + j
 
     [[nodiscard]] const SurfaceFrame& at(int axis, std::size_t along, std::size_t across) const
     {
@@ -48,7 +48,7 @@ Lattice sample(int tag, const ParameterBox& box, std::size_t sides)
     return lattice;
 }
 
-/// Angle between the normals of two frames; zero if one is at a pole.
+/// Angle between the normals of two frames; zero if a frame is at a pole.
 double turn_between(const SurfaceFrame& a, const SurfaceFrame& b)
 {
     const Vec3 na = a.du.cross(a.dv);
@@ -59,7 +59,8 @@ double turn_between(const SurfaceFrame& a, const SurfaceFrame& b)
     return geometry::angle_between(na, nb);
 }
 
-/// For each interval along an axis, the largest length and turn over all lines in that direction.
+/// For each interval along an axis: the largest length and the largest turn of all grid lines in that
+/// direction.
 struct Profile {
     std::vector<double> length, turn;
     [[nodiscard]] double total_length() const { return std::accumulate(length.begin(), length.end(), 0.0); }
@@ -136,7 +137,7 @@ FaceGrid lay_grid(int tag, bool flat, const ParameterBox& box, const Fineness& f
     FaceGrid grid;
     for (std::size_t k = 0; k < 2; ++k) {
         for (double& d : density[k]) d *= factor[k];
-        // Around a closed surface, fewer than four cells would fold facets onto each other.
+        // Around a closed surface, fewer than four cells would put facets on top of each other.
         grid.axis[k] = GridAxis(lattice.knots[k], density[k], box.closed[k] ? 4 : 1);
     }
     return grid;

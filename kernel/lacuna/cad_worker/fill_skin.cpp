@@ -18,11 +18,11 @@ using cad_protocol::FillSkinRequest;
 
 namespace {
 
-/// Gmsh's number of an element type.
+/// Gmsh's numbers of element types.
 constexpr int kGmshTriangle = 2, kGmshTet = 4;
 
-/// A frame in which the skin has size 1, as some tolerances of Gmsh are absolute. The scale is a power of
-/// two, so that it rounds nothing.
+/// A frame in which the skin has about size 1, because some tolerances of Gmsh are absolute. The scale is a
+/// power of two, so scaling causes no rounding.
 struct UnitFrame {
     explicit UnitFrame(const std::vector<Vec3>& points)
     {
@@ -49,8 +49,8 @@ int add_volume(const FillSkinRequest& skin, const UnitFrame& frame)
         const Vec3 inside = frame.inside(p);
         at.insert(at.end(), inside.begin(), inside.end());
     }
-    // One face and one loop per shell: Gmsh knows a volume by the faces around it, and would fill a cavity
-    // that is bounded by the same face.
+    // Each shell is a face and a loop of its own. Gmsh identifies a volume by the faces around it, and would
+    // fill a cavity that the same face bounds.
     std::vector<int> loops;
     for (const std::vector<Triangle>& shell : skin.shells) {
         const int face = gmsh::model::addDiscreteEntity(2);
@@ -66,7 +66,8 @@ int add_volume(const FillSkinRequest& skin, const UnitFrame& frame)
     return volume;
 }
 
-/// The mesh in the given frame. Gmsh renumbers nodes but keeps the places of those of the skin.
+/// The mesh, converted back from the given frame. Gmsh renumbers nodes, but nodes of the skin keep their
+/// places.
 FillSkinReply read_tets(const FillSkinRequest& skin, const UnitFrame& frame, int volume)
 {
     FillSkinReply mesh{skin.points, {}};
@@ -107,14 +108,14 @@ FillSkinReply fill_skin(const FillSkinRequest& skin)
 {
     Session session("a skin to be filled with tetrahedra");
     session.set("General.NumThreads", 1);
-    session.set("Mesh.Algorithm3D", 1); // Delaunay; HXT gives another mesh for another number of threads
+    session.set("Mesh.Algorithm3D", 1); // Delaunay; the result of HXT depends on the number of threads
     session.set_sizes_from_boundary();
     session.set("Mesh.Recombine3DAll", 0);
     session.set("Mesh.MeshOnlyVisible", 0);
     session.set("Mesh.MeshOnlyEmpty", 0);
     session.set("Mesh.Optimize", 1);
-    // The mean least scaled Jacobian of 24 volumes is 0.14 with 0.5 and 0.13 with Gmsh's 0.3; 0.8 takes twice
-    // the time for no more.
+    // The mean least scaled Jacobian of 24 volumes is 0.14 with 0.5, and 0.13 with 0.3, Gmsh's default. With
+    // 0.8 it does not improve, but takes twice the time.
     session.set("Mesh.OptimizeThreshold", 0.5);
     session.set("Mesh.OptimizeNetgen", 0); // not in every build of Gmsh
     GmshModel model(session);

@@ -5,8 +5,8 @@
 
 namespace lacuna::cad_worker {
 
-/// Fill shells of triangles with tetrahedra, of about the size of the triangles; the points are kept.
-/// @throw NotSweepable  two points are at one place ("cad.skin_crosses"). BackendError  Gmsh's.
+/// Fill shells of triangles with tetrahedra of about the size of the triangles. The given points are kept.
+/// @throw NotSweepable  two points coincide ("cad.skin_crosses"). BackendError  Gmsh's error.
 cad_protocol::FillSkinReply fill_skin(const cad_protocol::FillSkinRequest& skin);
 
 } // namespace lacuna::cad_worker

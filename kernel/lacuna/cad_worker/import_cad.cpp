@@ -17,7 +17,8 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Facets of a full turn. The sag is then 0.2 % of the radius, the error of a disc's area 0.3 %.
+/// Number of facets around a full turn. The sag is then 0.2 % of the radius, and the area of a disc is off by
+/// 0.3 %.
 constexpr double kSidesPerTurn = 48;
 /// Longest segment, relative to the diagonal.
 constexpr double kLongestSide = 1.0 / 20;
@@ -25,10 +26,11 @@ constexpr double kLongestSide = 1.0 / 20;
 constexpr double kMaxCells = 400'000;
 constexpr double kMaxCellsOfFace = 16'000;
 constexpr double kMinCellsOfFace = 100;
-/// How often the boundary of a face is divided twice as finely because it intersects itself.
+/// Limit on the number of times that a face's boundary is divided twice as finely because it intersects
+/// itself.
 constexpr int kDivisions = 6;
-/// Most points of all edges after refinement. It limits time and memory, as each face is
-/// triangulated over its boundary.
+/// Limit on the points of all edges after refinement, and so on time and memory: each face is triangulated
+/// over its boundary points.
 constexpr std::size_t kMostDivided = 400'000;
 
 void import_file(Session& session, const OpenedFile& file)
@@ -80,8 +82,8 @@ struct Cut {
 
 /// Faces removed from the wire.
 struct LeftOut {
-    std::vector<CadFaceInfo> faces; ///< faces other than slivers
-    std::vector<int> slivers;       ///< tags
+    std::vector<CadFaceInfo> faces; ///< faces that could not be triangulated
+    std::vector<int> slivers;       ///< tags of faces that are slivers
 };
 
 /// Completes the sentence "face 6 …".
@@ -95,7 +97,7 @@ void each_edge(const CadWire& wire, const CadFaceInfo::Side& side, const Visit& 
 }
 
 /// Whether the curves around a face coincide in pairs within the tolerance, so that the face has no interior.
-/// The single seam of a sphere, and the two meridians of a lune, do not count.
+/// A sphere with a single seam, or a lune between two meridians, is not a sliver.
 bool is_sliver(const CadWire& wire, const CadFaceInfo& face)
 {
     std::unordered_map<std::size_t, int> uses;
@@ -133,7 +135,7 @@ void leave_out(CadWire& wire, const std::vector<int>& tags, const std::string& p
                 .remedy("repair it in the CAD system"));
 }
 
-/// Divide the edges and triangulate the faces. Divide more finely the boundaries that intersect themselves.
+/// Divide the edges and triangulate the faces. Boundaries that intersect themselves are divided more finely.
 /// Faces that still fail are removed from the wire.
 Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const Progress& progress,
             LeftOut& gone)
@@ -167,17 +169,17 @@ Cut cut_all(CadWire& wire, FacetOptions options, const std::string& path, const 
             divide(wire, options.fineness, refinement);
             if (wire.points.size() <= kMostDivided) continue;
         }
-        // Start again with coarse edges, as the faces that needed fine ones are gone.
+        // Start again with coarse edges, because the faces that needed fine edges are gone.
         leave_out(wire, slivers.empty() ? failed : slivers, path, gone);
         divide_all(wire, options.fineness, refinement);
         division = 0;
     }
 }
 
-/// The faces of each solid, then those that are in no solid.
+/// The faces of each solid, then the faces that are in no solid.
 std::vector<std::vector<Index>> solids(const CadWire& wire)
 {
-    std::map<int, Index> loose; // by tag, as the faces of the wire are
+    std::map<int, Index> loose; // by tag; the wire lists its faces in this order
     for (std::size_t f = 0; f < wire.faces.size(); ++f) loose[wire.faces[f].tag] = static_cast<Index>(f);
     std::vector<std::vector<Index>> groups;
     for (const int volume : tags_of(3)) {
@@ -192,7 +194,7 @@ std::vector<std::vector<Index>> solids(const CadWire& wire)
     return groups;
 }
 
-/// Report the faces left out. @return for each edge of the wire, the faces left out that had this edge.
+/// Report the faces left out. @return for each edge of the wire, the faces left out that have this edge.
 std::vector<std::vector<Index>> tell_left_out(const CadWire& wire, const LeftOut& gone,
                                               cad_protocol::LoadReply& reply)
 {
@@ -227,7 +229,7 @@ cad_protocol::LoadReply reply_of(const CadWire& wire, Cut cut, const LeftOut& go
     reply.diagonal = source.diagonal;
     reply.points = wire.points;
     reply.vertex_tags = wire.point_tag;
-    std::vector<bool> used(wire.edges.size(), false); // used by faces that were not left out
+    std::vector<bool> used(wire.edges.size(), false); // whether a face that is not left out uses the edge
     for (const CadFaceInfo& face : wire.faces) {
         for (const CadFaceInfo::Side& side : face.sides)
             each_edge(wire, side, [&](std::size_t edge) { used[edge] = true; });

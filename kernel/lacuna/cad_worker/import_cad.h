@@ -17,13 +17,13 @@ using Progress = std::function<void(double)>;
 /// A file of a request, opened in this process.
 struct OpenedFile {
     std::uint8_t format = 0; ///< cad_protocol::LoadFile::Format
-    std::string path;        ///< as given by the user
+    std::string path;        ///< path as the user gave it
     std::string at;          ///< path by which this process opens it
 };
 
 struct Imported {
     std::unique_ptr<CadSource> source;
-    cad_protocol::LoadReply reply; ///< without a handle
+    cad_protocol::LoadReply reply; ///< the reply, still without a handle
 };
 
 /// Read CAD files into one model. Tags continue from file to file, as in Gmsh.

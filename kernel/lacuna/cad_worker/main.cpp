@@ -20,12 +20,13 @@ constexpr int kSocket = 3;
 /// Largest file that may be written [bytes]: more than any solid, less than a disk.
 constexpr rlim_t kLargestFile = rlim_t{4} << 30;
 
-/// End when the host ends, even during a request that does not return.
+/// End when the host ends, even during a request that never returns.
 void watch_host(pid_t host)
 {
     for (;;) {
         pollfd socket{kSocket, POLLRDHUP, 0};
-        constexpr int kPause = 1000; // [ms]: the socket may stay open in a forked child of the host
+        constexpr int kPause = 1000; // [ms]; then the parent is checked too, because a forked child of the
+                                     // host may keep the socket open
         ::poll(&socket, 1, kPause);
         if ((socket.revents & (POLLRDHUP | POLLHUP | POLLERR | POLLNVAL)) != 0 || ::getppid() != host)
             ::_exit(0);
@@ -43,11 +44,11 @@ int main()
             "lacuna-cad is started by Lacuna to read a CAD file; do not start it by hand\n";
         return ::write(2, kWords.data(), kWords.size()) < 0 ? 2 : 1;
     }
-    ::syscall(SYS_close_range, kSocket + 1, ~0U, 0); // descriptors that the host left open
+    ::syscall(SYS_close_range, kSocket + 1, ~0U, 0); // close descriptors that the host left open
     const rlimit no_core{0, 0}, file{kLargestFile, kLargestFile};
     ::setrlimit(RLIMIT_CORE, &no_core);
     ::setrlimit(RLIMIT_FSIZE, &file);
-    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit fails instead
+    std::signal(SIGXFSZ, SIG_IGN); // a write beyond the limit then fails instead of ending the process
     std::signal(SIGPIPE, SIG_IGN);
     const pid_t host = ::getppid();
     using namespace lacuna;

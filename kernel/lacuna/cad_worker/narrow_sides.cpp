@@ -14,8 +14,8 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Largest sag of a segment relative to its distance from another edge: also the relative error of a thin
-/// ring's area, so one percent.
+/// Largest sag of a segment relative to its distance from another edge. It is also the relative error of a
+/// thin ring's area: one percent.
 constexpr double kSag = 0.01;
 /// Largest refinement factor: a whole circle then has 384 segments.
 constexpr double kMost = 8;
@@ -24,7 +24,7 @@ constexpr double kMost = 8;
 struct Side {
     Vec3 from, to;
     std::size_t edge = 0;
-    double sag = 0; ///< of the curve over the segment [file length]
+    double sag = 0; ///< sag of the curve over the segment [file length]
 };
 
 /// Sag of a segment, from the arc through its ends and the next point.

@@ -15,8 +15,8 @@ using cad_protocol::RecombineRequest;
 
 namespace {
 
-/// Add the loops to Gmsh as lines that it must not divide. @return the face, and the Gmsh point of each
-/// region point on a loop.
+/// Add the loops to Gmsh as lines that it must not divide. @return the face, and for each region point on a
+/// loop the Gmsh point.
 std::pair<int, std::unordered_map<Index, int>> draw(const RecombineRequest& region, const Vec2& origin,
                                                     double scale)
 {
@@ -110,11 +110,11 @@ RecombineReply recombine(const RecombineRequest& region)
     const double scale = box.sizes().maxCoeff();
 
     Session session("a region to be filled with quads");
-    // 6, frontal: algorithm 8, made for quads, is not deterministic, as the order in which its cross field is
-    // solved depends on memory addresses.
+    // Algorithm 6, frontal. Algorithm 8, made for quads, is not deterministic: the order in which it solves
+    // its cross field depends on memory addresses.
     session.set("Mesh.Algorithm", 6);
     session.set("Mesh.RecombinationAlgorithm", 1); // Blossom
-    session.set("Mesh.CrossFieldClosestPoint", 0); // without ANN, the default crashes
+    session.set("Mesh.CrossFieldClosestPoint", 0); // without the library ANN, the default crashes
     session.set_sizes_from_boundary();
     session.set("Mesh.RecombineAll", 0);
     session.set("Mesh.Smoothing", 10);

@@ -19,7 +19,7 @@ using namespace cad_protocol;
 
 namespace {
 
-/// The names of the files of one request, withdrawn by the destructor.
+/// The names that one request gives to its files. The destructor withdraws them.
 class Folder {
 public:
     explicit Folder(std::string name) : name_(std::move(name)) {}
@@ -54,7 +54,7 @@ struct Solid {
 /// Answers requests, and holds the models that earlier requests loaded.
 class Desk {
 public:
-    /// @param progress  called with the fraction that is done.
+    /// @param progress  called with the fraction of the work that is done.
     /// @return  the bytes of the reply.
     /// @throw Error, std::bad_alloc
     std::string answer(Frame& frame, const Progress& progress)

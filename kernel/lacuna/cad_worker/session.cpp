@@ -51,7 +51,8 @@ std::string Gmsh::version()
     return version;
 }
 
-/// Restore an option at the end. @param next  its value until then; none: whatever a script makes it.
+/// Restore an option at the end of the session. @param next  its value until then; none: keep the present
+/// value, which a script may change.
 template <class Value>
 void Session::save(const std::string& option, const std::optional<Value>& next)
 {
@@ -69,8 +70,8 @@ void Session::save(const std::string& option, const std::optional<Value>& next)
 Session::Session(std::string subject) : subject_(std::move(subject))
 {
     run([&] { gmsh::logger::getLastError(last_error_); });
-    // A script may set these. Its Mesh options need no restoring: only recombine() and
-    // fill_skin() mesh, and they set their own.
+    // Options that a script may set. Its Mesh options need no restoring: only recombine() and fill_skin()
+    // mesh, and they set their own.
     for (const char* option : {"General.Terminal", "General.Verbosity", "General.AbortOnError",
                                "General.NumThreads", "Geometry.Tolerance", "Geometry.AutoCoherence"})
         run([&] { save<double>(option, std::nullopt); });
@@ -105,7 +106,7 @@ void Session::fail(const std::string& message) const
     std::string words = message;
     if (words.empty()) {
         gmsh::logger::getLastError(words);
-        if (words == last_error_) words.clear(); // of an earlier file
+        if (words == last_error_) words.clear(); // the error belongs to an earlier file
     }
     if (words.empty()) words = "it gave no reason";
     if (words.starts_with("Out of memory")) throw std::bad_alloc(); // Gmsh's allocator reports this as text

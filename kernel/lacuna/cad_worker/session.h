@@ -23,8 +23,8 @@ public:
     [[nodiscard]] static std::string version();
 };
 
-/// A scope for calls of Gmsh: at its end, the options that it set are restored, and the options of a script
-/// that later calls depend on.
+/// A scope for calls of Gmsh. At its end, the options that it set are restored, and so are options that
+/// scripts may set and later calls depend on.
 /// @pre  a `Gmsh` object exists.
 class Session {
 public:
@@ -37,7 +37,7 @@ public:
     /// Set an option until the session ends. Options that this version of Gmsh does not have are ignored.
     void set(const std::string& option, double value);
     void set(const std::string& option, const std::string& value);
-    /// Mesh with cells of order 1 whose sizes are those of the given boundary.
+    /// Make Gmsh mesh with cells of order 1, with sizes taken from the given boundary.
     void set_sizes_from_boundary();
 
     /// Run calls of Gmsh and translate their different kinds of failure.
@@ -73,8 +73,8 @@ private:
     void save(const std::string& option, const std::optional<Value>& next);
 
     std::string subject_;
-    std::string last_error_;                      ///< of Gmsh before the session
-    std::vector<std::function<void()>> restores_; ///< of changed options
+    std::string last_error_;                      ///< Gmsh's last error before the session
+    std::vector<std::function<void()>> restores_; ///< restore the changed options
 };
 
 /// A Gmsh model with a unique name; removed by the destructor.

@@ -21,12 +21,14 @@ using cad_protocol::SplineSurfaceData;
 
 namespace {
 
-/// An inner loop within this distance of a filled surface, relative to the diagonal, trims it.
+/// An inner loop trims a filled surface if it lies within this distance of the surface, relative to the
+/// diagonal.
 constexpr double kCloseBy = 1e-3;
-/// Tolerance, relative to the diagonal, for recognising a shape after it was copied through a file.
+/// Tolerance for recognising a shape after it was copied through a file, relative to the diagonal.
 constexpr double kSame = 1e-7;
 
-/// Points of an entity at a few fixed fractions of its parameter range; a copy of it has the same points.
+/// Points of an entity at a few fixed fractions of its parameter range. A copy of the entity has the same
+/// points.
 std::vector<Vec3> probes_of(int dim, int tag)
 {
     std::vector<double> low, high;
@@ -44,7 +46,7 @@ std::vector<Vec3> probes_of(int dim, int tag)
 /// Features by which a face or curve is recognised after it was copied through a file.
 struct Fingerprint {
     std::vector<Vec3> probes;
-    double area; ///< of a face; of a curve 0
+    double area; ///< area of a face; 0 for a curve
 
     Fingerprint(int dim, int tag) : probes(probes_of(dim, tag)), area(dim == 2 ? mass_of(2, tag) : 0) {}
     [[nodiscard]] bool is(const Fingerprint& other, double scale, double diagonal) const
@@ -70,7 +72,8 @@ int add_curve(const SplineCurveData& curve)
 
 int add_surface(const SplineSurfaceData& surface)
 {
-    // Keep the points: removing them takes time quadratic in their number, and only the solid is written.
+    // Keep the points: removing them would take time quadratic in their number, and only the solid is
+    // written.
     const std::vector<int> tags = add_points(surface.poles);
     const auto across = std::accumulate(surface.u.multiplicities.begin(), surface.u.multiplicities.end(), 0);
     return gmsh::model::occ::addBSplineSurface(tags, across - surface.u.degree - 1, -1, surface.u.degree,
@@ -100,7 +103,7 @@ SolidBuilder::SolidBuilder(std::string subject, SolidFiles files)
 
 // --- given faces ------------------------------------------------------------------------------------
 
-/// Copy shapes of a source through a file, which keeps them exactly and keeps their edges shared.
+/// Copy shapes of a source through a file. This keeps the shapes exact and their shared edges shared.
 cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& source,
                                                               const cad_protocol::SolidSource& wanted)
 {
@@ -137,7 +140,7 @@ cad_protocol::BeginSolidReply::Found SolidBuilder::add_source(const CadSource& s
                     return std::binary_search(fresh.begin(), fresh.end(), candidate) &&
                            known.is(Fingerprint(dim, candidate), source.scale, source.diagonal);
                 };
-                // Usually they come in the same order.
+                // Usually the copies come in the order of the originals.
                 const auto place = is(tag + last) ? std::find(fresh.begin(), fresh.end(), tag + last)
                                                   : std::find_if(fresh.begin(), fresh.end(), is);
                 if (place == fresh.end())
@@ -221,8 +224,8 @@ void SolidBuilder::forget_removed()
 
 // --- faces ------------------------------------------------------------------------------------------
 
-/// Holes are cut out by boolean operations, as Gmsh's plane with holes depends on
-/// the directions of their curves.
+/// A plane bounded by several loops. Holes are cut out by boolean operations, because Gmsh's own plane with
+/// holes depends on the directions of their curves.
 int SolidBuilder::plane(const SolidFace& face)
 {
     std::vector<int> parts;
@@ -245,8 +248,8 @@ int SolidBuilder::plane(const SolidFace& face)
     return cut.front().second;
 }
 
-/// A smooth surface over the outer loop, through points of the facets and of the
-/// inner loops, which then trim it.
+/// A smooth surface over the outer loop, through points of the facets and of the inner loops. The inner loops
+/// then trim the surface.
 int SolidBuilder::filling(const SolidFace& face)
 {
     std::vector<int> leading;
@@ -254,7 +257,7 @@ int SolidBuilder::filling(const SolidFace& face)
     const int filled = gmsh::model::occ::addSurfaceFilling(wire(face.loops.at(0)), -1, leading);
     if (face.loops.size() == 1) return filled;
 
-    // The inner loops are near the surface, not exactly on it; those that split it become edges of it.
+    // The inner loops are near the surface, but not exactly on it. Those that split it become edges of it.
     gmsh::vectorpair inner, parts;
     for (std::size_t l = 1; l < face.loops.size(); ++l)
         for (const auto& use : face.loops[l])

@@ -25,13 +25,13 @@ public:
     SolidBuilder(std::string subject, SolidFiles files);
 
     /// Copy faces and curves of a loaded model, scaled as that model was.
-    /// @return those that exist; faces of Gmsh's built-in kernel cannot be stored in a CAD file.
+    /// @return the entities that exist; faces of Gmsh's built-in kernel cannot be stored in a CAD file.
     /// @throw BackendError  an entity was lost when it was copied through a file; names it.
     cad_protocol::BeginSolidReply::Found add_source(const CadSource& source,
                                                     const cad_protocol::SolidSource& wanted);
 
     /// Make all faces, sew them, write the solid to the result file and read it back.
-    /// @throw BackendError  names the face that cannot be made, or why there is no solid.
+    /// @throw BackendError  a face cannot be made (names it), or the faces form no solid (gives the reason).
     cad_protocol::MakeSolidReply make(const cad_protocol::MakeSolidRequest& request,
                                       const Progress& progress);
 

@@ -12,7 +12,7 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// Curvature of a surface at a point; |first| >= |second|.
+/// Principal curvatures of a surface at a point; |first| >= |second|.
 struct Bend {
     Vec3 at, normal;
     double first = 0, second = 0; ///< principal curvatures, positive if the centre is on the normal side
@@ -58,7 +58,7 @@ bool collinear(const std::vector<Vec3>& points, double size, double precision)
 
 std::string kind_by_bending(int tag, const ParameterBox& box)
 {
-    // Gmsh computes some second derivatives by finite differences, with errors of about this size.
+    // Gmsh computes some second derivatives by finite differences, whose errors are about this large.
     constexpr double kPrecision = 1e-4;
     const std::vector<Bend> bends = bends_of(tag, box);
     if (bends.empty()) return "surface";

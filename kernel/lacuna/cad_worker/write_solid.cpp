@@ -15,13 +15,14 @@ using cad_protocol::MakeSolidRequest;
 
 namespace {
 
-/// Allowed relative change of the volume by writing: readers of STEP recompute edges on fitted surfaces.
+/// Allowed relative change of the volume when the file is read back: readers of STEP recompute edges on
+/// fitted surfaces.
 constexpr double kVolumeChange = 1e-4;
 
 /// Whether a curve of a face is degenerate: the pole of a sphere, the tip of a cone.
 bool is_pole(int curve, double diagonal) { return mass_of(1, curve) <= kSamePlace * diagonal; }
 
-/// Describes how the current model differs from one closed solid; empty if it does not.
+/// How the current model differs from one closed solid, as text; empty if it does not differ.
 std::string faults_of_model(double diagonal)
 {
     gmsh::model::occ::synchronize();
@@ -38,7 +39,8 @@ std::string faults_of_model(double diagonal)
     return open == 0 ? "" : formatted("{} open edges", open);
 }
 
-/// Cut a box around the faces by them. @return the part bounded by exactly these faces; 0 if there is none.
+/// Divide a box, which encloses the faces, by the faces. @return the part that is bounded by exactly these
+/// faces; 0 if there is none.
 ///
 /// Sewing removes the zero-length edges at poles and tips, after which Open CASCADE reports the faces there
 /// as invalid. Cutting keeps these edges but takes longer.
@@ -47,11 +49,11 @@ int cut_out(Session& session, const gmsh::vectorpair& shapes, const MakeSolidReq
 {
     Eigen::AlignedBox3d box;
     for (const Vec3& p : request.points) box.extend(p);
-    // A box large enough that faces that bulge between their points stay inside.
+    // The box is so large that faces that bulge between their points stay inside.
     const Vec3 side = 3 * box.diagonal().norm() * Vec3::Ones(), low = box.center() - side / 2;
     const int around = gmsh::model::occ::addBox(low.x(), low.y(), low.z(), side.x(), side.y(), side.z());
     session.set("Geometry.ToleranceBoolean", tolerance);
-    gmsh::vectorpair own, out; // copies, for the faces that stay as they are are parts of the result
+    gmsh::vectorpair own, out; // copies, because faces that stay as they are become part of the result
     gmsh::model::occ::copy(shapes, own);
     std::vector<gmsh::vectorpair> map;
     gmsh::model::occ::fragment({{3, around}}, own, out, map);
@@ -72,7 +74,8 @@ bool has_pole(int face, double diagonal)
                                [&](const auto& curve) { return is_pole(curve.second, diagonal); });
 }
 
-/// Sew with increasing tolerances until the faces form one solid. @return the solid, and the tolerance
+/// Sew with increasing tolerances until the faces form one solid. @return the solid, and the tolerance that
+/// was used
 std::pair<int, double> sew(Session& session, const std::vector<int>& faces, const MakeSolidRequest& request)
 {
     gmsh::vectorpair shapes;
@@ -100,8 +103,8 @@ std::pair<int, double> sew(Session& session, const std::vector<int>& faces, cons
                        .remedy("write the facets with write_facets"));
 }
 
-/// Write the current model to a file completely. Open CASCADE may not report a failed write, so the size of
-/// the file is compared with the limit.
+/// Write the current model to a file and check that the file is complete. Open CASCADE may not report a
+/// failed write, so the size of the file is compared with the limit.
 void write_whole(const Session& session, const std::string& path)
 {
     const auto check_room = [&] {
@@ -130,7 +133,8 @@ void write_alone(Session& session, int solid, const SolidFiles& files)
     for (const int tag : tags_of(3))
         if (tag != solid) others.emplace_back(3, tag);
     if (!others.empty()) gmsh::model::occ::remove(others);
-    // Copy the solid through a file: unused faces, curves and points are dropped when it is read.
+    // Copy the solid through a file. Faces, curves and points that the solid does not use are dropped when it
+    // is read.
     gmsh::model::occ::synchronize();
     write_whole(session, files.all);
     const GmshModel alone(session);

@@ -9,8 +9,9 @@
 
 namespace lacuna {
 
-/// Base class of every error of the kernel. Its message names entities by the user's tags, what was found,
-/// what is needed, and one thing to try; `what()` is its text, `code()` is stable, for programs.
+/// Base class of all errors of the kernel. The message names entities by the user's tags, says what was found
+/// and what is needed, and gives one thing to try. `what()` returns its text. `code()` returns a stable code
+/// for programs.
 class Error : public std::runtime_error {
 public:
     explicit Error(Message message);
@@ -28,7 +29,7 @@ private:
     Message message_;
 };
 
-/// An input of the caller cannot be used: an option, a file, a role.
+/// The caller's input (an option, a file, a role) cannot be used.
 class InvalidInput : public Error {
 public:
     using Error::Error;

@@ -29,7 +29,7 @@ struct NamedEntity {
 /// A number or a text in a message.
 using MessageValue = std::variant<long long, double, std::string>;
 
-/// The data of a message, as another process or a message that quotes it receives it.
+/// The parts of a message: they are sent to another process, or copied into a message that quotes this one.
 struct MessageParts {
     std::string code; ///< "folder.what_went_wrong"; stable, for programs
     std::string text; ///< without the remedy
@@ -59,7 +59,8 @@ public:
     Argument(const NamedEntity& entity);
     /// Printed as a list of at most six entities and a count of the others.
     Argument(std::vector<NamedEntity> entities);
-    /// Prints the text and the remedy; entities and values become those of the message that quotes them.
+    /// Prints the text and the remedy of the quoted message; the new message takes over its entities and
+    /// values.
     Argument(MessageParts quoted);
     Argument(Role role, const Argument& of);
 
@@ -121,7 +122,7 @@ private:
 ///     Message("surface.sides_asked", "{} has {} sides, but {} are needed", edge, found(7), needed(8))
 ///         .remedy("load with keep_mesh = false")
 ///
-/// Visible, as hosts of the shared library copy the message of an error that they caught.
+/// Exported from the shared library, because hosts copy the message of an error that they caught.
 class __attribute__((visibility("default"))) Message {
 public:
     /// @param code    "folder.what_went_wrong"; stable, for programs.
@@ -131,7 +132,7 @@ public:
         : Message(code, format.text(), std::initializer_list<Argument>{Argument(arguments)...})
     {
     }
-    /// A message of another process, rebuilt from its parts, which are kept as they are.
+    /// Rebuild a message that another process sent as its parts. The parts are kept unchanged.
     explicit Message(MessageParts parts);
 
     Message(const Message&);
@@ -152,9 +153,9 @@ public:
     {
         return Message(*this).remedy(format, arguments...);
     }
-    /// Add why an attempt failed; the text ends with it, in brackets.
+    /// Add the reason why an attempt failed. The text ends with it, in brackets.
     [[nodiscard]] Message attempt(Message failed) const;
-    /// The same message about a part, a file or a member: "subject: text".
+    /// The same message with the name of a part, file or member in front: "subject: text".
     [[nodiscard]] Message about(std::string_view subject) const;
 
     [[nodiscard]] const std::string& code() const { return parts_.code; }

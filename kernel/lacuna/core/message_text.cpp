@@ -68,7 +68,7 @@ std::string Message::text() const
         const auto same = [&](const Message* other) {
             return other->code() == failed.code() && other->entities() == failed.entities();
         };
-        if (std::ranges::any_of(said, same)) continue; // the same reason
+        if (std::ranges::any_of(said, same)) continue; // this reason has been given already
         said.push_back(&failed);
         Message reason = failed;
         if (reason.remedy() == remedy()) reason.parts_.remedy.clear();

@@ -9,7 +9,8 @@ namespace lacuna {
 
 std::size_t edit_distance(const char* a, const char* b)
 {
-    // Computed over one row of this length. Names are short; letters beyond it only count by their number.
+    // The distance is computed over rows of this length. Of the letters beyond it, only the difference in
+    // number counts.
     constexpr std::size_t kLongest = 63;
     const std::size_t m = std::min(std::strlen(a), kLongest), n = std::min(std::strlen(b), kLongest);
     std::array<std::size_t, kLongest + 1> row{};

@@ -45,7 +45,7 @@ void parallel_for(const RunContext& context, std::size_t count, std::size_t grai
     try {
         for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(work);
     } catch (const std::system_error&) {
-        // The system cannot create more threads: the available ones and this one do all the work.
+        // The system cannot create more threads: this thread and those created so far do all the work.
     }
     work();
     for (std::thread& helper : helpers) helper.join();

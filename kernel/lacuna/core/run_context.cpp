@@ -10,7 +10,8 @@ namespace lacuna {
 
 namespace {
 
-/// Limit on the number of threads, against typing errors, on machines with fewer cores than this.
+/// The number of threads is limited to this, or to the number of cores if that is larger. It stops typing
+/// errors.
 constexpr int kMostThreads = 64;
 
 } // namespace

@@ -7,7 +7,8 @@
 
 namespace lacuna {
 
-/// Threads, cancelling, log and progress of a computation. All members have working defaults. Not owned.
+/// How a computation runs: threads, cancelling, log and progress. All members have working defaults. The flag
+/// that `cancel` points to belongs to the host.
 struct RunContext {
     int threads = 0;                                        ///< 0 or less: all cores; see thread_count()
     const std::atomic<bool>* cancel = nullptr;              ///< set by the host to stop the work

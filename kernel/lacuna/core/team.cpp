@@ -47,7 +47,7 @@ void do_together(const Team* team, const std::function<void()>& work)
     try {
         work();
         gather(team, {});
-    } catch (const TeamFailed& error) { // all processes know of it already
+    } catch (const TeamFailed& error) { // all processes know of the failure already
         if (error.code() == Cancelled().code()) throw Cancelled();
         throw;
     } catch (const Error& error) {

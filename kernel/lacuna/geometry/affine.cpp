@@ -15,7 +15,7 @@ namespace lacuna::geometry {
 
 namespace {
 
-// A spread below this part of the largest is indistinguishable from rounding.
+// A spread below this share of the largest one is indistinguishable from rounding.
 const double kUnresolved = std::sqrt(std::numeric_limits<double>::epsilon());
 
 Vec3 pseudo_normal(const Vec3& area)
@@ -86,7 +86,7 @@ AffineFit AffineFitter::fit(std::span<const Vec3> to, const Vec3& to_area) const
     result.rank = rank_;
 
     const double share = std::sqrt(static_cast<double>(std::max<std::size_t>(to.size(), 1)));
-    Eigen::Matrix3d image = Eigen::Matrix3d::Zero(); // of the axes, in their own frame
+    Eigen::Matrix3d image = Eigen::Matrix3d::Zero(); // image of the axes, in their own frame
     for (std::size_t i = 0; i < to.size(); ++i) {
         image += ((to[i] - result.to_centre) / share) * basis_.row(static_cast<Eigen::Index>(i));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// find_crossing(): segments are stored as needles in a tree of boxes with median cuts. A tree and not a grid,
-// as spacings may differ by a factor of a million.
+// find_crossing() stores the segments as degenerate triangles in a tree of boxes with median cuts. A grid
+// would not do, because spacings may differ by a factor of a million.
 #include <lacuna/geometry/shared/triangulate.h>
 
 #include <lacuna/geometry/shared/facet_tree.h>

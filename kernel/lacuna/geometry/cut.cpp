@@ -76,8 +76,8 @@ std::vector<std::array<int, 3>> turns_along(std::span<const Triangle> triangles,
         const Triangle& triangle = triangles[t];
         return static_cast<std::size_t>(std::find(triangle.begin(), triangle.end(), p) - triangle.begin());
     };
-    // Around each point of the cut, collect the facets on its right, which contain the sides of
-    // the cut in opposite direction.
+    // Around each point of the cut, collect the facets on the right of the cut. These contain the cut's sides
+    // in the opposite direction.
     for (std::size_t i = 0; i < cut.size(); ++i) {
         std::vector<std::size_t> front;
         const auto start_at = [&](Index a, Index b) {

@@ -51,7 +51,8 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
     const Vec2 centre = box.center();
     double extent = box.sizes().maxCoeff();
     if (!(extent > 0)) extent = 1;
-    // Any triangle around the box would do; at a few times its size, the first triangles are not slivers.
+    // Any triangle around the box would do. This one is a few times larger, so that the first triangles are
+    // not slivers.
     points_.push_back(centre + Vec2(-8, -5) * extent);
     points_.push_back(centre + Vec2(8, -5) * extent);
     points_.push_back(centre + Vec2(0, 9) * extent);
@@ -66,9 +67,9 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
 
 void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, double extent)
 {
-    // Insert in rounds, each with twice as many points as all before it and each along a Hilbert curve
-    // @cite amenta_2003_order. Along a single curve, walks follow rims of many points, and each point of a
-    // line or circle replaces nearly all triangles at the previous one.
+    // Insert the points in rounds @cite amenta_2003_order. Each round has about as many points as all rounds
+    // before it, ordered along a Hilbert curve. With a single round, the walk to a point would follow rims of
+    // many points, and each point of a line or circle would replace nearly all triangles at the previous one.
     constexpr std::size_t kFirstRound = 1024; // a small first round is inserted in Hilbert order only
     int rounds = 0;
     while (used.size() >> rounds > kFirstRound) ++rounds;
@@ -128,7 +129,8 @@ bool DelaunayMesh::find_cavity(const Vec2& p, Index holder, Cavity& cavity)
     cavity.triangles.clear();
     cavity.border.clear();
     ++stamp_now_;
-    // Depth first, sides in counter-clockwise order from the side of entry: this gives the border in order.
+    // Visit triangles depth first, and their sides counter-clockwise from the side of entry. This gives the
+    // border in order.
     auto& pending = cavity.pending;
     pending.clear();
     cavity.triangles.push_back(holder);
@@ -264,8 +266,8 @@ void DelaunayMesh::fix_segment(Index a, Index b)
         const double turn = orient2d(at(a), at(b), at(apex));
         if (turn == 0) throw Error("geometry.internal", "internal error: a segment passes through a point");
         (turn > 0 ? left : right).push_back(apex);
-        // The corners are the apex and the ends of the left and right chains; cross the side between the apex
-        // and one end.
+        // The corners are the apex and the ends of the left and right chains. Cross the side between the apex
+        // and one of these ends.
         side = turn > 0 ? (entry + 1) % 3 : (entry + 2) % 3;
     }
     left.push_back(b);

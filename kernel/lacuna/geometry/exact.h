@@ -8,8 +8,8 @@
 
 namespace lacuna::geometry {
 
-/// The exact surface of a face, onto which points can be projected. The kernel does not know its type; `cad/`
-/// implements it, and a host may do so with its own CAD kernel.
+/// The exact surface of a face; points can be projected onto it. The kernel does not know the type of the
+/// surface: `cad/` implements it, and a host may implement it with its own CAD kernel.
 class ExactSurface {
 public:
     virtual ~ExactSurface() = default;

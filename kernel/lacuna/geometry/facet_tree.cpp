@@ -20,8 +20,8 @@ using Corners = std::array<Vec3, 3>;
 
 /// Most triangles in a leaf.
 constexpr std::uint32_t kLeaf = 4;
-/// Subtrees with fewer triangles are built, and as many pairs of boxes compared, between checks for
-/// cancelling: a few milliseconds.
+/// Subtrees with fewer triangles are built without checking for cancellation, and checks are this number of
+/// compared pairs of boxes apart: a few milliseconds.
 constexpr std::uint32_t kPolled = 16384;
 /// Subtrees with fewer triangles are built on one thread: 1 ms.
 constexpr std::uint32_t kShared = 4096;
@@ -54,7 +54,7 @@ bool near(const Box& a, const Box& b, double margin)
            ((b.min().array() - margin) <= a.max().array()).all();
 }
 
-/// Componentwise inverse; +∞ for both zeros, which keeps the two sides of a box in order.
+/// Componentwise inverse. Both +0 and -0 give +∞, which keeps the two sides of a box in order.
 Vec3 inverse_of(const Vec3& direction) { return (direction.array() + 0.0).inverse(); }
 
 /// Whether the ray intersects the box before t_max. `inverse` may contain infinities.
@@ -65,7 +65,8 @@ bool meets(const Box& box, const Vec3& origin, const Vec3& inverse, double t_max
         double t0 = (box.min()[axis] - origin[axis]) * inverse[axis];
         double t1 = (box.max()[axis] - origin[axis]) * inverse[axis];
         if (t0 > t1) std::swap(t0, t1);
-        // 0 · ∞ (NaN), for a ray in the plane of a side, must not be a bound: comparisons with it are false.
+        // A ray in the plane of a side gives 0 · ∞ = NaN. It must not become a bound, and does not:
+        // comparisons with it are false.
         if (t0 > enter) enter = t0;
         if (t1 < leave) leave = t1;
     }
@@ -195,9 +196,9 @@ FacetTree::FacetTree(std::span<const Vec3> points, std::span<const Triangle> tri
     bounds_ = node_.front().box;
 }
 
-/// Build the nodes over triangles [begin, end), starting at node `self`; the
-/// lower half precedes the upper half.
-/// @return  the node after them.
+/// Build the nodes over the triangles [begin, end), starting at node `self`. The nodes of the lower half come
+/// before those of the upper half.
+/// @return  index of the node after the last one that was built.
 std::uint32_t FacetTree::build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
                                int threads, const RunContext& context)
 {
@@ -393,8 +394,8 @@ Vec3 heights_over(const Corners& of, const Corners& plane, const Vec3& normal, d
     return result;
 }
 
-/// The interval in which a triangle intersects the line of intersection of two planes: the parameters of
-/// corners on the plane and of sides that cross it.
+/// The interval that a triangle occupies on the line in which two planes intersect. Its ends are corners on
+/// the other plane, or places where sides cross that plane.
 std::pair<double, double> stretch(const Corners& c, const Vec3& heights, const Vec3& origin, const Vec3& line)
 {
     std::pair<double, double> range{kInfinity, -kInfinity};

@@ -37,7 +37,7 @@ Facets densely(std::span<const Vec3> points, std::span<const Triangle> triangles
     for (const Triangle& triangle : triangles)
         for (const Index corner : triangle) {
             if (corner < 0 || index(corner) >= points.size())
-                fail("a triangle has point number {} of {}", found(corner), points.size());
+                fail("a triangle uses point {}, but there are {} points", found(corner), points.size());
             local[index(corner)] = 0;
         }
     Facets facets;
@@ -98,7 +98,7 @@ void sort_longest_first(Facets& facets)
     });
 }
 
-// --- what curved facets must be -------------------------------------------------------------------
+// --- conditions on curved facets --------------------------------------------------------------------
 
 Index count_parts(const Facets& facets)
 {
@@ -133,7 +133,7 @@ void check_disc(const Facets& facets, const std::vector<Segment>& boundary, cons
                  .remedy("cut them open"));
 }
 
-// --- how well it went -----------------------------------------------------------------------------
+// --- quality of a map -------------------------------------------------------------------------------
 
 Vec3 in_space(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
@@ -164,7 +164,7 @@ void judge(const Facets& facets, const std::vector<Segment>& boundary, Flattened
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {
         const auto [large, small] = flat::stretches(flat::jacobian(facets, t, flat.position));
         if (facets.shapes[t].thin) {
-            // The sign of a collapsed triangle is rounding, unless the triangle has grown.
+            // The sign of a collapsed triangle is a rounding error, unless the triangle has grown.
             if (small * large < -1) ++flat.flips;
             continue;
         }
@@ -219,8 +219,8 @@ void align(Positions& positions, const Positions& model)
 }
 
 /// Whether facets form a tube between two loops: the total geodesic curvature of the outer loop is less than
-/// half of that of a flat ring. It is zero for a cylinder, and half for a cone whose wall is inclined by 60°
-/// to its base. A rolled-up sheet with a hole is not a tube.
+/// π, half of that of a flat ring. A cylinder has 0, and a cone whose wall is inclined by 60° to its base has
+/// π. A rolled-up sheet with a hole is not a tube.
 bool is_tube(const Facets& facets)
 {
     if (facets.loops.size() != 2) return false;
@@ -280,7 +280,7 @@ Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triang
     if (is_planar(facets, plane)) {
         flat.position = projected;
         judge(facets, boundary, flat);
-        // Facets folded over in their plane are unfolded like curved ones.
+        // Planar facets that fold over each other are unfolded like curved ones.
         if (!flat.folded) return flat;
     }
     check_disc(facets, boundary, twice, flat.used);

@@ -24,7 +24,7 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Matrix2d;
 
-/// Half the digits of a double: triangles thinner than this are degenerate.
+/// √ε: triangles that are thinner, relative to their longest side, are degenerate.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 /// Limit on the iterations of a map.
@@ -154,8 +154,8 @@ Positions conformal(const Facets& facets)
         if (i != first && i != second) unknown[index(i)] = size++;
     if (size == 0) return Positions(facets.points.size(), Vec2::Zero());
 
-    // With positions u and gradients g as complex numbers, the derivative of the map by the conjugate
-    // variable is ½ Σ g_i u_i. It vanishes for rotations with scaling; the energy is the sum of its squares.
+    // Let the positions u and the gradients g be complex numbers. The derivative of the map by the conjugate
+    // variable is ½ Σ g_i u_i; it vanishes for rotations with scaling. The energy is the sum of its squares.
     std::vector<Eigen::Triplet<Complex>> entries;
     Eigen::VectorXcd right = Eigen::VectorXcd::Zero(size);
     for (std::size_t t = 0; t < facets.triangles.size(); ++t) {

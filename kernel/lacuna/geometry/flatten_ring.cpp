@@ -13,8 +13,8 @@ namespace {
 
 double share(double turns) { return turns - std::floor(turns); }
 
-/// Rotation of the inner loop that minimises the shear of the strip [turns]: the coordinate around the strip
-/// plus this multiple of the one across it has the least Dirichlet energy.
+/// The rotation of the inner loop that minimises the shear of the strip [turns]. Adding this multiple of the
+/// coordinate across the strip to the coordinate around it gives the least Dirichlet energy.
 double least_shear(const Facets& facets, const HarmonicProblem& problem, const Eigen::MatrixXd& strip)
 {
     double both = 0, across = 0;
@@ -47,11 +47,11 @@ Positions ring(const Facets& facets)
     problem.points = facets.points;
     problem.triangles = facets.triangles;
     problem.corner_turns = turns_along(facets.triangles, cut);
-    // The facets are on the left of the loop, so the loop leaves the cut to the right, where the branch is
+    // The facets are on the left of the loop. So the loop leaves the cut on its right, where the branch is
     // one turn less.
     problem.period = Eigen::RowVector2d(-1, 0);
     const auto round_at = [&](std::size_t i) { return i == 0 ? 1 : round[i] / round.back(); };
-    // The inner loop has the opposite direction. It is rotated later, which adds a harmonic function. Its
+    // The inner loop runs in the opposite direction. Its rotation is added later, as a harmonic function. Its
     // points are on the branch of the end of the cut.
     const auto end = static_cast<std::size_t>(std::find(inner.begin(), inner.end(), cut.back()) -
                                               inner.begin());
@@ -79,7 +79,8 @@ Positions ring(const Facets& facets)
         energy += facets.shapes[t].area * slope.squaredNorm();
     }
     const double decay = 2 * std::numbers::pi / energy;
-    constexpr double kMostDecay = 8; // limit of log(outer / inner radius), so that the paver can work
+    constexpr double kMostDecay = 8; // limit of log(outer / inner radius); the paver cannot mesh thinner
+                                     // rings
     if (!(decay <= kMostDecay)) return {};
     Positions positions;
     for (Eigen::Index p = 0; p < strip.rows(); ++p) {

@@ -19,14 +19,14 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Half the digits of a double: the lower limit of weights, relative to the others of a point. Smaller
-/// weights are lost to rounding in the solution; the limit keeps the system regular and all weights positive.
+/// √ε: the lower limit of a weight, relative to the other weights of its point. Smaller weights would be lost
+/// to rounding. The limit keeps the system regular and all weights positive.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
 constexpr Index kFree = -1, kUnused = -2;
 
 /// tan(angle / 2) between two sides, limited from below and above.
-/// @param product  of their lengths
+/// @param product  product of the lengths of the sides
 double half_tangent(const Vec3& a, const Vec3& b, double product)
 {
     const double cosine = a.dot(b), sine = a.cross(b).norm();
@@ -53,10 +53,11 @@ struct Weight {
     double value;
 };
 
-/// Whether each point is on a border: there, some neighbour occurs in one triangle only.
+/// Whether each point is on a border: there, some neighbour occurs in only one of its triangles.
 std::vector<bool> on_border(const HarmonicProblem& problem)
 {
-    std::vector<std::uint32_t> met(problem.points.size(), 0); // those that occur twice cancel
+    std::vector<std::uint32_t> met(problem.points.size(), 0); // exclusive or: neighbours that occur twice
+                                                              // cancel
     for (const Triangle& t : problem.triangles) {
         for (std::size_t i = 0; i < 3; ++i)
             met[index(t[i])] ^= static_cast<std::uint32_t>(t[(i + 1) % 3]) ^
@@ -68,9 +69,9 @@ std::vector<bool> on_border(const HarmonicProblem& problem)
     return border;
 }
 
-/// The weights of all corners of all triangles, unordered: mean value weights, and cotangents at borders. On
-/// a border, mean value weights would be biased by the diagonals of the facets, as all neighbours are on one
-/// side; with cotangents there is no flux across the border.
+/// The weights of all corners of all triangles, unordered: cotangents at borders, mean value weights
+/// elsewhere. At a border all neighbours are on one side, so mean value weights would be biased by the
+/// diagonals of the facets. With cotangents there is no flux across the border.
 std::vector<Weight> corner_weights(const HarmonicProblem& problem, const std::vector<bool>& border)
 {
     std::vector<Weight> weights;
@@ -117,19 +118,19 @@ void check(const HarmonicProblem& problem)
     for (const Triangle& triangle : problem.triangles)
         for (const Index corner : triangle)
             if (corner < 0 || corner >= count)
-                fail("a triangle has point number {} of {}", found(corner), count);
+                fail("a triangle uses point {}, but there are {} points", found(corner), count);
     for (const Index point : problem.fixed)
         if (point < 0 || point >= count)
-            fail("point {} is fixed, but the number of points is {}", found(point), count);
+            fail("point {} is fixed, but there are {} points", found(point), count);
     if (problem.fixed_values.rows() != static_cast<Eigen::Index>(problem.fixed.size()))
-        fail("{} points are fixed, but there are values for {}", needed(problem.fixed.size()),
+        fail("{} points are fixed, but {} have values", needed(problem.fixed.size()),
              found(problem.fixed_values.rows()));
     if (problem.corner_turns.empty()) return;
     if (problem.corner_turns.size() != problem.triangles.size())
         fail("expected turns for {} triangles, found {}", needed(problem.triangles.size()),
              found(problem.corner_turns.size()));
     if (problem.period.size() != problem.fixed_values.cols())
-        fail("the period has {} numbers, the values have {}", found(problem.period.size()),
+        fail("the period has {} numbers, but each value has {}", found(problem.period.size()),
              needed(problem.fixed_values.cols()));
 }
 
@@ -175,8 +176,8 @@ std::vector<Weight> by_point(const std::vector<Weight>& weights, std::size_t poi
 }
 
 /// Normalise the weights of each point, which are grouped, to the sum 1.
-/// @param positive  limit weights from below, against rounding
-/// @return  the sum for each point before
+/// @param positive  limit weights from below, so that rounding does not lose them
+/// @return  for each point, the sum of its weights before normalising
 std::vector<double> normalise(std::vector<Weight>& weights, std::size_t points, bool positive)
 {
     std::vector<double> sums(points, 1);
@@ -197,8 +198,8 @@ std::vector<double> normalise(std::vector<Weight>& weights, std::size_t points, 
 }
 
 /// Row factors that make the matrix nearly symmetric, as multigrid needs.
-/// @param sums  of the weights before normalising. Mean value weights are divided by a length; the cotangents
-///              of neighbouring border points must be scaled likewise.
+/// @param sums  sum of each point's weights before normalising. Mean value weights are divided by a length;
+///              the cotangents of border points must be scaled in the same way.
 std::vector<double> evening(const HarmonicProblem& problem, const std::vector<bool>& border,
                             std::span<const Weight> weights, std::vector<double> sums)
 {
@@ -214,10 +215,11 @@ std::vector<double> evening(const HarmonicProblem& problem, const std::vector<bo
     return sums;
 }
 
-/// From this number of unknowns on, multigrid is used instead of a factorisation. Measured on walls of
-/// cylinders, at this size: factorisation 0.06 s, growing with power 1.5; multigrid 0.03 s, growing linearly.
+/// Systems with this number of unknowns or more are solved by multigrid, smaller ones by factorisation.
+/// Measured on walls of cylinders at this size: factorisation takes 0.06 s, growing with power 1.5; multigrid
+/// takes 0.03 s, growing linearly.
 constexpr Eigen::Index kMany = 20000;
-/// The same limit if nine digits suffice. Measured: 0.012 s against 0.04 s for 6,000 unknowns.
+/// The same limit if nine digits suffice. Measured at 6,000 unknowns: 0.012 s instead of 0.04 s.
 constexpr Eigen::Index kManyForNineDigits = 2000;
 
 /// Solve a large system; nothing if multigrid does not converge.
@@ -258,14 +260,14 @@ Eigen::MatrixXd solve_directly(const std::vector<Eigen::Triplet<double>>& entrie
     return solver.solve(right);
 }
 
-/// If an affine function of position has the fixed values and satisfies all means, its values: true for walls
-/// that extend straight up. No system need be solved then.
+/// If an affine function of position has the fixed values and satisfies all means, its values. This holds for
+/// walls that extend straight up; no system need then be solved.
 /// @param weights  normalised
 std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, std::span<const Index> role,
                                                std::span<const Weight> weights)
 {
-    // Relative to the range of the fixed values: nine digits are then correct a hundred
-    // layers from the next fixed point.
+    // Allowed difference relative to the range of the fixed values. Nine digits are then correct a hundred
+    // layers away from the next fixed point.
     constexpr double kOff = 1e-13;
     const Eigen::Index columns = problem.fixed_values.cols();
     if (columns > 3 || !problem.corner_turns.empty()) return std::nullopt;

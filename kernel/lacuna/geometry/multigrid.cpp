@@ -21,7 +21,7 @@ constexpr double kStrong = 0.08;
 constexpr double kSmoothing = 2.0 / 3.0;
 /// Levels with at most this number of rows are solved directly: one millisecond.
 constexpr Eigen::Index kCoarsest = 200;
-/// If aggregation keeps more than this part of the rows, multigrid is not used.
+/// Multigrid is not used if aggregation keeps more than this share of the rows.
 constexpr double kLeastGain = 0.7;
 /// Relative residual at which the iteration stops. Measured on walls of 10,000 to 700,000 facets: the error
 /// of values in [0, 1] is then below 1e-9.
@@ -29,8 +29,8 @@ constexpr double kSettled = 1e-11;
 /// Limit on the number of iterations; five to eight are usual.
 constexpr int kMostSteps = 60;
 
-/// Aggregate rows to the rows of the next level: the number of each row's aggregate; -1 for rows without
-/// strong couplings, which a sweep solves.
+/// Assign each row to an aggregate, which becomes a row of the next level. Rows without strong couplings get
+/// -1: a Gauss-Seidel sweep solves them.
 std::vector<Index> aggregates(const Matrix& matrix, Index& count)
 {
     const Eigen::Index rows = matrix.rows();
@@ -44,7 +44,8 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
     };
     std::vector<Index> of(index(static_cast<Index>(rows)), -1);
     count = 0;
-    for (Eigen::Index row = 0; row < rows; ++row) { // complete neighbourhoods first
+    for (Eigen::Index row = 0; row < rows; ++row) { // first, rows whose neighbours are all free form
+                                                    // aggregates with them
         bool bare = true, any = false;
         if (of[std::size_t(row)] >= 0) continue;
         each_strong(row, [&](Index other, double) {
@@ -56,7 +57,8 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
         each_strong(row, [&](Index other, double) { of[index(other)] = count; });
         ++count;
     }
-    std::vector<Index> joined = of; // then single rows join a neighbour's aggregate
+    std::vector<Index> joined = of; // then each remaining row joins the aggregate of its most strongly
+                                    // coupled neighbour
     for (Eigen::Index row = 0; row < rows; ++row) {
         if (of[std::size_t(row)] >= 0) continue;
         double strongest = 0;
@@ -67,7 +69,8 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
         });
     }
     of = std::move(joined);
-    for (Eigen::Index row = 0; row < rows; ++row) { // then the rest
+    for (Eigen::Index row = 0; row < rows; ++row) { // then the remaining rows form aggregates with their
+                                                    // neighbours
         if (of[std::size_t(row)] >= 0) continue;
         bool any = false;
         each_strong(row, [&](Index other, double) {
@@ -79,7 +82,7 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
     return of;
 }
 
-/// The smoothed aggregates, one column for each. Weak couplings are added to the diagonal.
+/// Interpolation from the aggregates: one smoothed column for each. Weak couplings are added to the diagonal.
 Matrix prolongation(const Matrix& matrix, const std::vector<Index>& of, Index count)
 {
     const Vector diagonal = matrix.diagonal();
@@ -224,7 +227,7 @@ bool Multigrid::solve(const Vector& right, Vector& x, const RunContext& context)
         direction = residual + product / before * along / damped * (direction - damped * change);
         if (!std::isfinite(size) || product == 0) return false;
     }
-    // Recursively updated residuals drift, so compute the residual.
+    // The residual updated in each step drifts, so compute it anew.
     return (right - matrix * x).norm() <= 10 * wanted;
 }
 

@@ -8,9 +8,10 @@
 
 namespace lacuna::geometry {
 
-/// Area vector of a closed loop (Newell): half the sum of the cross products of successive points. Its
-/// direction is that from which the projected loop has the largest area, counter-clockwise; its length is
-/// this area [model length²]. Independent of translation. The first point is not repeated.
+/// Area vector of a closed loop (Newell): half the sum of the cross products of successive points. Seen
+/// against its direction, the projected loop runs counter-clockwise and has its largest area; the length of
+/// the vector is this area [model length²]. It does not depend on translation. The first point is not
+/// repeated.
 Vec3 newell_vector(std::span<const Vec3> closed_loop);
 
 /// A plane with an orthonormal, right-handed frame `u`, `v`, `normal`.
@@ -25,8 +26,7 @@ struct Plane {
 /// @pre normal is finite and not zero; its length does not matter.
 Plane plane_across(const Vec3& origin, const Vec3& normal);
 
-/// The plane in which the projection of a face bounded by `loops` has the largest
-/// area (the paper's Newell domain).
+/// The plane in which the projection of a face bounded by `loops` has the largest area.
 ///
 /// The normal is the sum of the loops' Newell vectors; inner loops are directed oppositely, so holes are
 /// subtracted. The origin is the mean of the points of the outer loop. If the sum vanishes (a slit, collinear

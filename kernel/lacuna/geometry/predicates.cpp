@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// An expansion is a sum of doubles that do not overlap, smallest first; it has the sign of its last term.
-// Sums and products of doubles are split into a rounded double and the exact error, so polynomials can be
+// An expansion is a sum of doubles that do not overlap, smallest first. It has the sign of its last term.
+// Sums and products of doubles are split into a rounded double and the exact error, so that polynomials are
 // evaluated without rounding (Shewchuk, Adaptive precision floating-point arithmetic, 1997). The compiler
-// must not contract a·b + c or reorder sums; the usual compilers do not in ISO mode.
+// must neither contract a·b + c nor reorder sums; common compilers do neither in ISO mode.
 #include <lacuna/geometry/shared/predicates.h>
 
 #include <array>

@@ -17,13 +17,13 @@ using Matrix = Eigen::SparseMatrix<double>;
 /// Number of multiplications between checks for cancelling.
 constexpr long kWorkBetweenPolls = 100'000;
 
-/// The rows of L that each row of a matrix fills, found with the elimination tree.
+/// For each row of L, the columns in which it has entries, found with the elimination tree.
 class RowPattern {
 public:
     explicit RowPattern(int size) : parent_(index(size), -1), met_(index(size), -1), row_(index(size)) {}
 
-    /// The columns in which row k of L has entries, ordered so that each comes after those it depends on;
-    /// stored at the end of `row_`.
+    /// The columns in which row k of L has entries, stored at the end of `row_`. Each column comes after the
+    /// columns that it depends on.
     /// @param tell  called with each entry of column k of the upper triangle.
     template <class Tell>
     std::span<const int> of(const Matrix& upper, int k, const Tell& tell)
@@ -47,7 +47,7 @@ public:
         return std::span(row_).subspan(top);
     }
 
-    /// Add row k to the tree. @return through `count`: incremented for each column with an entry in row k.
+    /// Add row k to the tree. In `count`, each column with an entry in row k is incremented.
     void grow(const Matrix& upper, int k, std::vector<int>& count)
     {
         met_[index(k)] = k;

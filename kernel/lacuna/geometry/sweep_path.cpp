@@ -21,7 +21,8 @@ struct Place {
     Vec3 point, tangent;
 };
 
-/// Directions of a curve at its points: of the parabola through each point and its neighbours.
+/// Directions of a curve at its points: at each point, the tangent of the parabola through it and its two
+/// neighbours.
 std::vector<Vec3> tangents_at(const PathPart& points, const std::vector<double>& at)
 {
     const std::size_t n = points.size();
@@ -69,7 +70,7 @@ public:
     [[nodiscard]] Place first() const { return {points_.front(), tangents_.front()}; }
     [[nodiscard]] Place last() const { return {points_.back(), tangents_.back()}; }
 
-    /// Largest turn per length times the length [radian].
+    /// Largest rate of turning (turn per length), times the length of the part [radian].
     [[nodiscard]] double turn() const
     {
         double most = 0;
@@ -99,7 +100,8 @@ public:
         const double f = at.fraction, step = at_[i + 1] - at_[i];
         const Vec3 chord = points_[i + 1] - points_[i];
         const Vec3 low = step * tangents_[i] - chord, high = step * tangents_[i + 1] - chord;
-        // The cubic as its chord and what its directions differ from it: a line stays a line bit for bit.
+        // Evaluate the cubic as its chord plus the differences of its directions from the chord. A line then
+        // stays a line bit for bit.
         const Vec3 point = points_[i] + f * chord + f * (1 - f) * ((1 - f) * low - f * high);
         const Vec3 tangent = chord + (1 - f) * (1 - 3 * f) * low - f * (2 - 3 * f) * high;
         return {point, double_reflection(knot(i), {point, tangent.normalized()}) * frames_[i]};
@@ -118,7 +120,7 @@ private:
     double start_ = 0; ///< length of the path before it
 };
 
-/// The projection of a section across a direction, along it, onto the plane that halves a corner.
+/// The projection, along a direction, of a section normal to it onto the plane that halves a corner.
 Eigen::Matrix3d mitre(const Vec3& in, const Vec3& out)
 {
     const Vec3 normal = (in + out).normalized();

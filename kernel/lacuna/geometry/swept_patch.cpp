@@ -13,7 +13,8 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// A chord shorter than this part of the length of bottom and top does not define a reliable frame.
+/// The chord between left and right defines no reliable frame if it is shorter than this share of the length
+/// of bottom and top.
 constexpr double kShortChord = 0.1;
 /// Length over which the direction of a side is measured, relative to the length of the side.
 constexpr double kReach = 0.02;

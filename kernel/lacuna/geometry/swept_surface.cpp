@@ -10,8 +10,8 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Most steps of a projection. It starts on the facet next to the place, a chord's sag away: three to five
-/// steps reach rounding.
+/// Limit on the steps of a projection. It starts on the nearest facet, which differs from the surface by the
+/// sag of a chord; three to five steps then reach rounding.
 constexpr int kMostSteps = 20;
 /// Step of central differences, as a share of a parameter's range: the cube root of the rounding error.
 constexpr double kDifference = 1e-5;
@@ -62,7 +62,7 @@ void SweptSurface::project(std::span<Vec3> points, std::span<Vec2> uv, const Run
     for (Vec2& p : uv) p = inside(p);
     for (int step = 0; step < kMostSteps; ++step) {
         check_cancelled(context);
-        // The place, and those before and after it in both parameters.
+        // The place itself, and one place before and after it in each parameter.
         std::vector<Vec2> around(uv.begin(), uv.end());
         for (int d = 0; d < 2; ++d)
             for (const double way : {-1.0, 1.0})

@@ -25,7 +25,8 @@ std::vector<double> angles_at_points(std::span<const Vec3> points, std::span<con
 
 std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles)
 {
-    // A tenth of a full turn (see tips.h), and a limit against coarse facets.
+    // Angles at a tip lack at least a tenth of a full turn (see tips.h). More tips than the limit mean that
+    // the facets are coarse.
     constexpr double kLack = 0.2 * std::numbers::pi;
     constexpr std::size_t kMostTips = 64;
     const std::vector<double> angle = angles_at_points(points, triangles);

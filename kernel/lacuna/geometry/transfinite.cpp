@@ -103,7 +103,7 @@ Vec2 CoonsPatch<Point>::crossing(std::size_t i, std::size_t k, std::size_t l, st
     const double s0 = bottom_.at[i], s1 = top_.at[k], t0 = left_.at[l], t1 = right_.at[j];
     const double ds = s1 - s0, dt = t1 - t0;
     const double determinant = 1 - ds * dt;
-    // Zero only if both lines are the same diagonal; any point of it is a solution, so take the middle.
+    // Zero only if both lines are the same diagonal. Any point of it is then a solution; take the middle.
     if (determinant <= std::numeric_limits<double>::epsilon()) return {0.5 * (s0 + s1), 0.5 * (t0 + t1)};
     return {(s0 + t0 * ds) / determinant, (t0 + s0 * dt) / determinant};
 }

@@ -53,14 +53,15 @@ void check_loops(std::span<const Vec2> points, std::span<const std::vector<Index
 
 // --- adding points ----------------------------------------------------------------------------------
 
-// Ratio of circumradius to side: 1/√3 for an equilateral triangle. A right triangle whose legs have the
-// target length is still accepted.
+// Ratio of circumradius to target length: 1/√3 for an equilateral triangle of target size. Triangles are too
+// large above 1/√2, so a right triangle whose legs have the target length is accepted.
 constexpr double kEquilateral = 1 / std::numbers::sqrt3;
 constexpr double kTooLarge = 1 / std::numbers::sqrt2;
-// Smallest ratio for which inserting circumcentres provably ends, with graded triangles (Ruppert 1995).
+// Smallest ratio of circumradius to shortest side for which inserting circumcentres provably ends, with
+// graded triangles (Ruppert 1995).
 constexpr double kTooSkinny = std::numbers::sqrt2;
-// Distance that new points keep from visible points, relative to the target length: the circumradius of an
-// equilateral triangle of target size, which contains no other point.
+// New points keep this distance from visible points, relative to the target length. It is the circumradius of
+// an equilateral triangle of target size, a circle that contains no other point.
 constexpr double kKeepAway = kEquilateral;
 
 class Refinement {
@@ -122,7 +123,8 @@ private:
         }
     }
 
-    /// Limit the sizes of rim points by those of others, along the sides of the first triangulation.
+    /// Limit the sizes at rim points by the graded sizes of other points, along the sides of the first
+    /// triangulation.
     void grade_rim()
     {
         if (!std::isfinite(options_.grading)) return;
@@ -202,7 +204,7 @@ private:
         state.settled = !(state.badness > 1);
     }
 
-    /// A triangle is enqueued once one of its sides is final, so that points advance from the rim in rows.
+    /// A triangle waits until one of its sides is final, so that points advance from the rim in rows.
     void enqueue(Index t)
     {
         State& state = state_[index(t)];

@@ -37,8 +37,8 @@ Samples samples_of(const topology::Model& model, const topology::Face& face, con
     return samples;
 }
 
-/// Are the samples within `reach` of the facets and, if there is an exact surface, within the tolerance of
-/// it?
+/// Whether the samples are within `reach` of the facets and, if the face has an exact surface, within the
+/// tolerance of that.
 bool lie_on(const Samples& samples, const topology::Model& model, const topology::Face& face, double reach,
             double tolerance, const RunContext& context)
 {
@@ -82,7 +82,7 @@ bool faces_coincide(const topology::Model& model, const topology::Face& a, const
         return lie_on(of_a, model, b, reach, tolerance, context) &&
                lie_on(of_b, model, a, reach, tolerance, context);
     } catch (const BackendError&) {
-        return false; // projection failed: not shown to coincide
+        return false; // projection failed, so the faces are not known to coincide
     }
 }
 

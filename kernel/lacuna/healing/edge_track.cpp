@@ -26,8 +26,8 @@ EdgeTrack::EdgeTrack(const topology::Model& model, EdgeId id, const RunContext& 
             points.push_back(points_[i]);
             params_.push_back(edge.params[i]);
             if (i == middles.size()) break;
-            // On a circle, half a side has a quarter of the side's sagitta; keeping the whole one leaves a
-            // margin.
+            // On a circle, the sagitta of half a side is a quarter of the side's sagitta. The full sagitta is
+            // used here, which leaves a margin.
             sagitta_ = std::max(sagitta_, (middles[i] - (points_[i] + points_[i + 1]) / 2).norm());
             points.push_back(middles[i]);
             params_.push_back(middle_params[i]);
@@ -48,13 +48,15 @@ EdgeTrack::EdgePosition EdgeTrack::on_segment(const Vec3& p, std::size_t i) cons
     return place;
 }
 
-/// Gauss-Newton along the curve for all positions within reach at once; the tangent is a finite difference.
+/// Refine all positions within reach at once by Gauss-Newton along the curve; the tangent is a finite
+/// difference.
 void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> places, double reach,
                        const RunContext& context) const
 {
     if (!curve_) return;
     constexpr int kSteps = 8;            // upper bound; rule of thumb
-    constexpr double kDifference = 1e-4; // share of a side; the tangent's error is this squared
+    constexpr double kDifference = 1e-4; // step as a share of a side; the relative error of the tangent is
+                                         // its square
     std::vector<std::size_t> active;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (places[i].distance <= reach) active.push_back(i);
@@ -134,7 +136,8 @@ std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<
     double least = 0;
     Vec3 before = points_.front();
     for (std::size_t q = 0; q < points.size(); ++q) {
-        // A curve longer than four times its chord would leave the other edge by more than the tolerance.
+        // If the curve were longer than four times its chord, it would leave the other edge by more than the
+        // tolerance.
         double window = 4 * ((points[q] - before).norm() + 2 * reach) +
                         (points_[from + 1] - points_[from]).norm();
         places[q].distance = kInfinity;

@@ -13,12 +13,13 @@
 namespace lacuna::healing {
 namespace {
 
-/// A point is rough if sides below the feature angle turn both ways there by more than this share of it. On
-/// tessellated CAD no point on a crease is rough, but up to 13 % where branches of coarse facets meet at
-/// about the feature angle; with noise of 5 to 40 % of the facets' sides 41 to 85 % are.
+/// kRough: a point on a crease is rough if, below the feature angle, some sides there turn up and some turn
+/// down by more than this share of that angle. kNoisy: the surface is noisy if more than this share of the
+/// points on creases is rough. Tessellated CAD has 0 %, and up to 13 % where branches of coarse facets meet
+/// at about the feature angle. Noise of 5 to 40 % of the facets' sides gives 41 to 85 %.
 constexpr double kRough = 0.125, kNoisy = 0.25;
 
-/// Do two facets, or the quads they belong to, have the same corners?
+/// Whether two facets, or the quads that contain them, have the same corners.
 bool on_each_other(const Facets& facets, Index f, Index g)
 {
     const Index p = facets.quad[index(f)];
@@ -65,8 +66,8 @@ Index partner(const Facets& facets, const FacetSides& sides, Index side)
 void borrow_normals(const Facets& facets, const FacetSides& sides, std::vector<Index> without,
                     std::vector<Vec3>& normal, const RunContext& context)
 {
-    // They may be adjacent: repeat while some get a normal, at last across shorter sides too, as two may have
-    // their longest side in common.
+    // Facets without a normal may be adjacent. So repeat while some facets get a normal. At the end shorter
+    // sides are tried too, because two such facets may share their longest side.
     bool across_any = false;
     for (bool learnt = true; learnt && !without.empty();) {
         check_cancelled(context);
@@ -145,7 +146,7 @@ std::vector<Vec3> patch_normals(const Facets& facets, const FacetSides& sides, c
     for (const Triangle& corners : facets.corner) area.push_back(area_vector(facets.points, corners));
     std::vector<double> flattest(facets.count(), -1);
     std::vector<Index> seen(facets.count(), -1);
-    std::vector<std::pair<Index, bool>> patch; // facets in order of their distance; reversed?
+    std::vector<std::pair<Index, bool>> patch; // facets in order of distance, and whether each is reversed
     for (Index seed = 0; index(seed) < facets.count(); ++seed) {
         if (index(seed) % kBetweenPolls == 0) check_cancelled(context);
         patch.assign(1, {seed, false});

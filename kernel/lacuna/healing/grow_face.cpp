@@ -26,7 +26,8 @@ struct Cell {
     [[nodiscard]] std::size_t count() const { return corners[3] < 0 ? 3 : 4; }
 };
 
-/// Add the face's quads, and its triangles that are not halves of these. `cell_of` maps triangles to cells.
+/// Add the face's given quads, and its triangles that are not halves of given quads. `cell_of` receives the
+/// cell of each triangle.
 void add_cells(const topology::Face& face, Index number, std::vector<Cell>& cells,
                std::vector<Index>& cell_of)
 {
@@ -58,7 +59,7 @@ public:
 
     [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
 
-    /// Flags the cells that were grown.
+    /// Returns a flag for each cell: whether growth reached it.
     std::vector<bool> grow(const Vec3& near, std::span<const FaceId> among, const RunContext& context)
     {
         std::vector<bool> may(model_.faces.size(), false);
@@ -128,7 +129,7 @@ private:
     const topology::Model& model_;
     double least_cosine_ = 0;
     std::vector<Cell> cells_;
-    std::vector<Index> cell_of_triangle_; ///< in the order of the faces
+    std::vector<Index> cell_of_triangle_; ///< cell of each triangle, in the order of the faces
     std::unordered_map<std::uint64_t, std::vector<Index>> users_;
     Index seed_ = -1;
 };
@@ -152,13 +153,13 @@ FacetSoup soup_of(const topology::Model& model, const std::vector<Cell>& cells,
     return soup;
 }
 
-/// Restore the previous order of faces, new ones last, their tags, names and groups, and the model's source,
-/// diagonal and notes.
+/// Put the faces in their previous order, new ones last, with their previous tags, names and groups. Restore
+/// the model's source, diagonal and notes.
 void arrange(const topology::Model& before, Index seed, GrownFace& found)
 {
     topology::ModelBuilder model(std::move(found.model));
     const std::size_t count = before.faces.size();
-    std::vector<std::vector<std::size_t>> parts(count + 1); // by label, the largest first
+    std::vector<std::vector<std::size_t>> parts(count + 1); // faces of each label, the largest first
     for (std::size_t f = 0; f < model.faces.size(); ++f) parts[std::stoul(model.faces[f].name)].push_back(f);
     for (std::vector<std::size_t>& of : parts)
         std::ranges::stable_sort(of, std::greater{},
@@ -216,7 +217,7 @@ GrownFace grow_face(const topology::Model& model, const Vec3& near, std::span<co
     Grower grower(model, options.angle);
     const std::vector<bool> grown = grower.grow(near, among, context);
     const Index seed = grower.seed_face();
-    // Is the result exactly one existing face?
+    // Check whether the result is exactly one existing face.
     bool same = true;
     for (std::size_t c = 0; c < grown.size(); ++c)
         same = same && grown[c] == (grower.cells()[c].face == seed);

@@ -16,8 +16,9 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Remove pairs of facets that lie back to back, which a facet no wider than the tolerance leaves.
-/// @return were any removed?
+/// Remove pairs of facets that lie back to back. They remain when a facet no wider than the tolerance
+/// collapses.
+/// @return whether any were removed
 bool drop_folds(topology::Face& face)
 {
     std::map<Triangle, std::vector<std::size_t>> alike;
@@ -94,7 +95,7 @@ void LooseModel::join(VertexId gone, VertexId stays)
     vertex_joined_[gone.index()] = stays;
 }
 
-/// Remove the collapsed facets of a face. @return is any left?
+/// Remove the collapsed facets of a face. @return whether any facet is left
 bool LooseModel::shrink(FaceId f)
 {
     topology::Face& face = model_[f];
@@ -188,8 +189,8 @@ void LooseModel::remove(FaceId f)
     for (std::vector<FaceId>& users : users_) std::erase(users, f);
 }
 
-/// Split a facet side inside a face that connects the ends of another face's one-sided edge: it would be
-/// taken for that edge.
+/// Split a facet side inside a face if it joins the two ends of a single-segment edge of another face.
+/// Otherwise it would be taken for that edge.
 void LooseModel::part_shortcuts()
 {
     std::map<std::pair<Index, Index>, std::vector<FaceId>> single;
@@ -254,7 +255,7 @@ void LooseModel::renew_parameters(const RunContext& context)
         }
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const auto [t, k] = corners[i];
-            // At a seam the projection may return the parameters of the other side.
+            // At a seam the projection may return the parameters of the seam's other side.
             for (int axis = 0; axis < 2; ++axis) {
                 const auto [low, high] = std::minmax(
                     {face.uv[t][0][axis], face.uv[t][1][axis], face.uv[t][2][axis]});

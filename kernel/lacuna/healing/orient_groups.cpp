@@ -36,7 +36,7 @@ Borders borders_of(const topology::Model& model, const std::vector<std::size_t>&
     return borders;
 }
 
-/// Connected faces of a group, each with a flag whether it must be reversed to agree with the first.
+/// Connected faces of a group.
 struct Part {
     std::vector<FaceId> faces;
     bool agrees = true;

@@ -10,13 +10,14 @@
 namespace lacuna::healing {
 namespace {
 
-/// Taubin's passes: the pass band below which shapes stay as they are, his value, and as many passes as take
-/// noise of 20 % of the sides to 6 % and leave the radius of a tube of 40 sides within 1e-3 of itself.
+/// Parameters of Taubin's filter. kStep: share of the way to the mean. kPassBand: frequencies below it keep
+/// their shape, Taubin's value. kPasses: enough to reduce noise of 20 % of the sides to 6 %; the radius of a
+/// tube of 40 sides then changes by less than 1e-3 of itself.
 constexpr double kStep = 0.5, kPassBand = 0.1;
 constexpr int kPasses = 30;
 
-/// Points that move, each with those that it moves towards the mean of: in a face all around it, on an edge
-/// the two along it. Corners, and points whose nodes are kept, do not move.
+/// For each point that moves, the neighbours whose mean it moves towards: inside a face all neighbours, on an
+/// edge the two along the edge. Corners and nodes that must be kept do not move.
 Incidence movers(const topology::ModelBuilder& model)
 {
     enum : char { in_face, on_edge, fixed };
@@ -26,7 +27,7 @@ Incidence movers(const topology::ModelBuilder& model)
     std::vector<int> ends(model.vertices.size(), 0);
     for (const topology::Edge& edge : model.edges)
         for (const VertexId end : {edge.from, edge.to}) ++ends[end.index()];
-    const auto is_closed = [&](const topology::Edge& edge) { // its vertex is only where it starts
+    const auto is_closed = [&](const topology::Edge& edge) { // its vertex only marks where the loop starts
         return edge.from == edge.to && ends[edge.from.index()] == 2;
     };
     for (const topology::Edge& edge : model.edges)
@@ -39,7 +40,8 @@ Incidence movers(const topology::ModelBuilder& model)
         for (const topology::Face& face : model.faces)
             for (const Triangle& t : face.triangles)
                 for (std::size_t k = 0; k < 3; ++k)
-                    for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) // each neighbour comes twice
+                    for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) // each neighbour is listed
+                                                                               // twice
                         if (place[index(t[k])] == in_face) visit(index(t[k]), t[other]);
         for (const topology::Edge& edge : model.edges) {
             const std::size_t last = edge.points.size() - 1;

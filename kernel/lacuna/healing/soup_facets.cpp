@@ -38,7 +38,7 @@ void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>&
     }
 }
 
-/// Split a quad along the diagonal whose worse half is better shaped.
+/// Split a quad along the diagonal for which the worse of the two halves is better shaped.
 std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q)
 {
     const std::array<std::array<Triangle, 2>, 2> choices{
@@ -57,7 +57,7 @@ std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q
     return choices[worst[1] > worst[0] ? 1 : 0];
 }
 
-/// Squared areas must be representable, also for facets of a millionth of the diagonal.
+/// Check that squared areas can be represented, also for facets of a millionth of the diagonal.
 void check_size(const Vec3& low, const Vec3& high, double diagonal)
 {
     constexpr double kLeast = 1e-70, kMost = 1e70; // their fourth powers are well within a double's range
@@ -109,7 +109,7 @@ std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& fa
     return number;
 }
 
-/// Remove points that only dropped facets used.
+/// Remove points that no remaining facet uses.
 void drop_unused_points(Facets& facets)
 {
     std::vector<Index> number(facets.points.size(), -1);
@@ -178,7 +178,7 @@ void drop_repeated(Facets& facets)
     std::size_t next = 0;
     for (std::size_t f = 0; f < facets.corner.size(); ++f) {
         if (gone_with_quad(f)) continue;
-        // Half a quad is kept with its quad even if a triangle coincides with it.
+        // Half a quad is kept with its quad, even if a triangle coincides with it.
         if (repeated[next++] && facets.quad[f] < 0) continue;
         facets.corner[kept] = facets.corner[f];
         facets.label[kept] = facets.label[f];
@@ -225,7 +225,7 @@ Vec3 point_far_from_others(const std::vector<Vec3>& points)
                                      [&](const Vec3& p) { return (p - middle).cwiseAbs().maxCoeff(); });
 }
 
-/// Do the corners of a cell lie at three or more distinct points?
+/// Whether the corners of a cell lie at three or more distinct points.
 bool has_three_places(const std::vector<Vec3>& points, std::span<const Index> corners)
 {
     std::size_t places = 0;
@@ -237,9 +237,9 @@ bool has_three_places(const std::vector<Vec3>& points, std::span<const Index> co
     return places >= 3;
 }
 
-/// Without a tolerance the default depends on the extent of all points, so one stray point or two distant
-/// parts can make it larger than the facets.
-/// @param given  the user's tolerance, 0: none.
+/// The default tolerance depends on the extent of all points. One stray point, or two distant parts, can make
+/// it larger than the facets.
+/// @param given  the user's tolerance; 0: none was given.
 void check_left(const FacetSoup& soup, const Facets& facets, double given)
 {
     if (facets.count() > 0 && (given > 0 || facets.shrunk <= facets.count())) return;
@@ -255,7 +255,7 @@ void check_left(const FacetSoup& soup, const Facets& facets, double given)
                                     found(facets.tolerance))
                           : Message("topology.small_facets",
                                     "{} facets are smaller than the tolerance of {:.4g}, which is derived "
-                                    "from the extent of all points, and {} are not",
+                                    "from the extent of all points; only {} are larger",
                                     found(facets.shrunk), found(facets.tolerance), facets.count());
     throw InvalidInput(std::move(message).remedy(
         "remove the point at {} if it is not part of the shape, or give a tolerance",

@@ -25,12 +25,12 @@
 namespace lacuna::healing {
 namespace {
 
-/// Sides over which the turn of a border of a noisy surface is measured: with noise of 40 % of the sides it
-/// is then off by 9 degrees, a quarter of the feature angle.
+/// Number of sides over which the turn of a border is measured on a noisy surface. With noise of 40 % of the
+/// facets' sides, the turn is then off by 9 degrees, a quarter of the feature angle.
 constexpr int kNoisyReach = 8;
 
 struct Flood {
-    std::vector<Index> face;   ///< for each facet
+    std::vector<Index> face;   ///< the face that each facet belongs to
     std::vector<bool> flipped; ///< facets oriented against their face
     Index faces = 0;
 };
@@ -82,8 +82,8 @@ Flood flood_faces(const Facets& facets, const FacetSides& sides, const std::vect
     return flood;
 }
 
-/// The faces of a noisy surface: facets told apart by normals over patches. What is smaller than a patch is
-/// no face, but part of the one beside it.
+/// The faces of a noisy surface, separated by the normals of patches. A region smaller than a patch is not a
+/// face: it is added to a face beside it.
 Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature, const RunContext& context)
 {
     std::vector<Vec3> normal = patch_normals(facets, sides, context);
@@ -99,7 +99,7 @@ Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature,
     }
     if (dust.empty()) return flood;
     borrow_normals(facets, sides, dust, normal, context);
-    for (const Index f : dust) // parts that are all dust
+    for (const Index f : dust) // facets of connected parts that consist of dust only
         if (normal[index(f)].isZero(0)) normal[index(f)] = before[index(f)];
     return flood_faces(facets, sides, normal, feature, context);
 }
@@ -108,11 +108,11 @@ Message note_on(const NoiseSmoothed& moved)
 {
     if (moved.most == 0)
         return {"healing.noisy_facets",
-                "the facets are noisy, so faces are told apart by normals over patches"};
-    return Message("healing.noisy_facets",
-                   "the facets are noisy and were smoothed: points moved by {:.3g} in the mean and {:.3g} at "
-                   "most",
-                   moved.mean, moved.most)
+                "the facets are noisy, so faces are separated by the mean normals of patches"};
+    return Message(
+               "healing.noisy_facets",
+               "the facets are noisy and were smoothed: points moved by {:.3g} on average and {:.3g} at most",
+               moved.mean, moved.most)
         .remedy("load with keep_noise = true to leave them where they are");
 }
 
@@ -166,7 +166,7 @@ void add_faces(topology::ModelBuilder& model, const Facets& facets, const Flood&
 /// Chains the segments between faces into edges.
 class Chains {
 public:
-    /// @param reach  sides over which the turn of a border is measured.
+    /// @param reach  number of sides over which the turn of a border is measured.
     Chains(topology::ModelBuilder& model, const FacetSides& sides, const Flood& flood, double feature,
            int reach, const RunContext& context)
         : model_(model),
@@ -185,7 +185,7 @@ public:
             is_vertex_[p] = ends_chains(static_cast<Index>(p));
     }
 
-    /// Add the edges in the order of faces, each with the face that came first on its left.
+    /// Add the edges face by face. The face that comes first is on the left of the edge.
     void add_edges(const Flood& flood)
     {
         const Incidence of_face = incidence(index(flood.faces), [&](const auto& visit) {
@@ -204,8 +204,8 @@ public:
     }
 
 private:
-    /// A segment belongs to an edge unless every face at it has two facets there. Segments of the same faces
-    /// have one kind.
+    /// A segment belongs to an edge unless every face at it has two facets there. Segments with the same
+    /// faces are of one kind.
     void find_borders(const Flood& flood)
     {
         std::map<std::vector<Index>, Index> kinds;
@@ -242,14 +242,14 @@ private:
     }
     [[nodiscard]] std::span<const Index> segments_at(Index point) const { return at_.of(index(point)); }
 
-    /// Is the point within a chain of one kind?
+    /// Whether the chain continues through the point: it has two segments, both of one kind.
     [[nodiscard]] bool goes_on(Index point) const
     {
         const auto here = segments_at(point);
         return here.size() == 2 && kind_[index(here[0])] == kind_[index(here[1])];
     }
 
-    /// The points after one along a chain, as far as the reach.
+    /// The next points along a chain, at most as many as the reach.
     [[nodiscard]] std::vector<Index> points_after(Index point, Index segment) const
     {
         std::vector<Index> points;
@@ -271,8 +271,9 @@ private:
         return geometry::angle_between(into, onward);
     }
 
-    /// Does a chain end here: at another kind of segment, or at a corner? Over a longer reach a corner is
-    /// where the chain turns the most, and by the feature angle more than on one side of it.
+    /// Whether chains end at this point: at another kind of segment, or at a corner. With a reach of more
+    /// than one side, a corner is the point of largest turn within the reach; the turn must also exceed that
+    /// at one end of the reach by more than the feature angle.
     [[nodiscard]] bool ends_chains(Index point) const
     {
         const auto here = segments_at(point);
@@ -302,7 +303,7 @@ private:
         return id;
     }
 
-    /// Points from `point` along `segment` up to a vertex, or round to the start.
+    /// Points from `point` along `segment` up to a vertex, or back to the start.
     std::vector<Index> walk(Index segment, Index point)
     {
         std::vector<Index> points{point};
@@ -321,7 +322,7 @@ private:
         std::vector<Index> points = walk(segment, start);
         const bool closed = points.front() == points.back();
         if (!is_vertex_[index(start)] && !closed) {
-            // Started in the middle: prepend the other half, reversed.
+            // The walk may have started in the middle of a chain: prepend the other half, reversed.
             const auto here = segments_at(start);
             std::vector<Index> before = walk(here[0] == segment ? here[1] : here[0], start);
             std::reverse(before.begin(), before.end());
@@ -345,7 +346,7 @@ private:
     const RunContext& context_;
     double feature_;
     int reach_;
-    std::vector<Index> kind_; ///< for each segment; -1 within a face
+    std::vector<Index> kind_; ///< kind of each segment; -1: the segment is within a face
     std::vector<bool> done_;  ///< segments already chained
     Incidence at_;            ///< edge segments at each point
     std::vector<bool> is_vertex_;

@@ -11,7 +11,7 @@ namespace lacuna::healing {
 
 /// Options of `split_facets()`.
 struct SplitOptions {
-    double feature_angle = 40; ///< facets at a sharper dihedral turn are split into two faces [degrees]
+    double feature_angle = 40; ///< faces end where facets turn by more than this [degrees]
     double tolerance = 0;      ///< points closer than this are merged [model length]; 0: 1e-6 × the diagonal
     bool whole_labels =
         false; ///< keep each label one face at any angle; `feature_angle` then only places vertices
@@ -32,14 +32,15 @@ struct FacetSoup {
 };
 
 /// Split facets into faces: by label, then wherever they turn by more than the feature angle. Edges are the
-/// chains between two faces or along a border. Vertices are where three faces meet and where a border turns
-/// by more than the feature angle; a closed chain without a vertex gets one at its first point. Tags count
-/// from 1 by kind of entity, in the order of the facets. T-junctions on free sides are cut first; of facets
-/// listed twice in a label one is kept, with a note. Facets of a noisy surface, as of a scan, are told apart
-/// by normals over patches, and then smoothed within faces and along edges, with a note; nodes that are kept
-/// do not move.
-/// @throw InvalidInput  no facets; an edge with three or more facets of one label; a model so large or small
-///         that the fourth power of its diagonal is no double. Cancelled.
+/// chains of sides between two faces or along a border. Vertices are where three faces meet and where a
+/// border turns by more than the feature angle; a closed chain without a vertex gets one at its first point.
+/// Tags count from 1 for each kind of entity, in the order of the facets.
+///
+/// T-junctions on free sides are cut first. If a label lists a facet twice, one copy is kept, with a note.
+/// The facets of a noisy surface, such as a scan, are separated by the normals of patches and then smoothed
+/// within faces and along edges, with a note. Nodes that must be kept do not move.
+/// @throw InvalidInput  there are no facets; a face is one-sided; an option is out of range; the model is so
+///        large or small that the fourth power of its diagonal cannot be represented. Cancelled.
 topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options = {},
                              const RunContext& context = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// stitch(): merge vertices, collapse short edges, split T-junctions, merge coincident edges with all their
-// points, and remove duplicates. Each step collects its changes before it makes them, so that the order of
+// stitch() merges vertices, collapses short edges, splits T-junctions, merges coincident edges with all their
+// points, and removes duplicates. Each step collects its changes before it makes them, so the order of
 // entities decides only which tag is kept.
 #include <lacuna/healing/shared/stitch.h>
 
@@ -46,15 +46,15 @@ public:
     topology::Model result() { return loose_.settled(context_); }
 
 private:
-    /// A vertex on the inside of an edge.
+    /// A vertex in the interior of an edge, where the edge will be split.
     struct Stop {
         VertexId vertex;
         EdgeTrack::EdgePosition place;
         std::size_t node = 0; ///< point of the edge to merge with; 0: none, a point is inserted
     };
-    /// A point of a merged edge.
+    /// A point of an edge that results from merging.
     struct Node {
-        double s = 0, param = 0; ///< on the edge that gives the shape
+        double s = 0, param = 0; ///< position and parameter on the edge that gives the shape
         Index point = -1;
     };
     /// An edge merged into another, and the nodes that its points become.
@@ -218,7 +218,7 @@ void Stitcher::split_at_vertices()
     tracks_.clear();
 }
 
-/// Find vertices on the inside of edges, where the edge or an edge at the vertex is free.
+/// Find vertices in the interior of edges, where the edge or an edge at the vertex is free.
 std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
 {
     std::vector<bool> at_free(model().vertices.size(), false);
@@ -244,7 +244,7 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
     double sagitta = 0;
     for (std::size_t e = 0; e < model().edges.size(); ++e) {
         if (loose_.is_gone(EdgeId(e))) continue;
-        // An edge along a seam has its own border there; the face needs no cut.
+        // Each use of a seam edge has its own border, so the face needs no cut there.
         if (loose_.is_seam(EdgeId(e))) continue;
         const EdgeTrack& on = track(EdgeId(e));
         sagitta = std::max(sagitta, on.sagitta());
@@ -280,7 +280,7 @@ std::map<EdgeId, std::vector<Stitcher::Stop>> Stitcher::find_stops()
     return stops;
 }
 
-/// Assign each stop to a point of the edge if one is near; drop stops that a kept mesh has no node for.
+/// Assign each stop to a point of the edge if one is near. Drop stops at which a kept mesh has no node.
 void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
 {
     const topology::Edge& edge = model()[e];
@@ -309,14 +309,15 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
                     .remedy("load with keep_mesh = false, or make the meshes match"));
             continue;
         }
-        // A stop before an occupied point would fold the edge back.
+        // If the stop came before a point that is already in use, the edge would fold back.
         if (stop.node == 0) stop.place.s = std::max(stop.place.s, static_cast<double>(taken));
         placed.push_back(stop);
     }
     stops = std::move(placed);
 }
 
-/// Closed polylines with an arbitrary vertex start at a vertex found on them. @return edge → vertex.
+/// Choose a new start for closed polylines whose vertex is arbitrary: a vertex found on them. @return edge →
+/// vertex.
 std::map<EdgeId, VertexId> Stitcher::begin_elsewhere(std::map<EdgeId, std::vector<Stop>>& stops)
 {
     std::vector<int> edges_at(model().vertices.size(), 0);
@@ -394,8 +395,9 @@ void Stitcher::merge_edges()
     }
     if (bundles.empty()) return;
 
-    // For each facet side that gets points: its end points and new points, with the point numbers from before
-    // merging, and the numbers they are merged into. All are collected before any is changed.
+    // For each facet side that gets points: its ends, its new points, and the numbers that they are merged
+    // into. Ends and new points have the numbers from before merging. All sides are collected before any is
+    // changed.
     struct FilledSide {
         Index from, to;
         std::vector<Index> between;
@@ -479,8 +481,8 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
     const double reach = share_ * std::min(track(a).length(), track(b).length());
     if (!try_add(*free[0], b, reach)) return;
     report_.notes.push_back(Message("healing.edges_sewn",
-                                    "{} of {} and {} of {} have the same ends and are up to {:.3g} apart "
-                                    "between them; they were merged into the first",
+                                    "{} of {} and {} of {} have the same ends and are up to {:.3g} apart; "
+                                    "they were merged into the first",
                                     named(a), entity_of(model(), face_a), named(b),
                                     entity_of(model(), face_b),
                                     greatest_gap(track(a), track(b), tolerance_, context_))

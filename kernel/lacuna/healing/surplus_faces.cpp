@@ -14,7 +14,7 @@ namespace lacuna::healing {
 namespace {
 
 /// Two free edges with the same ends look like a gap if their distance is at most this share of the shorter
-/// one. The half circles round a hole are 0.45 of their length apart.
+/// edge's length. The two half circles of a hole are 0.45 of their length apart, so they do not.
 constexpr double kLooksLikeGap = 0.25;
 
 void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector<FaceId>& alike,
@@ -83,8 +83,8 @@ void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport&
     std::map<std::vector<EdgeId>, std::vector<FaceId>> by_border;
     for (std::size_t f = 0; f < edges.size(); ++f)
         if (!loose.is_gone(FaceId(f))) by_border[edges[f]].emplace_back(f);
-    // Many faces may lack a border, such as spheres. Comparing their boxes excludes most pairs; the boxes of
-    // different facets of one surface differ by far less than a tenth.
+    // Many faces may have no border, such as spheres. Comparing their boxes excludes most pairs. If two faces
+    // facet the same surface differently, their boxes differ by far less than a tenth.
     std::map<FaceId, Eigen::AlignedBox3d> boxes;
     const auto box_of = [&](FaceId f) -> const Eigen::AlignedBox3d& {
         auto [box, fresh] = boxes.try_emplace(f);

@@ -55,10 +55,11 @@ private:
     std::vector<Index> first_, next_;
 };
 
-/// Merge equal points first: an STL file repeats each about six times, and this is cheaper than the search.
+/// Merge equal points first. An STL file repeats each point about six times, and this is cheaper than the
+/// search.
 std::vector<Index> weld_equal(std::span<const Vec3> points)
 {
-    constexpr std::size_t kRepeats = 4; // rule of thumb: if nothing repeats, four points share a slot
+    constexpr std::size_t kRepeats = 4; // rule of thumb; if no point repeats, four points share a slot
     std::vector<Index> result(points.size());
     CellTable table(points.size(), points.size() / kRepeats);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -77,8 +78,8 @@ std::vector<Index> weld_equal(std::span<const Vec3> points)
     return result;
 }
 
-/// Cell width in tolerances: most points then search no neighbour cell, and few share a cell. Rule of thumb;
-/// it changes run time only.
+/// Width of a cell, in tolerances. Most points then search no neighbouring cell, and few points share a cell.
+/// Rule of thumb; it affects run time only.
 constexpr double kCellWidth = 32;
 
 } // namespace
@@ -89,8 +90,8 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
     if (!(tolerance > 0) || points.empty()) return result;
     Eigen::AlignedBox3d box;
     for (const Vec3& p : points) box.extend(p);
-    // A tolerance below the resolution of the coordinates would overflow the cell numbers; cells are then
-    // wider.
+    // If the tolerance is below the resolution of the coordinates, cell numbers would overflow. Cells are
+    // then wider.
     const double width = std::max(kCellWidth * tolerance, box.sizes().maxCoeff() * std::ldexp(1.0, -52));
     const auto cell_at = [&](const Vec3& p) {
         const Eigen::Array3d cell = ((p - box.min()) / width).array().floor();

@@ -43,7 +43,7 @@ std::optional<DeckShape> shape_of(std::string_view type)
         if (family.word == "STRI" && nodes == 65) nodes = 6;
         constexpr std::array<int, 5> kCorners{3, 4, 5, 6, 8};
         const bool centred = family.dimension == 3 &&
-                             (nodes == 14 || nodes == 18 || nodes == 27); // shapes that Abaqus does not have
+                             (nodes == 14 || nodes == 18 || nodes == 27); // shapes that no Abaqus element has
         if (centred) continue;
         for (const int corners : kCorners)
             if (const auto shape = find_shape(family.dimension, corners, nodes)) return shape;
@@ -51,13 +51,15 @@ std::optional<DeckShape> shape_of(std::string_view type)
     return std::nullopt;
 }
 
-/// Keywords that generate or move nodes or elements: ignoring them would misread the deck.
+/// Keywords that generate or move nodes or elements. They are refused, because the deck without them is
+/// another mesh.
 constexpr std::string_view kGenerators[] = {"NGEN",   "NFILL",  "NCOPY", "NMAP",  "ELGEN",
                                             "ELCOPY", "SYSTEM", "MODEL", "IMPORT"};
 struct Scope {
     std::string name;
     DeckBuilder builder{DeckFormat::abaqus};
-    std::map<std::string, std::size_t, std::less<>> sets; ///< by kind and name in capitals, in the deck's
+    std::map<std::string, std::size_t, std::less<>> sets; ///< index in the deck's sets, by kind and name in
+                                                          ///< capitals
     struct Section {
         std::string name, material;
         std::vector<DeckTag> members;
@@ -326,7 +328,8 @@ private:
         return found == all.end() ? -1 : static_cast<Index>(found - all.begin());
     }
 
-    /// Add the members that a word stands for: a number, a set, or either of an instance as "instance.word".
+    /// Add the members that a word stands for: a number or a set. "instance.word" names either of them in an
+    /// instance.
     void members_of(std::string_view word, DeckSet::Kind kind, std::vector<DeckTag>& members)
     {
         Index instance = of_instance_;
@@ -347,12 +350,12 @@ private:
         const DeckSet* found = find_set(*scope, kind, word);
         if (found == nullptr)
             fail("expected a number or the name of a set above, found {}", lacuna::found(shown(word)));
-        const std::vector<DeckTag> copy = found->members; // it may be the set that is read
+        const std::vector<DeckTag> copy = found->members; // a copy: `members` may belong to the same set
         spend(copy.size());
         for (const DeckTag tag : copy) members.push_back(tag + offset);
     }
 
-    /// Add all nodes of the elements of an earlier set to the current set.
+    /// Add all nodes of the elements in an earlier set to the current set.
     void add_nodes_of(const std::string& elements)
     {
         constexpr auto kElements = DeckSet::Kind::elements;
@@ -430,24 +433,24 @@ private:
         std::size_t further = 0;
         while (!line.empty()) {
             const std::string_view field = next_field(line);
-            if (field.empty() && line.empty()) break; // a comma at the end means that the next line continues
+            if (field.empty() && line.empty()) break; // a comma at the end: the next line continues
             const Index number = whole(field);
             if (given_ < wanted)
                 element_[given_++] = number;
             else
                 ++further;
         }
-        // Surplus nodes do not show whether the next line continues: it must be an element like this one.
+        // An element has more nodes than its type. Their number cannot show whether the next line continues
+        // this element, so each line must be an element with the same number of nodes.
         if (further_ < 0) further_ = static_cast<std::ptrdiff_t>(further);
         if (further_ != static_cast<std::ptrdiff_t>(further) || (further > 0 && !from_start))
-            fail(
-                "expected {} nodes of {}, or in every line as many more as in the first; found another count",
-                needed(wanted - 1), type_);
+            fail("expected {} nodes of {}, or as many in each line as in the first; found another count",
+                 needed(wanted - 1), type_);
         if (further > 0) into_.pass_over_nodes(type_, further);
         if (given_ == wanted) finish_element();
     }
 
-    /// Also called if a keyword comes before all nodes.
+    /// Finish the element. Also called if a keyword comes before the element has all its nodes.
     void finish_element()
     {
         if (given_ == 0) return;
@@ -462,7 +465,8 @@ private:
 
     void take_other_element(std::string_view line)
     {
-        // The number of nodes is unknown: a line that ends with a comma continues.
+        // The element type is unknown, and so is its number of nodes. A line that ends with a comma
+        // continues.
         if (!std::exchange(goes_on_, line.ends_with(','))) {
             into_.pass_over("elements " + type_);
             if (set_ >= 0)
@@ -486,7 +490,7 @@ private:
         const std::string_view word = next_field(line);
         const Index step = word.empty() ? 1 : whole(word);
         if (step < 1 || last < first)
-            fail("expected a range as 'first, last, step' that rises, found {}, {}, {}", found(first), last,
+            fail("expected an increasing range 'first, last, step', found {}, {}, {}", found(first), last,
                  step);
         const DeckTag offset = of_instance_ < 0 ? 0 : into_.deck().instances[index(of_instance_)].offset;
         spend(index(last - first) / index(step));
@@ -546,7 +550,7 @@ private:
         }
     }
 
-    /// The region of a set, which elements may have named before.
+    /// The region of a set. Elements may have created it, by naming the set.
     static Index region_called(Scope& scope, const std::string& name)
     {
         const std::vector<DeckRegion>& all = scope.builder.deck().regions;
@@ -577,7 +581,7 @@ private:
         copy(*part, instance_name_, placement(), !rows_.empty());
     }
 
-    /// Add a copy of a part to the deck; numbers in use are raised.
+    /// Add a copy of a part to the deck. Numbers that are in use already are raised.
     void copy(Scope& scope, const std::string& name, const Eigen::Isometry3d& to, bool moved)
     {
         const Deck& part = scope.builder.deck();
@@ -642,7 +646,8 @@ private:
             global.sections.clear();
             finish_scope(global);
             if (sections) into_.pass_over("sections of the assembly");
-            // Nodes and sets of the assembly itself; its sets already name nodes and elements of instances.
+            // Add nodes and sets of the assembly itself. The members of its sets are already given as numbers
+            // of instances.
             std::vector<DeckSet> sets = std::move(global.builder.deck().sets);
             global.builder.deck().sets.clear();
             if (!global.builder.deck().points.empty())
@@ -653,17 +658,19 @@ private:
         std::erase_if(deck.blocks, [](const DeckBlock& block) { return block.count() == 0; });
     }
 
-    /// Count generated data: ranges and copies create more than the file contains, so their amount is limited
-    /// by the size of the files.
+    /// Count generated data against a budget. Ranges and copies create more than the file contains, so their
+    /// amount is limited by the size of the files.
     void spend(std::size_t count)
     {
-        if (count > budget_) fail("ranges, sets and instances make more than the file could mean");
+        if (count > budget_)
+            fail("ranges, sets and instances generate too many entries for a file of this size");
         budget_ -= count;
     }
-    // Sets and copies created per byte of the file: about fifty sets of all elements; not measured.
+    // Number of set members and copied entities that each byte of the file may generate. It allows about
+    // fifty sets of all elements; not measured.
     static constexpr std::size_t kMadePerByte = 16;
 
-    std::size_t budget_ = 100'000; // number of nodes and elements that a small deck may generate
+    std::size_t budget_ = 100'000; // entities that even a small deck may generate
 
     Cursor& main_;
     DeckBuilder& into_;
@@ -671,7 +678,7 @@ private:
     std::vector<std::unique_ptr<Scope>> parts_; ///< the first scope holds the entities outside all parts
     Scope* scope_ = nullptr;
     std::map<std::pair<Scope*, std::string>, Index> regions_;
-    std::vector<Index> set_instance_; ///< instance of each of the deck's first sets
+    std::vector<Index> set_instance_; ///< instance of each set, for the first sets of the deck
     DeckPlace place_, element_place_;
     Mode mode_ = Mode::none;
     bool mesh_begun_ = false, in_part_ = false, cylindrical_ = false, generate_ = false, goes_on_ = false;
@@ -680,7 +687,8 @@ private:
     std::string type_, instance_name_;
     DeckShape shape_ = DeckShape::hex8;
     std::size_t block_ = 0, given_ = 0;
-    std::ptrdiff_t further_ = -1; ///< number of surplus nodes in each line of the keyword; -1: not known yet
+    std::ptrdiff_t further_ = -1; ///< number of surplus nodes in each line under the keyword; -1: not known
+                                  ///< yet
     Index region_ = 0;
     std::array<Index, 28> element_{}; ///< tag and nodes of the element that is being read
     Scope* instance_part_ = nullptr;

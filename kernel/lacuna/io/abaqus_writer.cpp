@@ -18,7 +18,7 @@
 #include <set>
 
 // Writes a flat deck: nodes, elements by type and region, elements kept as text, sets, cards. CalculiX reads
-// at most 20 characters of a number.
+// at most 20 characters of each number.
 
 namespace lacuna::io {
 
@@ -30,7 +30,7 @@ constexpr std::size_t kPerLine = 16; // numbers of a line, at most
 using mesh::MeshView;
 using mesh::Ranges;
 
-/// Names of a part's nodes and sets without the prefix of its only instance.
+/// Remove the prefix of the only instance from names of nodes and sets.
 std::string without_instance(std::string_view text, const std::string& instance)
 {
     const std::string before = instance + ".";
@@ -50,7 +50,7 @@ struct Cards {
     std::string elements, others;
 };
 
-/// Elements kept as text precede the sets that may name them.
+/// The kept cards. Elements among them come first, because sets may name them.
 Cards cards_of(const MeshView::KeptText& kept)
 {
     Cards cards;
@@ -130,7 +130,7 @@ private:
             section_of_points("*NODE\n", view_, kNumberBytes + 3 * (kWidth + 2) + 1, put));
     }
 
-    /// A sector gets a cyclic symmetry, other periodic faces equations.
+    /// Add periodic faces: a cyclic symmetry for a sector, otherwise equations.
     void add_periodic()
     {
         if (view_->periodic.empty()) return;
@@ -171,7 +171,8 @@ private:
         }
         file_.add(std::move(text));
     }
-    /// For each region a distribution of its cells' axes and an orientation with it, for *SOLID SECTION.
+    /// For each region, add a distribution with the axes of its cells, and an orientation that uses it, for
+    /// *SOLID SECTION.
     void add_orientation()
     {
         file_.add("*DISTRIBUTION TABLE, NAME=axes\nCOORD3D, COORD3D\n");
@@ -222,13 +223,13 @@ private:
         return {room.data(), put_real(room.data(), value, kWidth)};
     }
 
-    /// The word for the elements of a block.
+    /// The type word for the elements of a block.
     [[nodiscard]] std::string_view type_of(const MeshView::Block& block) const
     {
         const bool own = is_abaqus_element(block.type, block.shape) || is_brick(block.shape, block.type);
         return own ? std::string_view(block.type) : words_of(block.shape).abaqus;
     }
-    /// Whether a shape is written as a brick with merged corners under a word.
+    /// Whether a shape is written as a brick with merged corners, with this type word.
     static bool is_brick(DeckShape shape, std::string_view type)
     {
         const std::optional<DeckShape> brick = merged_brick(shape);
@@ -238,8 +239,9 @@ private:
     {
         return is_brick(block.shape, type_of(block));
     }
-    /// Collect the numbers of pyramids that are written as bricks, because their sides are those of a brick,
-    /// and of shells, whose edges are E1, E2, …; those of elements in a plane are S1, S2, …
+    /// Collect the numbers of two kinds of elements whose sides have special names. Pyramids that are written
+    /// as bricks have the sides of a brick. Edges of shells are E1, E2, …, while those of plane elements are
+    /// S1, S2, …
     void find_bricks_and_shells()
     {
         for (const MeshView::Block& block : view_->blocks) {
@@ -253,8 +255,9 @@ private:
         std::ranges::sort(shells_);
     }
 
-    /// Have the displacement be linear along the sides of the bases of pyramids of order 2. A side that bends
-    /// gets that of the affine map of its ends, the apex and another corner, so that rigid motions stay free.
+    /// Add equations that make the displacement linear along the base sides of pyramids of order 2. If the
+    /// middle node of a side lies off the chord, its displacement follows from the affine map of four corners
+    /// (the side's ends, the apex and another one), so that rigid motions stay free.
     void find_equations()
     {
         const auto is_wanted = [&](const MeshView::Block& block) {
@@ -281,14 +284,14 @@ private:
         if (!same_) leave_out_of_sets(known);
     }
 
-    /// The nodes that depend on others by equations of the deck.
+    /// The nodes that depend on others through equations in the deck.
     [[nodiscard]] std::set<DeckTag> dependent_nodes() const
     {
         std::set<DeckTag> nodes;
         if (!same_) return nodes;
         for (const AbaqusCard& card : abaqus_cards(view_->kept->cards)) {
             if (card.keyword.name != "EQUATION") continue;
-            DeckTag fields_left = 0; // of the terms of an equation
+            DeckTag fields_left = 0; // fields left in the terms of the equation
             bool first = false;
             each_data_line(card, [&](std::string_view line) {
                 while (!line.empty()) {
@@ -308,7 +311,7 @@ private:
         return nodes;
     }
 
-    /// @param corners  of a pyramid, first those at the ends of the side
+    /// @param corners  corners of a pyramid; the first two are the ends of the side
     void add_equation(const std::vector<Vec3>& points, Index middle, const std::array<Index, 4>& corners,
                       std::set<DeckTag>& known)
     {
@@ -318,7 +321,7 @@ private:
         Eigen::Matrix3d edges;
         for (std::size_t k = 1; k < 4; ++k) edges.col(static_cast<int>(k) - 1) = place(k) - place(0);
         const Vec3 bend = points[index(middle)] - (place(0) + place(1)) / 2;
-        Vec3 shares(0.5, 0, 0); // of the corners after the first
+        Vec3 shares(0.5, 0, 0); // coefficients of the corners after the first
         if (bend.norm() > kFileAccuracy * (place(1) - place(0)).norm()) shares += edges.inverse() * bend;
         const bool straight = shares[1] == 0 && shares[2] == 0;
         for (int axis = 1; axis <= 3; ++axis) {
@@ -335,7 +338,7 @@ private:
         }
     }
 
-    /// Take nodes that depend on others out of the sets of nodes: CalculiX refuses boundary conditions there.
+    /// Remove dependent nodes from the sets of nodes, because CalculiX refuses boundary conditions on them.
     void leave_out_of_sets(const std::set<DeckTag>& nodes)
     {
         MeshView own = *view_;
@@ -354,8 +357,8 @@ private:
             set.members = mesh::Numbers(std::move(kept));
         }
         view_ = std::make_shared<const MeshView>(std::move(own));
-        file_.notes.push_back(formatted("{} middle nodes of the bases of pyramids follow their corners by "
-                                        "equations, and are in no set of nodes",
+        file_.notes.push_back(formatted("{} middle nodes of pyramid bases depend on corners through "
+                                        "equations, so they are in no set of nodes",
                                         nodes.size()));
     }
 
@@ -371,7 +374,7 @@ private:
         return members.take() == own.take();
     }
 
-    /// A set that equals a region is created by the ELSET of its elements.
+    /// A set that equals a region is written as the ELSET of the region's elements.
     void choose_sets()
     {
         const std::vector<MeshView::Region>& regions = view_->regions;
@@ -389,14 +392,15 @@ private:
                 if (set.kind != mesh::SetKind::elements || !same_word(set.name, regions[r].name) ||
                     !is_region(set, r))
                     continue;
-                // Not by both ways: CalculiX would list each element twice in the set.
+                // Only one of both ways is used: with both, CalculiX would list each element of the set
+                // twice.
                 makes_set_[r] = by_elements_[s] = !set.listed;
                 set_of_region_[r] = static_cast<Index>(s);
             }
     }
 
-    /// Choose distinct names of sets and regions: surfaces before element sets, unchanged names before
-    /// others.
+    /// Choose distinct names of sets and regions. Surfaces choose before element sets, and sets that can keep
+    /// their names before those that cannot.
     void choose_names()
     {
         using enum mesh::SetKind;
@@ -423,7 +427,7 @@ private:
         for (std::size_t r = 0; r < dimensions_.size(); ++r) {
             if (dimensions_[r] == 0) continue; // no elements
             std::string name = view_->regions[r].name;
-            // A region from another format that has only a number is named after it.
+            // A region from another format that has only a number gets a name from that number.
             if (name.empty() && !same_)
                 name = (dimensions_[r] != 2 ? "volume:" : "surface:") + std::to_string(view_->regions[r].tag);
             region_names_[r] = set_of_region_[r] >= 0 ? names_[index(set_of_region_[r])]
@@ -469,7 +473,8 @@ private:
         return head + "\n";
     }
 
-    /// @param count  nodes to write. @param brick  a pyramid is written as a brick with merged corners
+    /// @param count  number of nodes to write. @param brick  a pyramid is written as a brick with merged
+    ///               corners
     static char* put_element(const MeshView& view, DeckTag tag, std::span<const Index> nodes,
                              std::size_t count, bool brick, char* out)
     {
@@ -520,12 +525,12 @@ private:
     }
 
     View view_;
-    bool same_; ///< same format: names and text stay
+    bool same_; ///< the deck was of this format: names and text stay
     DeckFile file_;
     std::vector<DeckTag> bricks_, shells_; ///< see `find_bricks_and_shells()`
-    std::string equations_;                ///< see `find_equations()`; the card, empty: none
-    std::vector<bool> by_elements_;        ///< sets
-    std::vector<bool> makes_set_;          ///< regions
+    std::string equations_;                ///< the card of equations, see `find_equations()`; empty: none
+    std::vector<bool> by_elements_;        ///< for each set: it is written by the elements of a region
+    std::vector<bool> makes_set_;          ///< for each region: its elements create a set
     std::vector<Index> set_of_region_;     ///< set that each region creates; -1: none
     /// Dimension of the elements of each region; 0: there are none.
     std::vector<int> dimensions_;

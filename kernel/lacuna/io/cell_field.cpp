@@ -23,7 +23,7 @@ std::vector<std::uint32_t> quads_of_rim(const mesh::HexMesh& mesh)
     for (const Segment& segment : mesh.rim)
         for (const Index n : segment)
             if (n >= 0 && n < mesh.nodes_per_layer) on_rim.add(n);
-    std::vector<Side> sides; // sides between rim nodes: those of the rim and a few others
+    std::vector<Side> sides; // sides between two rim nodes: the sides of the rim and a few others
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
         const Quad& quad = mesh.quads[q];
         for (std::size_t k = 0; k < 4; ++k) {

@@ -17,13 +17,13 @@ namespace lacuna::io {
 struct CellField {
     std::string name; ///< no quotes, no line ends
     std::vector<double> values;
-    /// Alternative to `values`: writes the values of the cells with the given numbers to `out`. Must give the
-    /// same values in every call; is called while the file is written, by several threads at once.
+    /// Alternative to `values`: writes the values of the cells with the given numbers to `out`. It must give
+    /// the same values in every call. Several threads call it at once while the file is written.
     std::function<void(std::span<const std::uint32_t> cells, double* out)> make{};
 };
 
-/// @throw InvalidInput  a field with the wrong number of values, or whose name cannot be written or is used
-///                      twice.
+/// @throw InvalidInput  a field has the wrong number of values, or a name that cannot be written or is used
+///        twice.
 void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& fields);
 
 /// The hexahedron of every quad of the skin; quads are numbered as in `mesh::skin_quad()`.

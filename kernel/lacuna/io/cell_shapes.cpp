@@ -7,7 +7,8 @@ namespace lacuna::io {
 namespace {
 
 using enum DeckShape;
-/// An order that differs from that of DeckShape, of a shape and of those like it with fewer middle nodes.
+/// A node order that differs from that of DeckShape. It is given for a shape with many middle nodes; shapes
+/// with fewer ones use its first nodes.
 struct OwnOrder {
     NodeOrder order;
     DeckShape shape;

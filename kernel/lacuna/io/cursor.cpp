@@ -14,7 +14,7 @@ bool separates(char c) { return is_blank(c) || c == '\n'; }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Convert a Fortran number to the syntax of C++: `D` for `E`, an exponent without a letter.
+/// Convert a Fortran number to the syntax of C++: the exponent may start with `D`, or with its sign only.
 std::string plain_exponent(std::string_view text)
 {
     std::string plain;
@@ -92,7 +92,7 @@ std::string shown(std::string_view text)
 
 Cursor::Cursor(std::string path, std::string_view data) : path_(std::move(path)), data_(data)
 {
-    if (data_.starts_with("\xef\xbb\xbf")) at_ = 3; // the mark some editors put before UTF-8
+    if (data_.starts_with("\xef\xbb\xbf")) at_ = 3; // the byte order mark that some editors put before UTF-8
 }
 
 void Cursor::fail_at(std::size_t position, const Message& why) const
@@ -237,9 +237,10 @@ std::string_view Cursor::bytes(std::uint64_t count)
 
 std::uint64_t Cursor::plausible(std::uint64_t count, std::uint64_t bytes, std::uint64_t values) const
 {
-    const std::uint64_t least = coding != Coding::text ? bytes : 2 * values; // a digit and a blank
+    const std::uint64_t least = coding != Coding::text ? bytes : 2 * values; // in text, a digit and a blank
+                                                                             // for each value
     if (count > (data_.size() - at_ + 1) / std::max<std::uint64_t>(least, 1))
-        fail("the file is cut off: it announces {} entries and has no room for them", count);
+        fail("the file is cut off: it announces {} entries, but is too short for them", count);
     return count;
 }
 

@@ -17,7 +17,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Required first bytes of some file types, for the error that names the actual type.
+/// First bytes by which some file types are recognised, for an error that names the actual type.
 struct Beginning {
     std::string_view text, ending;
 };
@@ -43,9 +43,9 @@ std::vector<std::string_view> words_of_line(Cursor& cursor)
     return words;
 }
 
-/// Whether bytes are a binary AVS UCD file: 7, then six counts in either byte order (nodes, cells, three
-/// kinds of values, corners of all cells), and at least four numbers of each cell, the corners and
-/// coordinates.
+/// Whether bytes are a binary AVS UCD file. It starts with 7, then has six counts in either byte order
+/// (nodes, cells, three kinds of values, corners of all cells). At least four numbers for each cell follow,
+/// then the corners and coordinates.
 bool is_binary_avs(std::string_view bytes)
 {
     constexpr std::int64_t kHead = 1 + 6 * 4;
@@ -60,13 +60,15 @@ bool is_binary_avs(std::string_view bytes)
     });
 }
 
-/// The type of a file in an unsupported format with a supported extension; empty: unknown.
+/// The type of a file whose format is not supported although its extension is; empty: unknown.
 ///
-/// HEC-MW: a keyword after an exclamation mark. AVS UCD: five counts, then a node's number and coordinates.
+/// HEC-MW starts with a keyword after an exclamation mark. AVS UCD starts with five counts, followed by the
+/// number and coordinates of a node.
 std::string_view unread_by_content(std::string_view bytes)
 {
     if (is_binary_avs(bytes)) return "a binary AVS UCD file";
-    constexpr std::size_t kHead = 8192; // bytes examined; more finds types after long comments
+    constexpr std::size_t kHead = 8192; // number of bytes examined; a larger value also finds types after
+                                        // long comments
     Cursor cursor({}, bytes.substr(0, kHead));
     const auto first = words_of_line(cursor), second = words_of_line(cursor);
     if (!first.empty() && first[0].size() > 1 && first[0][0] == '!' &&
@@ -81,7 +83,7 @@ std::string_view unread_by_content(std::string_view bytes)
     return counts && node ? "an AVS UCD file" : std::string_view();
 }
 
-/// The extension of the type that a file begins like; empty: unknown.
+/// The extension of the file type that the first bytes show; empty: unknown.
 std::string_view ending_by_content(std::string_view bytes)
 {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
@@ -107,7 +109,7 @@ void check_content(const std::string& name, const FormatRow& format, std::string
                 .remedy("export it as .vtu, .unv or .msh"));
     const std::string_view ending = ending_by_content(bytes);
     if (ending.empty() || ending == format.ending) return;
-    // A deck of LS-DYNA without its first keyword begins as one of Abaqus may.
+    // A deck of LS-DYNA without its first keyword may look like an Abaqus deck.
     if (format.deck == DeckFormat::dyna && ending == ".inp") return;
     const Format* const other = find_format("file" + std::string(ending));
     // Several endings can mean the same format.
@@ -115,8 +117,8 @@ void check_content(const std::string& name, const FormatRow& format, std::string
     throw InvalidInput(Message("io.unreadable", "cannot read {}, line 1: expected {}, found {}", name,
                                format.name,
                                found(other != nullptr ? std::string(other->name)
-                                                      : formatted("what a {} file begins with", ending)))
-                           .remedy("use the file name ending of its contents, {}", ending));
+                                                      : formatted("the beginning of a {} file", ending)))
+                           .remedy("give the file the ending {}", ending));
 }
 
 } // namespace
@@ -138,7 +140,7 @@ std::size_t Deck::element_count(int dimension) const
 
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale)
 {
-    // Points are sorted along x. Within the tolerance there can be as many as lie in a plane normal to x;
+    // Points are sorted along x. All points in a plane normal to x may lie within the tolerance along x;
     // among these, bisection finds the ones near in y.
     std::vector<Index> order(deck.points.size());
     std::iota(order.begin(), order.end(), Index(0));

@@ -52,8 +52,8 @@ struct DeckBlock {
     std::vector<Index> nodes{};   ///< indices in `Deck::points`; -1: a middle node that the file omits
     std::vector<DeckTag> tags{};  ///< for each element
     std::vector<Index> regions{}; ///< index in `Deck::regions`, for each element
-    /// Fields of an element's card after its nodes, as in the file, separated by commas: angle, offset and
-    /// thicknesses of a Nastran shell. By the element's index in the block, increasing.
+    /// Fields of an element's card after its nodes, as in the file, separated by commas; for example angle,
+    /// offset and thicknesses of a Nastran shell. Sorted by the element's index in the block.
     std::vector<std::pair<std::size_t, std::string>> more{};
 
     [[nodiscard]] std::size_t count() const { return tags.size(); }
@@ -64,8 +64,8 @@ struct DeckBlock {
     }
 };
 
-/// The region of elements, exactly one for each: a property, the element set of a section, a surface or
-/// volume entity, a solid of an STL file.
+/// Elements that belong together: the elements of a property, of a section's element set, of a surface or
+/// volume entity, or of a solid in an STL file. Each element is in exactly one region.
 struct DeckRegion {
     int tag = 0;          ///< number of the property or entity; sets are numbered from 1
     std::string name;     ///< "pid:7", the name of the set, physical group or part; may be empty
@@ -82,22 +82,24 @@ struct DeckSet {
     /// Members of a set of nodes or elements, rising, each once; may include entities in `texts`.
     std::vector<DeckTag> members{};
     std::vector<DeckSide> sides{}; ///< members of a surface, increasing, each once
-    bool listed = false;           ///< Abaqus has a card for it, even if it equals a region
-    bool of_one_deck = false;      ///< holds all nodes or solids of one of several merged decks
+    bool listed = false;           ///< Abaqus lists it on a card of its own, even if it equals a region
+    bool of_one_deck = false;      ///< holds all nodes or all solids of one deck, where several decks were
+                                   ///< merged
 };
 
 /// A part instance. Decks without parts have none.
 ///
-/// If two instances have equal numbers, those of the later one are raised so that numbers are unique in the
-/// deck: minus `offset` they are the file's. With more than one instance, sets are named "instance.set".
+/// If two instances use the same numbers, those of the later instance are raised, so that numbers are unique
+/// in the deck. Subtracting `offset` gives the numbers of the file. With more than one instance, sets are
+/// named "instance.set".
 struct DeckInstance {
     std::string name, part;
     std::size_t first_point = 0, points = 0; ///< range of the instance in `Deck::points`
     DeckTag offset = 0;                      ///< offset of its node and element numbers
 };
 
-/// Text of a file besides the mesh, verbatim and with its line ends, so that the same format can be written
-/// again. Included files are inserted at their INCLUDE.
+/// Text of a file besides the mesh, verbatim and with its line ends. It is written again if the format stays
+/// the same. Included files replace their INCLUDE.
 struct DeckText {
     enum class Place : std::uint8_t {
         head,  ///< before the mesh: executive and case control up to BEGIN BULK; text before the first *NODE
@@ -114,11 +116,12 @@ struct Deck;
 /// Record of the parts that were left out of a deck.
 struct DeckGap {
     std::vector<std::string> names{}; ///< regions and sets that lost all elements or members
-    DeckTag node = 0, cell = 0;       ///< highest numbers left out, which text may still name
-    /// The elements left out by each `leave_out()`, and the sets that held some of them, in their original
-    /// state.
+    DeckTag node = 0, cell = 0;       ///< highest numbers that were left out; text may still name them
+    /// For each call of `leave_out()`: the elements that it left out, and the sets that held some of them, as
+    /// they were before.
     std::vector<std::shared_ptr<const Deck>> gone{};
-    /// For each of these sets, by kind and name, the share of the lost members that meshes have replaced [-].
+    /// For each of these sets, by kind and name: the share of the lost members that added meshes have
+    /// replaced [-].
     std::map<std::pair<DeckSet::Kind, std::string>, double> replaced{};
 };
 
@@ -127,11 +130,12 @@ struct Deck {
     std::string path;
     DeckFormat format = DeckFormat::nastran;
     double version = 0;              ///< version of the format, for .msh and .vtk
-    std::string unit{};              ///< declared unit of its lengths, as `metres_of()`; empty: none
+    std::string unit{};              ///< declared unit of its lengths, a name that `metres_of()` knows;
+                                     ///< empty: none
     std::vector<Vec3> points;        ///< in the basic frame [the file's length], in the file's order
     std::vector<DeckTag> point_tags; ///< unique
-    /// Fields of a node's card after its coordinates, as in the file, separated by commas: the displacement
-    /// frame of a Nastran node, its constraints. By index in `points`, increasing.
+    /// Fields of a node's card after its coordinates, as in the file, separated by commas; for example the
+    /// displacement frame and the constraints of a Nastran node. Sorted by the index in `points`.
     std::vector<std::pair<std::size_t, std::string>> point_more;
     std::vector<DeckBlock> blocks;
     std::vector<DeckRegion> regions;
@@ -150,8 +154,9 @@ struct Deck {
 
 /// The deck's nodes at each of several positions.
 struct NodesAt {
-    std::vector<Index> first; ///< start of each position's nodes in `nodes`, and the end
-    std::vector<Index> nodes; ///< indices in `Deck::points`, increasing; several if nodes coincide
+    std::vector<Index> first; ///< start of each position's nodes in `nodes`, and the end of the last
+    std::vector<Index> nodes; ///< indices in `Deck::points`, increasing for each position; several if nodes
+                              ///< coincide
 
     [[nodiscard]] std::span<const Index> at(std::size_t place) const
     {
@@ -171,8 +176,8 @@ NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double toleranc
 /// @param context  its log gets the deck's warnings, each after "note: ".
 /// @throw InvalidInput  as read_facets().
 Deck read_deck(const std::string& path, const RunContext& context = {});
-/// The same for bytes in memory, without logging. @param name  takes the place of the path: extension,
-/// folder, messages.
+/// The same for bytes in memory, without logging. @param name  used like a path: for the extension, the
+/// folder and messages.
 Deck read_deck(const std::string& name, std::string_view bytes);
 
 /// The part of a path from its last dot, in lower case; empty if there is none.

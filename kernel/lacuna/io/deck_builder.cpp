@@ -15,7 +15,8 @@
 namespace lacuna::io {
 namespace {
 
-/// Whether all triangles from the first corner have the polygon's orientation, so that a fan fills it.
+/// Whether all triangles of the fan from the first corner have the polygon's orientation, so that the fan
+/// fills the polygon.
 bool fan_fills(const std::vector<Vec3>& at, const Vec3& normal)
 {
     for (std::size_t k = 1; k + 1 < at.size(); ++k)
@@ -23,7 +24,8 @@ bool fan_fills(const std::vector<Vec3>& at, const Vec3& normal)
     return true;
 }
 
-/// Make pyramids of the bricks that `merged_brick()` describes. Their sides have the numbers of a pyramid.
+/// Turn bricks of the form that `merged_brick()` describes into pyramids, and the numbers of their sides into
+/// those of pyramids.
 void take_out_pyramids(Deck& deck)
 {
     std::vector<DeckTag> found;
@@ -42,7 +44,7 @@ void take_out_pyramids(Deck& deck)
         DeckBlock own{.shape = second ? DeckShape::pyramid13 : DeckShape::pyramid5, .type = block.type};
         for (std::size_t e = 0; e < block.count(); ++e) {
             if (!is_pyramid(e)) continue;
-            for (std::size_t n = 0; n < block.element(e).size(); ++n) // each of its nodes once
+            for (std::size_t n = 0; n < block.element(e).size(); ++n) // take each node of the pyramid once
                 if (n < 5 || kMergedBrick[n] > 4) own.nodes.push_back(block.element(e)[n]);
             own.tags.push_back(block.tags[e]);
             own.regions.push_back(block.regions[e]);
@@ -86,7 +88,7 @@ std::vector<DeckTag> element_tags(const Deck& deck)
 
 std::size_t block_of(std::vector<DeckBlock>& blocks, DeckShape shape, std::string_view type)
 {
-    // Formats have at most a few dozen type words.
+    // A linear search is fast enough: formats have at most a few dozen type words.
     for (std::size_t b = 0; b < blocks.size(); ++b)
         if (blocks[b].shape == shape && blocks[b].type == type) return b;
     blocks.push_back({.shape = shape, .type = std::string(type)});
@@ -168,7 +170,8 @@ void DeckBuilder::add_face(std::span<const Index> corners, Index region, const C
         cursor.fail("expected a face of three corners or more, found {}", found(corners.size()));
     for (const Index p : corners)
         if (p < 0 || index(p) >= points.size())
-            cursor.fail("expected a point of {}, found number {}", points.size(), found(std::int64_t(p) + 1));
+            cursor.fail("expected a point number up to {}, found {}", points.size(),
+                        found(std::int64_t(p) + 1));
     if (corners.size() == 4) return add_element(block_of(DeckShape::quad4, ""), tag, region, corners);
     const std::size_t triangles = block_of(DeckShape::tri3, "");
     const auto add_triangle = [&](Index a, Index b, Index c) {
@@ -237,9 +240,7 @@ Deck DeckBuilder::take(const std::string& path)
     const std::string passed = counted();
     if (!passed.empty()) deck_.notes.push_back(formatted("{}: passed over {}", path, passed));
     for (const auto& [type, count] : further_nodes_)
-        warn(formatted(
-            "elements {} list more nodes than they have; those beyond are left out, up to {} an element",
-            type, count));
+        warn(formatted("elements {} list too many nodes; up to {} an element are ignored", type, count));
     for (std::string& warning : deck_.warnings) warning.insert(0, path + ": ");
     for (std::size_t p = deck_.point_tags.size(); p < deck_.points.size(); ++p)
         deck_.point_tags.push_back(static_cast<DeckTag>(p) + 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// facets_of(): sides of solids are matched with each other and with the shells.
+// facets_of(): match the sides of solids with each other and with the shells.
 #include <lacuna/io/detail/deck_facets.h>
 
 #include <lacuna/core/error.h>
@@ -69,15 +69,15 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The entities that a label stands for: regions, and lists of sets, by number; -1: none.
+/// What a label stands for, by number: regions of shells and solids, and a list of sets; -1: none.
 struct Label {
     Index shell = -1;     ///< region of the shells
-    int sets = 0;         ///< of the shells, or surfaces of the sides
+    int sets = 0;         ///< list of sets of the shells, or of surfaces of the sides
     Index a = -1, b = -1; ///< regions of the solids on either side, a <= b if both exist
     friend auto operator<=>(const Label&, const Label&) = default;
 };
 
-constexpr Index kSingles = -2; ///< in place of a shell's region: labels of one shell each
+constexpr Index kSingles = -2; ///< replaces a shell's region in labels that would have one shell only
 
 class Facets {
 public:
@@ -98,12 +98,12 @@ public:
         name_labels();
         file_.notes = deck_.notes;
         if (shared_by_many_ > 0)
-            file_.notes.push_back(formatted("{}: {} sides are shared by more than two solids, which lie in "
-                                            "each other or are listed twice",
-                                            deck_.path, shared_by_many_));
+            file_.notes.push_back(formatted(
+                "{}: {} sides are shared by more than two solids, which overlap or are listed twice",
+                deck_.path, shared_by_many_));
         if (singles_ > 0)
-            file_.notes.push_back(formatted("{}: {} properties or sets of one shell each are taken as one",
-                                            deck_.path, singles_));
+            file_.notes.push_back(formatted(
+                "{}: {} properties or sets have one shell each and are read as one", deck_.path, singles_));
         return std::move(file_);
     }
 
@@ -152,7 +152,7 @@ private:
         std::sort(surfaces_.begin(), surfaces_.end());
     }
 
-    /// The list of surfaces that contain a side of a solid.
+    /// The number of the list of surfaces that contain a side of a solid.
     int surfaces_of(std::size_t solid, int face)
     {
         const std::pair<std::size_t, int> key(solid, face);
@@ -214,7 +214,8 @@ private:
             beside_[group[i].number / 8 - solids_.count()] = {label.a, label.b};
         const bool inside = solids == 2 && label.b < 0;
         if (inside || group.size() > solids) return;
-        // Between two regions, the side of the first one is used; the face points out of it.
+        // Between two regions, the side of the region with the lower number is used. The face points out of
+        // that region.
         const std::size_t shown = region(0) == label.a ? 0 : other;
         const std::size_t solid = group[shown].number / 8;
         const auto face = static_cast<int>(group[shown].number % 8);
@@ -227,7 +228,8 @@ private:
 
     void label_shells()
     {
-        constexpr int kMostSingles = 20; // more singles would be hard to tell apart
+        constexpr int kMostSingles = 20; // with more labels of one shell each, they would be hard to tell
+                                         // apart
         std::map<Label, int> shells;
         label_of_shell_.resize(shells_.count());
         shells_.each([&](std::size_t e, const Elements::Element& element) {
@@ -241,7 +243,8 @@ private:
             if (shells[label] == 1) label = {kSingles, 0, label.a, label.b};
     }
 
-    /// Tag of the label's set, or of its region: in MSH files the surface, whose groups are the sets.
+    /// Tag of the label: that of its set or, in MSH files, of its region. There the region is the surface,
+    /// and the sets are its groups.
     [[nodiscard]] int tag_of(const Label& label) const
     {
         const bool by_set = deck_.format != DeckFormat::msh;
@@ -370,7 +373,7 @@ private:
             for (const Index region : {label.a, label.b})
                 if (region >= 0) about.regions.push_back(names_[index(region)]);
             if (about.regions.empty() && !about.groups.empty()) {
-                // A shell next to no solid has its own region.
+                // A shell with no solid beside it belongs to its own region.
                 about.regions.push_back({about.groups.back()});
                 if (label.shell >= 0 && !deck_.regions[index(label.shell)].part.empty())
                     about.regions.back().push_back(deck_.regions[index(label.shell)].part);
@@ -389,13 +392,14 @@ private:
     double tolerance_;
     Elements shells_, solids_;
     SetLists lists_;
-    std::vector<int> sets_of_shell_;                                    ///< list of each
+    std::vector<int> sets_of_shell_;                                    ///< list of sets of each shell
     std::vector<std::pair<std::pair<std::size_t, int>, int>> surfaces_; ///< (solid, face), set
-    std::vector<std::pair<Index, Index>> beside_;                       ///< regions of solids at each shell
+    std::vector<std::pair<Index, Index>> beside_;                       ///< regions of the solids on either
+                                                                        ///< side of each shell
     std::vector<Side> sides_;
     std::vector<Label> label_of_shell_, labels_;
     std::map<Label, int> numbers_;
-    std::vector<std::vector<std::string>> names_; ///< for each region
+    std::vector<std::vector<std::string>> names_; ///< all names of each region
     std::size_t shared_by_many_ = 0, singles_ = 0;
     FacetFile file_;
 };

@@ -18,48 +18,50 @@
 namespace lacuna::io {
 
 struct MeshDeckOptions {
-    DeckFormat format = DeckFormat::abaqus; ///< nastran, abaqus, unv, msh, vtk, vtu or exodus
-    /// For Abaqus: the element type for hexahedra with this number of nodes, in capitals; empty: C3D8, at
-    /// order 2 C3D20.
+    DeckFormat format = DeckFormat::abaqus; ///< format of the file: nastran, abaqus, unv, msh, vtk, vtu or
+                                            ///< exodus
+    /// For Abaqus: the element type of the hexahedra, in capitals. It must have as many nodes as the
+    /// hexahedra. Empty: C3D8, at order 2 C3D20.
     std::string element{};
     DeckTag first_node = 0; ///< number of the first new node; 0: above all used numbers, from 1
-    DeckTag first_cell = 0; ///< number of the first hexahedron; 0: likewise
-    /// Material of the hexahedra: a name or number in the deck that they join, in any case; empty: that of
-    /// the elements next to the void, if the deck gives it.
+    DeckTag first_cell = 0; ///< number of the first hexahedron; 0: above all used numbers, from 1
+    /// Material of the hexahedra: a name or number in the deck that they join, in any case. Empty: the
+    /// material of the elements next to the void, if the deck gives it.
     std::string material{};
 };
 
-/// Indices of sets in a deck, by their kind and the group that they hold.
+/// Indices of sets in a deck, by the kind of the set and the group that it holds.
 using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
 
-/// Sets and regions of meshes that joined a deck earlier.
+/// What meshes that joined a deck earlier have added to it.
 struct JoinedBefore {
-    GroupSets sets{};                       ///< sets of their groups
-    std::map<std::string, Index> regions{}; ///< regions, by the names of their meshes
+    GroupSets sets{};                       ///< sets of the meshes' groups
+    std::map<std::string, Index> regions{}; ///< regions, by the names of the meshes
 };
 
-/// Combine a deck with the mesh that fills a void of it into one conformal mesh. The deck keeps its numbers.
-/// A skin node that coincides with a node of the deck is that node; middle nodes are those of the deck's
-/// sides.
+/// Combine a deck with the mesh that fills one of its voids into one conformal mesh. The deck keeps its
+/// numbers. Where a skin node of the mesh coincides with a node of the deck, the deck's node is used. Middle
+/// nodes on sides of the deck are the deck's, too.
 ///
-/// Groups of the skin become sets as in `write_mesh()`, of nodes in UNV too. The new region gets the next
-/// property above all others. Where nodes of the deck coincide, the skin uses the node of the elements whose
-/// face it shares or, failing that, whose side.
+/// Groups of the skin become sets as in `write_mesh()`, but sets of nodes in UNV. The new region gets the
+/// number after the highest property. If several nodes of the deck coincide, the skin uses the node of the
+/// elements whose face it shares; if it shares none, that of the elements whose side it shares.
 ///
 /// The region's material is written as a card if the format is the deck's: a PSOLID in Nastran, a *SOLID
-/// SECTION before the first *STEP in Abaqus, unless the deck already has a section for that set. By default
-/// the material is that of the region with most faces on the mesh, and the log says so; if it has none,
-/// Nastran's PSOLID names material 1 and Abaqus gets no section.
-/// If `deck` lacks parts removed by `leave_out()`, a mesh named like a region that this emptied replaces it:
-/// it takes its number, sets, sections and properties, and the material from their cards.
-/// @param model    the deck's faces, which the patches of the mesh name by their tags.
-/// @param scale    of the model's coordinates to the deck's [-].
+/// SECTION before the first *STEP in Abaqus. There is no card if the deck already has a section for the set.
+/// By default the material is that of the region with the most faces on the mesh, and the log says so. If
+/// that region has none, Nastran's PSOLID names material 1, and Abaqus gets no section.
+/// If `leave_out()` removed parts from `deck` and thereby emptied a region, a mesh of the same name replaces
+/// that region. It takes over the region's number, sets, sections and properties, and the material from their
+/// cards.
+/// @param model    faces of the deck; patches of the mesh name them by their tags.
+/// @param scale    factor from the model's coordinates to the deck's [-].
 /// @param options  `format` is that of the file to be written.
-/// @param gone     `LeftOut::gone` if the model was made from the deck including these elements; their faces
-///                 are not required.
-/// @param before   data of meshes that joined earlier: a mesh of the same region extends it, and groups with
-///                 equal names become one set. Updated with this mesh. Null: there are none.
-/// @throw InvalidInput "io.not_conformal"  a face of the deck whose quads the mesh lacks; with counts.
+/// @param gone     if elements were left out of the deck after the model was made: `LeftOut::gone`. The mesh
+///                 need not match the faces of these elements.
+/// @param before   data of meshes that joined earlier; updated with this mesh. A mesh of the same region
+///                 extends that region, and groups with equal names become one set. Null: there are none.
+/// @throw InvalidInput "io.not_conformal"  the mesh lacks quads of a face of the deck; gives counts.
 ///                     "io.nodes_coincide" elements next to the void use both of two coincident nodes; names
 ///                                         both.
 ///                     "io.other_model"    a patch belongs to no face of the model.
@@ -72,10 +74,10 @@ Deck join_deck(const Deck& deck, const topology::Model& model, double scale, con
                const MeshDeckOptions& options, const RunContext& context = {}, const Deck* gone = nullptr,
                JoinedBefore* before = nullptr);
 
-/// Convert a deck of a format in which faces of solids are elements (MSH, VTK, Medit) for a format in which
-/// these would be shells (Abaqus, Nastran, Exodus). Elements on faces of solids are replaced by sets of nodes
-/// and of sides, named after their sets, otherwise after their region or its number, `surface:3`. Other
-/// elements are unchanged.
+/// Convert a deck of a format in which faces of solids are elements (MSH, VTK, Medit) to a format in which
+/// such elements would be shells (Abaqus, Nastran, Exodus). Elements on faces of solids become sets of nodes
+/// and of sides. These are named after the elements' sets; without sets, after their region or its number:
+/// `surface:3`. Other elements are unchanged.
 /// @note  O(n log n) in the elements of two dimensions, O(n) in the solids.
 Deck skin_as_sets(Deck deck, DeckFormat format);
 
@@ -84,17 +86,18 @@ struct DeckInScale {
     double scale = 1;           ///< factor from its own coordinates to those in use [-]
 };
 struct MergeOptions {
-    /// If decks share numbers, sets or materials, give those of the later deck new numbers and names, and
-    /// drop its cards, which refer to the old ones. Otherwise this is refused.
+    /// If decks share numbers, sets or materials: give those of the later deck new numbers and names, and
+    /// drop its cards, which refer to the old ones. Otherwise such decks are refused.
     bool renumber = false;
 };
 
 /// Merge several decks into one, in the coordinates and the format of the first.
 ///
-/// Cards of decks of the same format are copied, before the first step of the first deck; steps of the other
-/// decks, and text before their bulk data, are not. Coincident nodes stay separate. The log lists omitted
-/// content.
-/// @throw InvalidInput "io.numbers_clash"  a node, element, property, set or material of two decks; names it.
+/// Cards of a deck of the same format are copied, before the first step of the first deck. The steps of later
+/// decks and their text before the bulk data are not copied. Coincident nodes stay separate. The log lists
+/// omitted content.
+/// @throw InvalidInput "io.numbers_clash"  two decks have the same node, element, property, set or material;
+///        names it.
 /// @note  O(n log n).
 Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options = {},
                  const RunContext& context = {});

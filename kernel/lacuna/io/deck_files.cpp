@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kDeepest = 20;             // nested files; well above usual decks
-constexpr std::size_t kMostFiles = 1000; // likewise
+constexpr std::size_t kMostFiles = 1000; // included files; well above usual decks
 
 } // namespace
 

@@ -15,7 +15,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Corners of an element, and the node in the middle between them.
+/// Corners of an element, and the index of the node in the middle between them.
 template <std::size_t N>
 using Middle = std::pair<std::array<Index, N>, int>;
 
@@ -84,7 +84,7 @@ std::vector<Index> find_middles(const Deck& deck, std::span<const std::array<Ind
     return found;
 }
 
-/// The same by the positions of the corners, each of which may be several nodes of the deck.
+/// The same for corners given as positions. Several nodes of the deck may lie at each position.
 template <std::size_t N>
 std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3, N>> wanted,
                                double tolerance, double scale)
@@ -110,7 +110,7 @@ std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3
     }
     std::vector<Vec3> middles(wanted.size(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
     const std::vector<Index> found = find_middles<N>(deck, all);
-    for (std::size_t i = found.size(); i-- > 0;) // backwards, so that the first of several wins
+    for (std::size_t i = found.size(); i-- > 0;) // backwards, so that the first of several choices wins
         if (found[i] >= 0) middles[of[i]] = deck.points[index(found[i])] * scale;
     return middles;
 }
@@ -138,7 +138,8 @@ std::vector<Vec3> centres_of(const Deck& deck, std::span<const std::array<Vec3, 
 
 namespace {
 
-/// Join the middle nodes of quads common to both; all quads must have one in both, or none.
+/// Match the middle nodes of quads that the deck and the mesh share. A shared quad must have one in both, or
+/// in neither.
 template <class Mesh>
 void join_centres(const Deck& deck, const Mesh& mesh, const std::vector<bool>& matched, double tolerance,
                   double scale, std::vector<Index>& points)
@@ -185,13 +186,13 @@ void join_centres(const Deck& deck, const Mesh& mesh, const std::vector<bool>& m
     }
 }
 
-/// Join the middle nodes of sides common to both.
+/// Match the middle nodes of sides that the deck and the mesh share.
 template <class Mesh>
 void join_all(const Deck& deck, const Mesh& mesh, const std::vector<bool>& matched, double tolerance,
               double scale, std::vector<Index>& points)
 {
     struct Side {
-        std::size_t middle; ///< number of the mesh's middle node; 0: of order 1
+        std::size_t middle; ///< number of the mesh's middle node; 0: the mesh is of order 1
         std::size_t quad;   ///< quad of the skin
     };
     std::vector<Segment> pairs;

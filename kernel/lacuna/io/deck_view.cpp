@@ -19,17 +19,17 @@ using mesh::MeshView;
 using mesh::Numbers;
 using mesh::Ranges;
 
-/// The kind of the cells of a block of solids, as in `SweptCells`: hexahedra or wedges.
+/// Index of the kind of solids in a block, as in `SweptCells`: 0 hexahedra, 1 wedges.
 std::size_t kind_of(DeckShape shape) { return shape_info(shape).corners == 8 ? 0 : 1; }
 
-/// Meshes that are not stored in the deck; their blocks there are empty.
+/// Swept meshes that the deck does not store. Their blocks in the deck are empty.
 struct Bulk {
     explicit Bulk(std::span<const BulkPart> own) : parts(own)
     {
         for (const BulkPart& part : parts) points += own_points(part);
     }
 
-    /// Number of cells of a shape before each part; last the total.
+    /// Number of cells of a shape in the parts before each part; the last entry is the total.
     [[nodiscard]] std::vector<std::size_t> cells_before(DeckShape shape) const
     {
         const std::size_t kind = kind_of(shape);
@@ -46,7 +46,7 @@ struct Bulk {
         return part.numbers != nullptr ? part.numbers->fresh() : part.nodes->count();
     }
 
-    /// Deliver the points [begin, end) for which a part is the first to have them, counted from 0.
+    /// Deliver the points [begin, end) of a part, counted from 0 among the points that no earlier part has.
     static void each_own_point(const BulkPart& part, std::size_t begin, std::size_t end,
                                const MeshView::TakePoints& take)
     {
@@ -61,7 +61,7 @@ struct Bulk {
                 const bool is_last = next == known.end() || index(next->first) - node >= nodes.size();
                 const std::size_t run = is_last ? nodes.size() : index(next->first) - node;
                 if (run > 0) take(nodes.first(run));
-                if (!is_last) ++next; // and skip the known node
+                if (!is_last) ++next; // also skip the known node
                 const std::size_t passed = is_last ? run : run + 1;
                 node += passed;
                 nodes = nodes.subspan(passed);
@@ -120,7 +120,8 @@ struct Bulk {
         return sum;
     }
 
-    /// The members of a set of the deck, rising: those that it stores and all cells of some parts.
+    /// The members of a set of the deck, rising: the stored ones, and all cells of the parts that belong to
+    /// it.
     [[nodiscard]] Numbers members(const DeckSet& set, std::size_t number) const
     {
         if (cells_in(number) == 0) return Numbers(set.members);
@@ -170,7 +171,7 @@ public:
     }
 
 private:
-    /// Groups of an MSH file keep their tags.
+    /// Groups that come from an MSH file keep their tags.
     void keep_tags(const TagPlaces& places)
     {
         for (std::size_t s = 0; s < deck_.sets.size(); ++s) {
@@ -178,7 +179,8 @@ private:
             if (set.kind != DeckSet::Kind::elements || view_.sets[s].count == 0) continue;
             const DeckTag first = view_.sets[s].members[0];
             if (set.members.empty() || first != set.members.front())
-                view_.group_tags.push_back({3, set.name, set.tag}); // a cell created on writing
+                view_.group_tags.push_back({3, set.name, set.tag}); // the first member is a cell that is
+                                                                    // created on writing
             else if (const Index e = places.find(first); e >= 0)
                 view_.group_tags.push_back({dimension_[index(e)], set.name, set.tag});
         }
@@ -233,7 +235,7 @@ private:
         }
     }
 
-    /// Entities of an MSH file keep their tags where these are unique.
+    /// Entities that come from an MSH file keep their tags if these are unique.
     void tag_entities()
     {
         std::set<std::pair<int, int>> taken;
@@ -275,7 +277,8 @@ private:
     const Bulk& bulk_;
     MeshView& view_;
     SetLists lists_;
-    std::vector<int> list_, dimension_; ///< for each element
+    std::vector<int> list_, dimension_; ///< for each element: the number of its list of sets, and its
+                                        ///< dimension
     std::map<std::tuple<int, Index, int>, Index> known_;
     std::vector<Index> place_of_region_; ///< for each entity
 };
@@ -308,7 +311,7 @@ MeshView::Block block_of(const DeckBlock& block, const std::shared_ptr<const Bul
 
 std::optional<MeshView::KeptText> kept_text(const Deck& deck, DeckFormat format)
 {
-    // Names of several instances would not be valid in a deck of one mesh.
+    // With several instances, names in the kept text would not be valid in a deck of one mesh.
     if (deck.format != format || deck.instances.size() > 1) return {};
     MeshView::KeptText kept;
     kept.head = text_at(deck, DeckText::Place::head);

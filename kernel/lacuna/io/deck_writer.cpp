@@ -16,11 +16,11 @@
 namespace lacuna::io {
 namespace {
 
-/// More than the length of any double with 17 decimals, including the shift of `with_point()`.
+/// More than the length of any double with 17 decimals, even after `with_point()` inserts a point.
 constexpr std::size_t kRoom = 400;
 
-/// Convert the output of to_chars() to a form with a point and a short exponent, after `e_letter` unless that
-/// is 0.
+/// Convert the output of to_chars() to a number with a point and a short exponent. The exponent follows
+/// `e_letter`, or is only its sign and digits if `e_letter` is 0.
 std::size_t with_point(char* text, std::size_t length, std::size_t width, char e_letter)
 {
     std::string_view all(text, length);
@@ -72,7 +72,7 @@ void nastran_numbers(std::string_view line, TextNumbers& numbers)
         numbers.property = std::max(numbers.property, *tag);
 }
 
-/// Words of a line as numbers; 0 for other words.
+/// The words of a line as numbers; 0 for words that are not numbers.
 std::vector<std::int64_t> numbers_of(std::string_view line)
 {
     std::vector<std::int64_t> numbers;
@@ -81,7 +81,8 @@ std::vector<std::int64_t> numbers_of(std::string_view line)
     return numbers;
 }
 
-/// Numbers in an element dataset, whose records are a head, possibly an orientation, and nodes.
+/// Collect the numbers in an element dataset. Its records consist of a head, possibly an orientation, and
+/// nodes.
 void unv_numbers(std::string_view text, TextNumbers& numbers)
 {
     const auto next = [&] {
@@ -223,7 +224,8 @@ std::vector<std::string> materials_in_text(const Deck& deck)
                 if (keyword.name == "MATERIAL") add_once(found, keyword.value("NAME"));
         if (deck.format != DeckFormat::nastran || text.place != DeckText::Place::cards) continue;
         each_line(text.text, [&](std::string_view line) {
-            // MAT1 to MAT11 and MATHP; MATS1, MATT1 and the like extend a material of the same number.
+            // MAT1 to MAT11 and MATHP define materials. MATS1, MATT1 and the like only extend a material with
+            // the same number.
             if (!same_word(line.substr(0, 3), "MAT") || line.size() < 5) return;
             if (std::isdigit(static_cast<unsigned char>(line[3])) == 0 && !same_word(line.substr(3, 2), "HP"))
                 return;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Keyword decks of LS-DYNA: nodes, solids, shells, parts and sets are the mesh; all other cards are text.
-// Wedges, pyramids and tetrahedra are hexahedra with repeated nodes, as in *ELEMENT_SOLID of the Keyword
-// User's Manual, volume I: https://lsdyna.ansys.com/manuals/
+// Keyword decks of LS-DYNA. Nodes, solids, shells, parts and sets are the mesh; all other cards are kept as
+// text. Wedges, pyramids and tetrahedra are written as hexahedra with repeated nodes, as for *ELEMENT_SOLID
+// in the Keyword User's Manual, volume I: https://lsdyna.ansys.com/manuals/
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/io/detail/deck_builder.h>
 #include <lacuna/io/detail/deck_files.h>
@@ -33,7 +33,7 @@ constexpr std::size_t kPerLine = 8;                             // numbers per l
 constexpr std::string_view kSolid = "ELEMENT_SOLID", kSolid20 = "ELEMENT_SOLID_H20",
                            kThick = "ELEMENT_TSHELL", kShell = "ELEMENT_SHELL";
 
-/// Where the corners of a cell stand in the eight fields of a solid.
+/// For each of the eight node fields of a solid, the index of the cell's corner there.
 struct Degenerate {
     DeckShape shape;
     std::array<std::uint8_t, 8> fields;
@@ -42,10 +42,11 @@ constexpr Degenerate kDegenerate[] = {{tet4, {0, 1, 2, 3, 3, 3, 3, 3}},
                                       {pyramid5, {0, 1, 2, 3, 4, 4, 4, 4}},
                                       {wedge6, {0, 2, 5, 3, 1, 1, 4, 4}},
                                       {hex8, {0, 1, 2, 3, 4, 5, 6, 7}}};
-/// Patterns that are read as well: a triangle is swept, and a tetrahedron stands on its third side.
+/// Other patterns that are read: a wedge whose triangle is swept, and a tetrahedron on its first three
+/// corners.
 constexpr Degenerate kReadToo[] = {{wedge6, {0, 1, 2, 2, 3, 4, 5, 5}}, {tet4, {0, 1, 2, 2, 3, 3, 3, 3}}};
 
-/// A keyword in capitals, without its star and without the sign of its format at the end.
+/// The keyword of a line, in capitals, without the star and without the format sign at its end.
 std::string keyword_of(std::string_view line)
 {
     std::string word = upper(next_word(line, " \t\r,"));
@@ -102,7 +103,7 @@ public:
         const std::vector<DeckTag> elements = element_tags(into_.deck());
         const TagPlaces unique(elements, [&](Index a, Index) {
             main_.fail(Message(kUnreadable, "{} is there twice", numbered("element", elements[index(a)]))
-                           .remedy("number solids and shells together, each with a number of its own"));
+                           .remedy("give each solid and each shell its own number"));
         });
         name_regions();
         find_sides();
@@ -116,7 +117,7 @@ public:
 
 private:
     enum class Mode { keep, node, element, set, include };
-    /// A set whose card is kept as text if the deck cannot hold it.
+    /// A set. Its card is kept as text if the deck cannot hold the set.
     struct SetCard {
         SetKind kind;
         bool titled, ranges;
@@ -178,7 +179,7 @@ private:
             const bool wide = options.find("LONG=") != options.npos,
                        ten = options.find("I10=Y") != options.npos;
             if (begun_ && (wide != long_ || ten != ten_))
-                place_.fail("the fields of an included file are of another width than those of the deck");
+                place_.fail("the fields of an included file have another width than those of the deck");
             long_ = wide, ten_ = ten;
         } else if (keyword_ == "NODE") {
             mode_ = Mode::node;
@@ -204,7 +205,7 @@ private:
         }
     }
 
-    /// Finish what the card before the next keyword began.
+    /// At the next keyword, finish the card before it.
     void end_card()
     {
         if (mode_ == Mode::element && (!head_line_.empty() || !nodes_.empty()))
@@ -215,7 +216,7 @@ private:
     void take_include(std::string_view name, int depth)
     {
         if (name.ends_with(" +"))
-            place_.fail(Message(kUnreadable, "INCLUDE: the name of the file goes on in the next line")
+            place_.fail(Message(kUnreadable, "INCLUDE: the name of the file continues on the next line")
                             .remedy("give it a shorter name"));
         const DeckPlace place = place_;
         Cursor& included = files_.include(std::string(name), place, depth);
@@ -228,7 +229,7 @@ private:
     Index number(std::string_view field, const char* what) const
     {
         if (field.starts_with('&') || field.starts_with("-&"))
-            place_.fail(Message(kUnreadable, "{} is a parameter, which is not read", shown(field))
+            place_.fail(Message(kUnreadable, "{} is a parameter; parameters are not read", shown(field))
                             .remedy("write its value"));
         if (field.empty()) return 0;
         const auto value = parse_integer<Index>(field);
@@ -249,7 +250,7 @@ private:
             point[static_cast<Index>(k) - 1] = *value;
         }
         into_.add_point(number(fields[0], "a node"), point, *place_.cursor);
-        // The node's constraints follow its coordinates.
+        // The fields after the coordinates are the constraints of the node.
         std::string_view more = line.substr(std::min(width_ + 3 * real, line.size()));
         if (line.find(',') != line.npos)
             more = fields.size() < 4 ? "" : line.substr(std::min(line.size(), text_after(line, fields[3])));
@@ -260,7 +261,7 @@ private:
             into_.deck().point_more.emplace_back(into_.points().size() - 1, std::move(text));
     }
 
-    /// The position behind a field of a line and its comma.
+    /// The position after a field of a line and its comma.
     static std::size_t text_after(std::string_view line, std::string_view field)
     {
         return line.find(',', static_cast<std::size_t>(field.data() - line.data()) + field.size()) + 1;
@@ -307,11 +308,11 @@ private:
         std::ranges::copy(nodes.first(8), eight.begin());
         const auto corners_by = [&](const Degenerate& of) { return try_pattern(of, eight, add); };
         if (std::ranges::any_of(kDegenerate, corners_by) || std::ranges::any_of(kReadToo, corners_by)) return;
-        element_place_.fail("{} repeats nodes as no tetrahedron, pyramid or wedge does",
+        element_place_.fail("{} repeats nodes, but not as a tetrahedron, pyramid or wedge does",
                             numbered("element", head_line_[0]));
     }
 
-    /// Add an element that repeats its nodes as a pattern says, and is no simpler one.
+    /// Add an element if its repeated nodes follow a pattern, and no pattern of a simpler shape.
     template <class Add>
     static bool try_pattern(const Degenerate& of, const std::array<Index, 8>& eight, const Add& add)
     {
@@ -349,7 +350,7 @@ private:
                 region.name = "pid:" + std::to_string(region.tag);
     }
 
-    /// Find the sides that segments name by their nodes.
+    /// Find the sides of elements that segments give by their nodes.
     void find_sides()
     {
         for (const SetCard& card : sets_)
@@ -373,7 +374,8 @@ private:
         });
     }
 
-    /// The side of a solid that a segment covers, as it is oriented if there are two; else that of a shell.
+    /// The side that a segment covers: the side of a solid (of two solids, the one that is oriented like the
+    /// segment), else that of a shell.
     [[nodiscard]] std::optional<DeckSide> side_of(const Quad& segment) const
     {
         const auto at = sides_.find(face_key(segment));
@@ -398,7 +400,7 @@ private:
         return false;
     }
 
-    /// Corners of a segment; empty: it has attributes, which a deck cannot hold.
+    /// Corners of a segment; empty if it has attributes, which a deck cannot hold.
     static std::optional<Quad> corners_of(std::span<const Index> row)
     {
         if (row.size() < 3 || std::ranges::any_of(row.subspan(std::min<std::size_t>(row.size(), 4)),
@@ -408,7 +410,8 @@ private:
         return Quad{row[0], row[1], row[2], last};
     }
 
-    /// Call `take(numbers)` for each data line of a set behind its head; lines with other words: no numbers.
+    /// Call `take(numbers)` for each data line of a set after its head. For a line with other words, no
+    /// numbers are passed.
     template <class Take>
     void each_row(const SetCard& card, const Take& take) const
     {
@@ -492,7 +495,8 @@ private:
     std::set<std::string> unread_; ///< keywords of elements that are kept as text
     bool begun_ = false, long_ = false, ten_ = false;
     std::size_t width_ = kNumber;
-    std::vector<Index> head_line_, nodes_; ///< of the element that is read: number and part; nodes
+    std::vector<Index> head_line_, nodes_; ///< of the element that is being read: its number and part, and
+                                           ///< its nodes
     std::vector<SetCard> sets_;
     std::unordered_map<Quad, std::vector<std::pair<Quad, DeckSide>>, CornerHash<4>> sides_;
     std::vector<DeckTag> sorted_nodes_, sorted_elements_;
@@ -519,7 +523,7 @@ public:
         own_.head = "*KEYWORD\n", own_.tail = "*END\n";
         kept_ = view_->kept && !view_->kept->head.empty() ? &*view_->kept : &own_;
         const std::string head = upper(kept_->head);
-        // A deck in long format may have cards in the plain one.
+        // A deck in long format may contain cards in the standard format; their keywords need the sign "-".
         const bool is_plain = head.find("LONG=") == head.npos && head.find("I10=") == head.npos;
         end_ = is_plain ? "\n" : " -\n";
         file_.add(kept_->head + unit_comment(*view_, "$", unit));
@@ -540,7 +544,7 @@ public:
     }
 
 private:
-    /// Note the numbers of parts, sections and sets in the kept text.
+    /// Record the numbers of parts, sections and sets in the kept text.
     void scan(const std::string& keyword, const std::vector<std::string_view>& lines)
     {
         const auto number = [&](std::size_t line) {
@@ -613,7 +617,7 @@ private:
             if (block.type.starts_with("COH")) cohesive_.insert(region);
     }
 
-    /// The part of a region that no card defines, and the section of its solids.
+    /// Add the part of a region, if no card defines it, and a section for its solids.
     void add_part(std::size_t r)
     {
         const auto forms = forms_.find(static_cast<Index>(r));
@@ -724,14 +728,14 @@ private:
     View view_;
     SideNodes sides_;
     MeshView::KeptText own_;
-    const MeshView::KeptText* kept_ = nullptr; ///< of the deck, or `own_`
+    const MeshView::KeptText* kept_ = nullptr; ///< kept text of the deck, or `own_`
     DeckFile file_;
-    std::string end_;                            ///< of a keyword's line
-    std::map<Index, std::set<DeckShape>> forms_; ///< shapes in each region
+    std::string end_;                            ///< end of a line with a keyword
+    std::map<Index, std::set<DeckShape>> forms_; ///< shapes of the elements in each region
     std::set<Index> cohesive_;                   ///< regions of cohesive elements
-    std::vector<int> parts_;                     ///< that the kept text defines
-    int highest_section_ = 0, highest_set_ = 0;  ///< in the kept text
-    std::map<std::string, std::set<int>> ids_;   ///< of the sets of a keyword
+    std::vector<int> parts_;                     ///< parts that the kept text defines
+    int highest_section_ = 0, highest_set_ = 0;  ///< highest numbers in the kept text
+    std::map<std::string, std::set<int>> ids_;   ///< numbers of the sets of each keyword
     std::vector<DeckTag> shells_;
 };
 

@@ -20,23 +20,23 @@ namespace {
 /// An array of a netCDF file.
 struct NcArray {
     std::vector<std::size_t> lengths; ///< lengths of its dimensions
-    std::string element_type{};       ///< its attribute `elem_type`
-    std::string name{}, units{};      ///< its attributes of these names
+    std::string element_type{};       ///< attribute `elem_type`
+    std::string name{}, units{};      ///< attributes of these names
     const VtkType* type = nullptr;
     std::uint64_t begin = 0;
-    bool records = false; ///< one array per time step
+    bool records = false; ///< the array exists once per time step
 };
 
-/// The header of a netCDF file in a classic format: with offsets of 32 or 64 bits, or all counts of 64.
+/// The header of a netCDF file in a classic format: with 32-bit offsets, with 64-bit offsets, or with all
+/// counts of 64 bits.
 class NcHead {
 public:
     NcHead(Cursor& cursor) : cursor_(cursor)
     {
         cursor_.has_bytes = true;
         if (cursor_.rest().starts_with("\x89HDF"))
-            cursor_.fail(
-                Message(kUnreadable, "this is netCDF-4, which is HDF5, and the classic format is expected")
-                    .remedy("nccopy -k 64-bit-offset in.exo out.exo writes it"));
+            cursor_.fail(Message(kUnreadable, "this file is netCDF-4 (HDF5); expected the classic format")
+                             .remedy("convert it with nccopy -k 64-bit-offset in.exo out.exo"));
         const std::string_view magic = cursor_.bytes(4);
         const char version = magic[3];
         if (!magic.starts_with("CDF") || (version != 1 && version != 2 && version != 5))
@@ -61,7 +61,7 @@ public:
         return found == lengths_.end() ? 0 : found->second;
     }
 
-    /// The bytes of an array. @param values  the required number of values.
+    /// The bytes of an array. @param values  the number of values that it must have.
     [[nodiscard]] std::string_view bytes(const NcArray& array, const std::string& name,
                                          std::size_t values) const
     {
@@ -80,7 +80,7 @@ public:
         if (array.begin > file.size() || values > (file.size() - array.begin) / array.type->bytes)
             cursor_.fail("the file is cut off: expected {} values of {}", needed(values), name);
         taken_ += values * array.type->bytes;
-        if (taken_ > kMostTimes * file.size()) cursor_.fail("its arrays lie in each other");
+        if (taken_ > kMostTimes * file.size()) cursor_.fail("its arrays overlap");
         return file.substr(array.begin, values * array.type->bytes);
     }
 
@@ -130,7 +130,7 @@ private:
         }
     }
 
-    /// @param array  receives the texts that describe it; may be null.
+    /// @param array  receives the texts of attributes that describe it; may be null.
     void skip_attributes(NcArray* array)
     {
         const std::uint64_t all = list(12);
@@ -138,7 +138,7 @@ private:
             const std::string of = name();
             const VtkType* type = type_of(cursor_.integer());
             const std::uint64_t length = count();
-            if (type == nullptr) cursor_.fail("expected a type of numbers in the attribute {}", shown(of));
+            if (type == nullptr) cursor_.fail("expected numbers or text in the attribute {}", shown(of));
             const std::uint64_t size = cursor_.plausible(length, type->bytes, 1) * type->bytes;
             const std::string_view text = cursor_.bytes(size);
             cursor_.bytes((4 - size % 4) % 4);
@@ -166,7 +166,7 @@ private:
             }
             skip_attributes(&array);
             array.type = type_of(cursor_.integer());
-            count(); // number of bytes, which also follows from the dimensions
+            count(); // skip the number of bytes, which follows from the dimensions
             array.begin = wide_offsets_ ? cursor_.size() : static_cast<std::uint32_t>(cursor_.integer());
             arrays_.insert_or_assign(of, std::move(array));
         }
@@ -179,12 +179,13 @@ private:
         return number < 1 || number > 11 ? nullptr : vtk_type(kNames[number]);
     }
 
-    static constexpr std::uint64_t kMostTimes = 3; // each array is read at most twice
+    static constexpr std::uint64_t kMostTimes = 3; // limit on the bytes read, relative to the size of the
+                                                   // file: each array is read at most twice
 
     Cursor& cursor_;
     /// Bytes read so far; stops files in which many arrays share the same bytes.
     mutable std::uint64_t taken_ = 0;
-    Cursor whole_ = cursor_; ///< at the beginning of the file
+    Cursor whole_ = cursor_; ///< cursor at the beginning of the file
     bool wide_ = false, wide_offsets_ = false;
     std::vector<std::size_t> dimensions_;
     std::map<std::string, std::size_t> lengths_;
@@ -200,7 +201,8 @@ public:
         read_points();
         read_blocks();
         const TagPlaces places(numbers_, [&](Index, Index at) {
-            cursor_.fail("{} has the number of one before", numbered("element", numbers_[index(at)]));
+            cursor_.fail("{} has the same number as an earlier one",
+                         numbered("element", numbers_[index(at)]));
         });
         read_sets("ns", "node_ns", "num_nod_ns", DeckSet::Kind::nodes);
         read_sets("els", "elem_els", "num_ele_els", DeckSet::Kind::elements);
@@ -258,12 +260,12 @@ private:
         }
         std::vector<DeckTag> tags = numbers("node_num_map", "node_map", count);
         const TagPlaces unique(tags, [&](Index, Index at) {
-            cursor_.fail("{} has the number of one before", numbered("node", tags[index(at)]));
+            cursor_.fail("{} has the same number as an earlier one", numbered("node", tags[index(at)]));
         });
         into_.deck().point_tags = std::move(tags);
     }
 
-    /// Names of blocks or sets; "what_id" for those without a name.
+    /// Names of blocks or sets. Those without a name get "what_id".
     std::vector<std::string> names(const std::string& array, const std::string& what,
                                    const std::vector<std::int64_t>& ids) const
     {
@@ -300,7 +302,8 @@ private:
         const NcArray* property = head_.find("eb_prop2");
         const bool several = property != nullptr && property->name == kRegionProperty;
         const std::vector<std::int64_t> whole = several ? head_.wholes(*property, "eb_prop2", count) : id;
-        std::map<std::int64_t, std::optional<Index>> regions; // by the id of their first block
+        std::map<std::int64_t, std::optional<Index>> regions; // region of each group of blocks, by the id of
+                                                              // its first block
         std::size_t first = 0;
         for (std::size_t b = 0; b < count; ++b) {
             std::optional<Index> own;
@@ -323,8 +326,8 @@ private:
         return all;
     }
 
-    /// @param region  of its elements; none: one is added.
-    /// @return  number of its elements
+    /// @param region  region of the block's elements; none: one is added.
+    /// @return  number of the block's elements
     std::size_t read_block(const std::string& array, const std::string& name, int id, std::size_t first,
                            std::optional<Index>& region)
     {
@@ -356,8 +359,8 @@ private:
         return count;
     }
 
-    /// The shape by the beginning of the type word and the number of nodes; empty for points, which are
-    /// ignored.
+    /// The shape that the beginning of the type word and the number of nodes give; empty for point elements,
+    /// which are ignored.
     std::optional<DeckShape> shape_of(const std::string& type, std::size_t nodes,
                                       const std::string& name) const
     {
@@ -377,7 +380,7 @@ private:
                                               static_cast<int>(nodes)))
                 return shape;
         }
-        cursor_.fail("block {}: elements {} of {} nodes are not known", shown(name), shown(type), nodes);
+        cursor_.fail("block {}: elements {} with {} nodes are unknown", shown(name), shown(type), nodes);
     }
 
     void read_sets(const std::string& kind, const std::string& list, const std::string& length,
@@ -422,18 +425,19 @@ private:
     {
         int side = 0;
         if (exodus < 1 || exodus > 6 || !abaqus_side(shape, static_cast<int>(exodus), side))
-            cursor_.fail("{} names side {}, which the element has not", array, exodus);
+            cursor_.fail("{} names side {}, which the element does not have", array, exodus);
         return side;
     }
 
     static constexpr std::int64_t kMostTag = std::numeric_limits<int>::max() - 1;
-    static constexpr std::size_t kLongestName = 4096; // limit of a plausible name [bytes]
+    static constexpr std::size_t kLongestName = 4096; // longest name that is accepted [bytes]
 
     Cursor& cursor_;
     DeckBuilder& into_;
     NcHead head_;
     std::vector<DeckTag> numbers_;                 ///< numbers of all elements, block after block
-    std::vector<std::optional<DeckShape>> shapes_; ///< their shapes; empty: the element is ignored
+    std::vector<std::optional<DeckShape>> shapes_; ///< the shapes of these elements; empty: the element is
+                                                   ///< ignored
 };
 
 } // namespace

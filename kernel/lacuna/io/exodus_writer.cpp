@@ -69,7 +69,7 @@ public:
         return static_cast<int>(dimensions_.size()) - 1;
     }
     void attribute(Attribute attribute) { attributes_.push_back(std::move(attribute)); }
-    /// @param fill  writes records of `record` numbers, most significant byte first.
+    /// @param fill  writes the records of the array, `record` numbers each, most significant byte first.
     void array(const std::string& name, NcType type, std::vector<int> dimensions, std::size_t record,
                Fill fill, std::vector<Attribute> attributes = {})
     {
@@ -88,7 +88,7 @@ public:
               }),
               std::move(attributes));
     }
-    /// Names padded with zeros to equal length.
+    /// Write names, padded with zeros to equal length.
     void names(const std::string& name, std::vector<int> dimensions, std::vector<std::string> all)
     {
         const std::size_t length = dimensions_[index(dimensions.back())].second;
@@ -132,7 +132,7 @@ public:
                                 array.record == 0 ? 0 : array.count / array.record,
                                 array.record * bytes_of(array.type),
                                 std::move(array.fill)});
-            // Zeros up to the next multiple of four, before the following array.
+            // zeros up to the next multiple of four, where the following array starts
             sections.push_back({std::string(padded(bytes) - bytes, '\0'), 0, 0, {}});
         }
         put_array(head, "time_whole", {kTimeStep}, {}, NcType::real, 8, begin);
@@ -140,7 +140,7 @@ public:
         return sections;
     }
 
-    static constexpr int kTimeStep = 0; ///< the record dimension comes first; it has no records
+    static constexpr int kTimeStep = 0; ///< the time step, a record dimension, comes first; it has no records
 
 private:
     struct Array {
@@ -191,7 +191,7 @@ private:
     std::vector<Array> arrays_;
 };
 
-/// Numbers of an element's nodes in Exodus's order.
+/// Write the numbers of an element's nodes in Exodus's order.
 /// @param places  from `node_places()`
 char* put_nodes(std::span<const std::uint8_t> places, std::span<const Index> nodes, char* out)
 {
@@ -205,18 +205,18 @@ char* put_nodes(std::span<const std::uint8_t> places, std::span<const Index> nod
 /// Elements of one region and shape.
 struct Block {
     Index region = -1;
-    std::size_t of = 0;      ///< block of the view
-    mesh::Ranges elements{}; ///< its cells
-    std::size_t first = 0;   ///< number of the first, from 0
+    std::size_t of = 0;      ///< index of the block in the view
+    mesh::Ranges elements{}; ///< indices of its cells in that block
+    std::size_t first = 0;   ///< number of its first element in the file, from 0
     std::string name{};
     int id = 0;
     int whole = 0; ///< id of the first block of its region
 };
 
-/// The positions, from 0, of nodes or elements in the file, by their numbers.
+/// Maps the numbers of nodes or elements to their positions in the file, from 0.
 class Places {
 public:
-    /// Add the numbers that follow those added before.
+    /// Add numbers. Their positions follow those of the numbers added before.
     void add(const mesh::Numbers& numbers, std::size_t begin, std::size_t end)
     {
         numbers.each_range(begin, end, [&](std::size_t first, std::size_t last) {
@@ -285,12 +285,14 @@ public:
     }
 
 private:
-    static constexpr std::size_t kLeastName = 32; // characters that every reader has room for
+    static constexpr std::size_t kLeastName = 32; // every reader has room for names of this length
+                                                  // [characters]
 
     struct Set {
         std::string name;
-        mesh::Ranges members{};                             ///< from 1
-        std::shared_ptr<std::vector<std::int32_t>> sides{}; ///< for each member; null: not a set of sides
+        mesh::Ranges members{};                             ///< positions of the members, from 1
+        std::shared_ptr<std::vector<std::int32_t>> sides{}; ///< for each member, the number of its side;
+                                                            ///< null: not a set of sides
     };
 
     void find_blocks()
@@ -313,7 +315,8 @@ private:
         }
     }
 
-    /// Name blocks: a region with one block keeps its name and tag; others get numbers above all tags.
+    /// Name the blocks. A region with one block keeps its name and tag; the blocks of other regions get
+    /// numbers above all tags.
     void name_blocks()
     {
         std::set<std::string> names;
@@ -480,7 +483,8 @@ private:
         }
     }
 
-    /// A variable for each component, at the only time; readers join _x, _y and _z to vectors.
+    /// Add fields: a variable for each component, at the only time step. Readers join _x, _y and _z to
+    /// vectors.
     void add_fields(int time)
     {
         std::vector<std::string> names;

@@ -19,7 +19,8 @@ using namespace topology;
 
 namespace {
 
-/// The facets of the volume, face by face, and their points, numbered from 0 in order of first use.
+/// The facets of the volume, face by face, and their points. Points are numbered from 0 in order of first
+/// use.
 struct Skin {
     std::vector<Triangle> triangles;
     std::vector<std::size_t> start; ///< first facet of each face, and the end
@@ -42,7 +43,7 @@ struct Skin {
             .remedy("close() it first"));
 }
 
-/// Check that every side of a facet belongs to one other facet, in the opposite direction.
+/// Check that each side of a facet occurs once more, in the opposite direction.
 void check_sealed(const OpenVolume& volume)
 {
     std::map<Segment, int> balance;
@@ -142,7 +143,8 @@ std::vector<Section> stl_text(const Skin& skin)
 
 // ---- OBJ
 
-/// The groups of a face as words, because OBJ allows no blanks in names; the first is unique to the face.
+/// The groups of a face as words, because names in OBJ cannot have blanks. The first group is unique to the
+/// face.
 std::string obj_groups(const OpenVolume& volume, std::vector<std::string> groups, std::size_t f)
 {
     const Face& face = volume.model.faces[f];
@@ -202,7 +204,7 @@ std::vector<int> surface_tags(const Model& model)
     return tags;
 }
 
-/// A surface for each face, in the sets of its groups.
+/// A deck with a surface for each face, in the sets of the face's groups.
 Deck deck_of(const OpenVolume& volume, const Skin& skin)
 {
     const std::vector<std::vector<std::string>> groups = skin_groups(volume);

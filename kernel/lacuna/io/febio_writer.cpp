@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The mesh of FEBio, format 4.0: nodes, elements of one shape in each part, surfaces, sets and domains.
+// The mesh of a FEBio file, format 4.0: nodes, parts of elements of one shape, surfaces, sets and domains.
 // https://help.febio.org/docs/FEBioUser-4-0/
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/format_table.h>
@@ -27,14 +27,15 @@ std::string_view word_of(DeckShape shape)
     return kWords[static_cast<std::size_t>(shape)];
 }
 
-/// The place among the nodes of FEBio of each node of a hex27: centres of the sides go round, then up.
+/// The index in the order of DeckShape of FEBio's node `k`. In a hex27, FEBio lists the centres of the sides
+/// going round, then those of bottom and top.
 std::size_t place_of(DeckShape shape, std::size_t k)
 {
     constexpr std::size_t kCentres[] = {22, 21, 23, 20, 24, 25, 26};
     return shape == DeckShape::hex27 && k >= 20 ? kCentres[k - 20] : k;
 }
 
-/// Text in an attribute.
+/// Escape a text for an attribute.
 std::string escaped(const std::string& text)
 {
     std::string safe;
@@ -87,7 +88,7 @@ private:
         return put_words(out, "</node>\n");
     }
 
-    /// The elements of one shape and region: a part and its domain.
+    /// Add the elements of one shape and region: a part and its domain.
     void add_elements(std::size_t b)
     {
         const MeshView::Block& block = view_->blocks[b];
@@ -133,7 +134,7 @@ private:
         return region.name.empty() ? "part_" + std::to_string(region.tag) : region.name;
     }
 
-    /// A name that is not in use: the first, the second, or that with a number.
+    /// A name that is not in use: `first`, else `second`, else `second` with a number.
     static std::string free(const std::string& first, const std::string& second, std::set<std::string>& used)
     {
         if (used.insert(first).second) return first;
@@ -146,7 +147,7 @@ private:
     {
         const MeshView::Set& set = view_->sets[s];
         if (set.kind == SetKind::sides) return add_surface(set);
-        // A part is a set of its elements by itself.
+        // FEBio makes a set of the elements of each part, so none is written for such a set.
         const auto whole = wholes_.find(set.name);
         const bool is_part = set.kind == SetKind::elements && whole != wholes_.end() &&
                              whole->second == std::pair(1, set.count);
@@ -193,7 +194,8 @@ private:
     SideNodes sides_;
     DeckFile file_;
     std::string domains_;
-    std::map<std::string, std::pair<int, std::size_t>> wholes_; ///< parts and elements of each region
+    std::map<std::string, std::pair<int, std::size_t>> wholes_; ///< number of parts and of elements of each
+                                                                ///< region
     std::set<std::string> parts_, node_sets_, surfaces_;        ///< names in use
 };
 

@@ -15,16 +15,17 @@ namespace lacuna::io {
 struct Format {
     std::string_view ending; ///< file extension in lower case with its dot; for a folder its name: "polyMesh"
     std::string_view name;   ///< "an Abaqus deck"
-    std::string_view word;   ///< "Abaqus", for messages about features that the format lacks
-    DeckFormat deck;         ///< type of the deck that is read, or that a mesh is converted to for writing
+    std::string_view word;   ///< "Abaqus": used in messages about features that the format lacks
+    DeckFormat deck;         ///< type of the deck that is read; for writing, a mesh is converted to it
     bool is_read = false, is_written = false;
     bool is_mesh = true;    ///< holds cells, not only facets
     bool is_folder = false; ///< a folder of files
 
-    /// The options of `mesh:write`, separated by blanks; "with": the mesh may be joined to decks.
+    /// The options of `mesh:write` that it supports, separated by blanks; with "with", a mesh can be joined
+    /// to decks.
     std::string_view options{};
-    bool is_numbered = false;    ///< a deck: nodes and cells have numbers, there are no fields
-    bool streamed = false;       ///< layers can be written as they are created
+    bool is_numbered = false;    ///< it is a deck: nodes and cells have numbers, and there are no fields
+    bool streamed = false;       ///< layers can be written while they are created
     bool streamed_parts = false; ///< the same for several meshes with shared nodes
 
     /// How the format stores a group of the skin.
@@ -32,9 +33,9 @@ struct Format {
     Skin skin = Skin::quads;
     bool has_lines = false, has_hex27 = false;
     bool numbers_regions = false; ///< users identify regions by property number
-    /// Kinds of deck sets that it cannot store, and why; empty: it stores all.
+    /// Which kinds of sets of a deck it cannot store, and why; empty: it stores all.
     std::string_view unwritten_sets{};
-    bool has_node_sets = true; ///< otherwise sets contain sides only
+    bool has_node_sets = true; ///< if false, sets contain sides only
 
     [[nodiscard]] bool has_option(std::string_view option) const
     {
@@ -44,7 +45,7 @@ struct Format {
 
 /// The format of a path, by its file extension or the name of the folder; null: unknown.
 const Format* find_format(const std::string& path);
-/// The mesh format of a path. With `decks`, a format in which decks can be written as well.
+/// The mesh format of a path. With `decks`, it must be a format in which decks can be written too.
 /// @param call  name of the calling function, for the message.
 /// @throw InvalidInput "lua.unknown_ending"  no such format; the message lists the known ones.
 const Format& needed_mesh_format(const std::string& call, const std::string& path, bool decks = false);

@@ -77,7 +77,7 @@ private:
         for (std::size_t i = 0; i < skin_.size(); ++i) candidates_[index(skin_[i])] = at_.at(i);
     }
 
-    /// Count votes of the deck's faces and sides on the skin for the nodes that they use.
+    /// Find the deck's faces and sides on the skin. Each votes for the points to use at its nodes.
     void match_faces()
     {
         by_face_.assign(mesh_.nodes.size(), {-1, -1});
@@ -133,7 +133,8 @@ private:
         }
     }
 
-    using Votes = std::vector<std::array<Index, 2>>; ///< for each node, at most two different points
+    using Votes = std::vector<std::array<Index, 2>>; ///< for each node, at most two different points that
+                                                     ///< were voted for
 
     static void vote(Votes& votes, Index node, Index point)
     {
@@ -170,7 +171,7 @@ private:
                                .remedy("merge coincident nodes in the deck"));
     }
 
-    /// Check that every quad on a face of the deck is also a face of the deck.
+    /// Check that every quad of the mesh that lies on a face of the deck is a face of an element of the deck.
     void check_patches(const std::vector<bool>& gone) const
     {
         std::vector<std::array<std::size_t, 2>> counts(mesh_.patches.size(), {0, 0});
@@ -195,7 +196,7 @@ private:
         }
     }
 
-    /// Null if the patch belongs to a void face.
+    /// The model's face on which a patch lies; null for a patch of a void face.
     [[nodiscard]] const topology::Face* face_of(const mesh::SkinPatch& patch) const
     {
         if (patch.face == 0) return nullptr;
@@ -204,11 +205,11 @@ private:
             throw InvalidInput(Message("io.other_model",
                                        "option 'with': the mesh has {}, but the first model does not",
                                        numbered("face", patch.face))
-                                   .remedy("put the model from which the volume was made first"));
+                                   .remedy("list the model from which the volume was made as the first"));
         return &*found;
     }
 
-    /// Whether all points of the face are the deck's.
+    /// Whether all points of the face are points of the deck.
     [[nodiscard]] bool is_of_deck(const topology::Face& face) const
     {
         std::vector<Vec3> places;
@@ -226,7 +227,8 @@ private:
     const Mesh& mesh_;
     std::vector<Index> skin_;                        ///< nodes of the mesh
     NodesAt at_;                                     ///< points of the deck at these nodes
-    std::vector<std::span<const Index>> candidates_; ///< for each node of the mesh, in `at_`
+    std::vector<std::span<const Index>> candidates_; ///< points of the deck at each node of the mesh, in
+                                                     ///< `at_`
     /// Node of the mesh at each of the deck's points; -1: none.
     std::vector<Index> node_of_;
     Votes by_face_, by_side_;

@@ -34,7 +34,7 @@ std::vector<DeckTag> solids_of(const Deck& deck)
     return solids;
 }
 
-/// Solids of a part.
+/// Element numbers of the solids in a part.
 std::vector<DeckTag> solids_called(const Deck& deck, const std::string& name)
 {
     std::vector<DeckTag> called;
@@ -53,11 +53,11 @@ Facet facet_of(const Quad& quad, const Place& place)
     return {(c - a).cross(d - b) / 2, (a + b + c + d) / 4};
 }
 
-/// Finds the part of a mesh that replaces elements left out of a deck.
+/// Finds which part of a mesh replaces the elements that were left out of a deck.
 class Replacer {
 public:
-    /// @param named  a part with the volume's name was left out; otherwise the mesh replaces everything left
-    /// out.
+    /// @param named  a part with the volume's name was left out, and the mesh replaces it; otherwise the mesh
+    ///               replaces everything that was left out.
     Replacer(const Deck& gone, const NewCells& added, bool named) : gone_(gone), added_(added)
     {
         cells_ = named ? solids_called(gone, added.volume) : solids_of(gone);
@@ -78,7 +78,7 @@ public:
                     found.shell = block->tags[e];
                     continue;
                 }
-                if (found.side.side > 0) return; // between two solids
+                if (found.side.side > 0) return; // the face is between two solids
                 found.side = {block->tags[e], side};
                 const Quad& face = face_corners(block->shape)[index(side - 1)];
                 for (std::size_t k = 0; k < 4; ++k) // a triangle repeats its last corner
@@ -89,8 +89,8 @@ public:
         find_places();
     }
 
-    /// Add the replacements to a set. @param old  its original state. @return  the replaced share of its loss
-    /// [-]
+    /// Add the replacements to a set. @param old  the set before elements were left out. @return  the share
+    /// of its loss that is replaced [-]
     double fill(const DeckSet& old, DeckSet& set, const std::function<bool(const DeckSet&)>& fits)
     {
         using enum mesh::SetKind;
@@ -101,7 +101,7 @@ public:
         }
         const auto has_cell = [](const NewCells::Side& side) { return side.cell.has_value(); };
         if (old.kind == elements && std::ranges::none_of(added_.skin, has_cell)) return 0;
-        std::vector<double> held; // for each face of the old skin, its area if the set contained it
+        std::vector<double> held; // for each face of the old skin: its area if the set contained it, else 0
         for (const Face& face : skin_) {
             std::vector<DeckTag> corners;
             for (const Index node : face.corners) corners.push_back(gone_.point_tags[index(node)]);
@@ -134,7 +134,7 @@ private:
         Vec3 area = Vec3::Zero();
     };
 
-    /// Find the face of the old skin on which each quad of the new one lies.
+    /// Find the face of the old skin on which each quad of the new skin lies.
     void find_places()
     {
         std::vector<Triangle> triangles;
@@ -152,21 +152,22 @@ private:
             on_.push_back(hit < 0 || quad.area.dot(skin_[index(hit / 2)].area) <= 0 ? -1 : hit / 2);
         }
     }
-    /// Maximum distance of a quad's centre from its face [-] × the root of its area: more than the sag of a
-    /// 60° chord, 0.13, and less than half a cell, the distance of quads between two meshes.
+    /// Maximum distance of a quad's centre from its face, relative to the root of its area [-]. It is more
+    /// than the sag of a 60° chord (0.13), and less than half a cell, the distance between quads of two
+    /// meshes.
     static constexpr double kReach = 0.25;
 
     const Deck& gone_;
     const NewCells& added_;
-    /// Of the part with the volume's name, otherwise of everything left out; increasing.
+    /// Numbers in the part with the volume's name, otherwise in everything left out; increasing
     std::vector<DeckTag> cells_, nodes_;
-    std::vector<Face> skin_;   ///< of the elements left out
-    std::vector<Index> on_;    ///< for each quad of the new skin, in `skin_`; -1: none
+    std::vector<Face> skin_;   ///< skin of the elements that were left out
+    std::vector<Index> on_;    ///< for each quad of the new skin, its face in `skin_`; -1: none
     std::vector<double> area_; ///< area of each of these quads
 };
 
-/// Whether a set of all solids was meant as such: it is neither a body's own set nor the set of cells behind
-/// a surface of a mesh with one layer.
+/// Whether a set that holds all solids is meant to hold all. It is not if it is a body's own set, or the set
+/// of cells behind a surface of a mesh with one layer.
 bool is_of_all(const Deck& deck, const DeckSet& set)
 {
     if (same_word(set.name, "all") || same_word(set.name, "eall")) return true;

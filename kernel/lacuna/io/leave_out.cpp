@@ -30,8 +30,8 @@ bool is_part(const DeckSet& set, std::string_view name)
     return set.kind == DeckSet::Kind::elements && same_word(set.name, name);
 }
 
-/// A card of Nastran that names nodes or elements by number; `fields` are numbered as in the manuals, and 0
-/// stands for those of continuation lines.
+/// A Nastran card that names nodes or elements by number. `fields` lists the fields that do, numbered as in
+/// the manuals; 0 stands for the fields of continuation lines.
 struct NamingCard {
     std::string_view name, fields;
     bool nodes, elements;
@@ -45,9 +45,9 @@ constexpr NamingCard kNamingCards[] = {
 
 /// Reads the cards that name nodes and elements by number.
 ///
-/// `use(node)` is called for nodes of elements, constraints and frames kept as text; `name(card, node,
-/// element)` for those named by loads and similar cards, one of which may be 0. In doubt a field is read as a
-/// node number.
+/// `use(node)` is called for the nodes of elements, constraints and frames that are kept as text.
+/// `name(card, node, element)` is called for nodes and elements that loads and similar cards name; one of the
+/// two numbers may be 0. A field that could be either is read as a node.
 struct CardReader {
     std::function<void(DeckTag)> use;
     std::function<void(const std::string& card, DeckTag node, DeckTag element)> name;
@@ -86,7 +86,7 @@ private:
         });
     }
 
-    /// @param field  numbered as in the manuals, from 2; 0: of a continuation line.
+    /// @param field  numbered as in the manuals, from 2; 0: a field of a continuation line.
     void take_nastran(const std::string& card, std::size_t field, DeckTag tag) const
     {
         const auto starts = [&](std::string_view word) { return card.starts_with(word); };
@@ -126,8 +126,8 @@ private:
         }
     }
 
-    /// Each equation is a line with the number of its terms, and lines with a node or set, a direction and a
-    /// coefficient for each term.
+    /// An equation consists of a line with the number of its terms, and for each term a node or set, a
+    /// direction and a coefficient, on the following lines.
     void read_equations(const AbaqusCard& card) const
     {
         int terms = 0; // still to come
@@ -181,8 +181,8 @@ private:
             if (const Index e = elements_.find(tag); e >= 0) is_out_[index(e)] = 1;
     }
 
-    /// If the file stores the skin as elements, those on faces of removed solids are removed too, unless the
-    /// face also belongs to a remaining solid.
+    /// If the file stores the skin as elements, remove those on faces of removed solids, unless a remaining
+    /// solid has the same face.
     void mark_skin()
     {
         if (std::ranges::none_of(
@@ -309,8 +309,8 @@ private:
             if (after < before)
                 sets_.push_back(formatted("{} loses {} of {}", set.name, before - after, before));
             if (after == 0 && before > 0) add_emptied(set.name);
-            // The set of all nodes also lost members if the removed part owned no node alone: the replacement
-            // adds nodes.
+            // Record the set of all nodes as one that lost members even if it kept all: the replacement adds
+            // nodes.
             if (after < before || after >= deck_.points.size()) gone_.sets.push_back(all);
             found_.kept.sets.push_back(std::move(set));
         }
@@ -330,10 +330,9 @@ private:
         };
         CardReader{[](DeckTag) {}, count}.read(deck_);
         for (const auto& [card, times] : cards)
-            found_.kept.notes.push_back(
-                formatted("note: {}: {} names nodes or elements that are left out, {} times; cards are kept "
-                          "as they stand, change them by hand",
-                          deck_.path, card, times));
+            found_.kept.notes.push_back(formatted("note: {}: {} names nodes or elements that are left out, "
+                                                  "{} times. The cards are kept unchanged: edit them by hand",
+                                                  deck_.path, card, times));
     }
 
     const Deck& deck_;
@@ -346,7 +345,7 @@ private:
     std::vector<std::string> sets_; ///< sets that lose members, in words
 };
 
-/// The text without the sections of empty sets.
+/// The text without the sections of the given sets.
 std::string without_sections(std::string_view text, const std::vector<std::string>& sets)
 {
     std::string kept;
@@ -400,8 +399,8 @@ LeftOut leave_out(const Deck& deck, std::span<const std::string> parts)
 
 Deck close_gap(Deck deck, const RunContext& context)
 {
-    // Chords of 60° cover 4.5 % less than the arc, so a difference up to this may be another mesh of the same
-    // surface.
+    // A polygon of 60° chords covers 4.5 % less than its circle. So if areas differ by up to this share, the
+    // surfaces may be two meshes of the same surface.
     constexpr double kSameArea = 0.05;
     std::vector<std::string> lost;
     for (const auto& gone : deck.gap.gone)
@@ -409,7 +408,7 @@ Deck close_gap(Deck deck, const RunContext& context)
             if (std::abs(deck.gap.replaced[{set.kind, set.name}] - 1) > kSameArea) lost.push_back(set.name);
     if (!lost.empty())
         log_line(context,
-                 formatted("note: {}: what was left out of these sets is not replaced, or in part: {}",
+                 formatted("note: {}: these sets lost members that no mesh has replaced, or only in part: {}",
                            deck.path, listed(lost)));
     deck.gap.gone.clear();
     if (deck.gap.names.empty()) return deck;

@@ -38,7 +38,8 @@ void check_options(const LoadOptions& options)
     if (!options.unit.empty()) metres_of(options.unit);
 }
 
-/// The factor from the millimetres of STEP and IGES files, which state their unit, to the declared one.
+/// The factor from millimetres to the declared unit, for STEP and IGES files. These state their unit and are
+/// read in millimetres.
 double scale_of_cad(const std::vector<std::string>& paths, const std::string& unit)
 {
     const auto states = [](const std::string& path) {
@@ -47,7 +48,8 @@ double scale_of_cad(const std::vector<std::string>& paths, const std::string& un
     const auto stating = static_cast<std::size_t>(std::ranges::count_if(paths, states));
     if (unit.empty() || stating == 0) return 1;
     if (stating < paths.size() && unit != "mm")
-        throw InvalidInput(Message("io.unit", "{} states no unit, as the STEP or IGES files beside it do",
+        throw InvalidInput(Message("io.unit",
+                                   "{} states no unit, unlike the STEP or IGES files loaded with it",
                                    *std::ranges::find_if_not(paths, states))
                                .remedy("load it by itself, or as STEP"));
     return metres_of("mm") / metres_of(unit);
@@ -105,8 +107,8 @@ void append(FacetFile& all, FacetFile more)
     move_in(all.notes, more.notes);
 }
 
-/// The entities of one model followed by those of another, without loops. Tags of faces, edges and vertices
-/// of the second follow the highest of the first.
+/// A model with the entities of `first`, followed by those of `second`, without loops. Tags of faces, edges
+/// and vertices of the second start above the highest of the first.
 topology::Model joined(topology::Model first, topology::Model second)
 {
     topology::ModelBuilder model(std::move(first)), more(std::move(second));
@@ -148,8 +150,8 @@ topology::Model joined(topology::Model first, topology::Model second)
     return std::move(model).finish();
 }
 
-/// Give faces the data of their labels and, if a label is a single face, its tag; other tags follow the
-/// highest one.
+/// Give faces the data of their labels. A face that is a whole label gets the label's tag; other faces get
+/// tags above the highest one.
 void name_faces(topology::ModelBuilder& model, const std::vector<std::string>& names, const FacetFile& file)
 {
     std::vector<std::size_t> label_of_face;
@@ -158,7 +160,7 @@ void name_faces(topology::ModelBuilder& model, const std::vector<std::string>& n
         label_of_face.push_back(static_cast<std::size_t>(std::stoul(face.name)));
         ++faces_of_label[label_of_face.back()];
     }
-    // In a file of one part, faces are numbered in order.
+    // Faces of a file with a single label are numbered in order.
     const bool counted = names.size() == 1 && model.faces.size() > 1;
     int next = 0;
     for (const int tag : file.label_tag) next = std::max(next, tag);
@@ -208,7 +210,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
     if (!options.keep_mesh) split_quads(all.soup);
-    // Names may be equal or missing, so faces keep the label's number during splitting.
+    // Names may be equal or missing. So the number of its label is the name of each face during splitting.
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
         all.soup.label_name.push_back(std::to_string(label));
@@ -227,7 +229,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     return loaded;
 }
 
-/// Stitch gaps that reading left: T-junctions, faces of different files, duplicate faces.
+/// Join what reading left separate: T-junctions, faces of different files, duplicate faces.
 void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& context)
 {
     topology::Model& model = loaded.model;

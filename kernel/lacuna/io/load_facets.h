@@ -19,11 +19,11 @@ namespace lacuna::io {
 struct FacetFile {
     healing::FacetSoup soup;
     std::vector<int>
-        label_tag; ///< tag each label has in the file: of a surface entity, property or group; 0: none
-    /// Data of a label in the file, besides its name.
+        label_tag; ///< tag of each label in the file, that of a surface entity, property or group; 0: none
+    /// Data of a label in the file besides its name.
     struct Label {
-        std::vector<std::string> groups;               ///< as `topology::Face::groups`
-        std::vector<std::vector<std::string>> regions; ///< as `topology::Face::regions`
+        std::vector<std::string> groups;               ///< see `topology::Face::groups`
+        std::vector<std::vector<std::string>> regions; ///< see `topology::Face::regions`
     };
     std::vector<Label> labels;
     std::vector<std::string> notes; ///< ignored content with counts; one sentence each
@@ -38,22 +38,22 @@ struct FacetFile {
 /// | .obj | points and polygons; more than four corners are split | an `o` or `g` line; numbered in order |
 /// | .msh | 1.0, 2.x, 4.0 and 4.1, text and binary | an entity; a physical group |
 /// | .unv | nodes 15, 781, 2411; elements 71, 780, 2412; groups 752 to 2477 | a property; a group |
-/// | .bdf .nas .dat | Nastran bulk data: free, small, large fields; INCLUDE beside it | a property |
-/// | .inp | Abaqus, CalculiX: parts, instances, assemblies; INCLUDE beside it | a section; a set or surface |
+/// | .bdf .nas .dat | Nastran bulk data: free, small, large fields; INCLUDE in its folder | a property |
+/// | .inp | Abaqus, CalculiX: parts, instances; INCLUDE in its folder | a section; a set or surface |
 /// | .vtk | legacy 1 to 5.1, text and binary: polygons, strips, cells | all one |
 /// | .vtu | text, base64 and appended, compressed by zlib | all one |
 /// | .mesh | Medit, text | a reference number |
 /// | .exo .e | Exodus: netCDF's classic formats | a block; a set |
 ///
-/// A label stands for shells of one region in the same sets, or for sides of solids between the same regions
-/// in the same surfaces. Higher-order elements are reduced to their corners. Unknown content is an error,
-/// never guessed. Other cells are counted in the notes.
+/// Shells of one region in the same sets have one label; so do sides of solids between the same regions in
+/// the same surfaces. Higher-order elements are reduced to their corners. Unknown content is an error, never
+/// guessed. Other cells are counted in the notes.
 /// @throw InvalidInput  "io.no_file", "io.not_a_file", "io.empty_file", "io.unknown_ending", "io.no_faces",
 ///                      "io.unreadable" (names the line or byte, what was expected and what was found).
 /// @note  Linear time, apart from sorting sparse node numbers and splitting non-convex polygons; memory at
 ///        most 20 times the file's size, including the file itself.
 FacetFile read_facets(const std::string& path);
-/// The same for bytes in memory. @param name  takes the place of the path: extension, folder, messages.
+/// The same for bytes in memory. @param name  used like a path: for the extension, the folder and messages.
 FacetFile read_facets(const std::string& name, std::string_view bytes);
 
 /// Options of `load_facets()` and `cad::load()`.
@@ -63,8 +63,9 @@ struct LoadOptions {
     bool keep_mesh = true;     ///< quads of FE formats are kept
     bool keep_noise = false;   ///< points of noisy facets stay where they are
     double scale = 1;          ///< factor on every coordinate, > 0 [-]
-    /// Unit of the model's lengths, as `metres_of()`: lengths of STEP and IGES files, which state theirs, are
-    /// converted to it, and numbers of other formats are lengths in it. Empty: none is declared.
+    /// Unit of the model's lengths, a name that `metres_of()` knows. Lengths of STEP and IGES files, which
+    /// state their unit, are converted to it. Numbers in other formats are taken as lengths in it. Empty: no
+    /// unit is declared.
     std::string unit{};
     /// Parts of the meshes to leave out, as in `leave_out()`; each must be in at least one file.
     std::vector<std::string> without{};
@@ -73,16 +74,17 @@ struct LoadOptions {
 /// A model and the meshes that it was made from.
 struct LoadedFiles {
     topology::Model model{};
-    /// Decks of the files that hold elements, in their order; `nodes_at()` finds the nodes of model points.
+    /// Decks of the files that hold elements, in the order of the files; `nodes_at()` finds their nodes at
+    /// model points.
     std::vector<std::shared_ptr<const Deck>> decks{};
     double scale = 1;   ///< factor from the model's coordinates to the decks' [-]
-    std::string unit{}; ///< declared unit of its lengths, by the options or a file; empty: none
-    /// Those notes of the model that report content read differently from the file, to be shown to every
+    std::string unit{}; ///< declared unit of the lengths, from the options or a file; empty: none
+    /// Notes of the model that report content read differently from the file. They should be shown to every
     /// user.
     std::vector<Message> warnings{};
 };
 
-/// Formats handled by another reader, which reads all its files in one call.
+/// Formats of another reader, which reads all its files in one call.
 struct OtherFormats {
     std::string_view endings; ///< in lower case, separated by blanks: ".step .stp"
     std::function<LoadedFiles(const std::vector<std::string>& paths, const LoadOptions& options,
@@ -90,9 +92,9 @@ struct OtherFormats {
         import;
 };
 
-/// Read files into one model. Facets are split into faces by healing::split_facets(); a face that is a whole
-/// label has the label's tag, others follow the highest tag; tags of later files follow those of the first.
-/// Faces without shared edges are joined by healing::stitch().
+/// Read files into one model. healing::split_facets() splits facets into faces. A face that is a whole label
+/// has the label's tag; other faces get tags above the highest one. Tags of later files start above those of
+/// earlier ones. healing::stitch() joins faces without shared edges.
 /// @param others  formats besides those of read_facets().
 /// @throw InvalidInput  as read_facets() and leave_out(), or an option out of range: "io.scale",
 ///                      "io.tolerance".

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// MED, the format of Salome and Code_Aster, by way of libmedC (LGPL-3), which is loaded when a file of it is
-// read or written. It runs in a process of its own: HDF5 below it crashes on damaged files.
+// MED, the format of Salome and Code_Aster. It is read and written by libmedC (LGPL-3), which is loaded only
+// when such a file is read or written. The library runs in a process of its own, because HDF5, which it uses,
+// crashes on damaged files.
 // https://docs.salome-platform.org/latest/dev/MEDCoupling/developer/med-file.html
 #include <lacuna/core/error.h>
 #include <lacuna/io/detail/deck_builder.h>
@@ -26,7 +27,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// The header names types of MPI for a function that is not used here.
+// The header needs these types of MPI for a function that is not used here.
 using MPI_Comm = void*;
 using MPI_Info = void*;
 #include <med.h>
@@ -40,8 +41,8 @@ namespace {
 using enum DeckShape;
 using mesh::MeshView;
 
-/// A shape in MED, and the places of its nodes there in the order of DeckShape. The base of a solid is seen
-/// from outside in MED, so that its nodes go round the other way.
+/// A shape in MED, and for each MED node its index in the order of DeckShape. In MED the nodes of a solid's
+/// base run the other way round: counter-clockwise seen from outside.
 struct MedShape {
     DeckShape shape;
     med_geometry_type type;
@@ -74,15 +75,15 @@ const MedShape* med_shape(DeckShape shape)
 
 struct Cells {
     std::int32_t type = 0;
-    std::vector<std::int32_t> nodes{}, families{}, numbers{}; ///< numbers: empty if the file has none
+    std::vector<std::int32_t> nodes{}, families{}, numbers{}; ///< `numbers`: empty if the file gives none
 };
 struct Family {
-    std::int32_t number = 0; ///< above 0 of nodes, below 0 of cells
+    std::int32_t number = 0; ///< above 0 for nodes, below 0 for cells
     std::vector<std::string> groups{};
 };
-/// What a file holds, as it passes between the processes.
+/// Content of a file, as it is sent from one process to the other.
 struct Content {
-    std::string error{}; ///< not empty: why it cannot be read or written
+    std::string error{}; ///< not empty: the reason why the file cannot be read or written
     bool no_library = false;
     std::string unit{};
     std::vector<Vec3> points{};
@@ -92,12 +93,13 @@ struct Content {
     std::vector<std::string> notes{};
 };
 
-constexpr std::uint64_t kMostPerByte = 1032; // what deflate makes of a byte at most: a bound on counts
+constexpr std::uint64_t kMostPerByte = 1032; // limit on counts, per byte of the file: deflate compresses at
+                                             // most by this factor
 constexpr char kMesh[] = "mesh";
 
 // --- the other process ------------------------------------------------------------------------------------
 
-/// Functions of the library, which is loaded in the other process alone.
+/// Functions of the library, which only the other process loads.
 class Library {
 public:
     Library() : handle_(::dlopen(LACUNA_MED, RTLD_NOW)) {}
@@ -113,7 +115,8 @@ private:
 };
 #define LACUNA_MED_CALL(library, name) (*(library).get(static_cast<decltype(&(name))>(nullptr), #name))
 
-/// Run `work` in another process. @return  what it returned; empty: it crashed or took too long
+/// Run `work` in another process. @return  the result of `work`; empty if the process crashed or took too
+/// long
 template <class Work>
 std::string in_other_process(std::uint64_t bytes, const Work& work)
 {
@@ -126,8 +129,9 @@ std::string in_other_process(std::uint64_t bytes, const Work& work)
     }
     if (child == 0) {
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-        // Ten seconds and one for each million bytes: libmedC takes 0.02 of one on the machine of the tests.
-        // By the clock, as a lock that another thread of the host held at fork() would be waited for.
+        // Time limit: ten seconds, plus one for each million bytes. On the test machine libmedC takes 0.02 s
+        // for these. Elapsed time is limited, because the process would wait forever for a lock that another
+        // thread of the host held at fork().
         sigset_t alarm_alone;
         ::sigemptyset(&alarm_alone);
         ::sigaddset(&alarm_alone, SIGALRM);
@@ -136,14 +140,14 @@ std::string in_other_process(std::uint64_t bytes, const Work& work)
         ::alarm(static_cast<unsigned>(10 + bytes / 1'000'000));
         const rlimit none{0, 0};
         ::setrlimit(RLIMIT_CORE, &none);
-        const int nowhere = ::open("/dev/null", O_WRONLY); // the library talks of every error
+        const int nowhere = ::open("/dev/null", O_WRONLY); // the library prints every error
         ::dup2(nowhere, STDOUT_FILENO);
         ::dup2(nowhere, STDERR_FILENO);
         std::string result;
         try {
             result = work();
         } catch (...) {
-            ::_exit(1); // the host's handlers are not for this process
+            ::_exit(1); // the host's exception handlers must not run in this process
         }
         for (std::size_t done = 0; done < result.size();) {
             const ssize_t now = ::write(ends[1], result.data() + done, result.size() - done);
@@ -203,7 +207,7 @@ Content content_of(std::string_view bytes)
     if (meshes < 1) return refuse("it holds no mesh");
     if (meshes > 1) content.notes.push_back(formatted("the first of {} meshes is read", meshes));
     const med_int axes = LACUNA_MED_CALL(library, MEDmeshnAxis)(file, 1);
-    if (axes < 2 || axes > 3) return refuse("its mesh is not of two or three dimensions");
+    if (axes < 2 || axes > 3) return refuse("its mesh does not have two or three dimensions");
     char name[MED_NAME_SIZE + 1] = {}, text[MED_COMMENT_SIZE + 1] = {}, time[MED_SNAME_SIZE + 1] = {};
     char axis[3 * MED_SNAME_SIZE + 1] = {}, unit[3 * MED_SNAME_SIZE + 1] = {};
     med_int space = 0, dimension = 0, steps = 0;
@@ -254,7 +258,7 @@ Content content_of(std::string_view bytes)
         const std::uint64_t count = count_of(MED_CELL, shape.type, MED_CONNECTIVITY);
         const auto size = static_cast<std::uint64_t>(shape_info(shape.shape).nodes);
         if (count == 0) continue;
-        if (is_too_many(count * size)) return refuse("it counts more cells than it can hold");
+        if (is_too_many(count * size)) return refuse("it announces more cells than it can hold");
         Cells& cells = content.cells.emplace_back(Cells{.type = shape.type});
         cells.nodes.resize(count * size);
         if (LACUNA_MED_CALL(library, MEDmeshElementConnectivityRd)(file, name, step, iteration, MED_CELL,
@@ -274,7 +278,7 @@ Content content_of(std::string_view bytes)
         const med_int groups = LACUNA_MED_CALL(library, MEDnFamilyGroup)(file, name, f);
         if (groups < 1) continue;
         if (is_too_many(static_cast<std::uint64_t>(groups) * MED_LNAME_SIZE))
-            return refuse("it counts more groups than it can hold");
+            return refuse("it announces more groups than it can hold");
         std::string names(static_cast<std::size_t>(groups) * MED_LNAME_SIZE + 1, '\0');
         char family[MED_NAME_SIZE + 1] = {};
         Family own;
@@ -317,7 +321,7 @@ public:
     }
 
 private:
-    /// Numbers of nodes or cells; in their order if the file gives none, or some twice.
+    /// Numbers of nodes or cells: those of the file or, if it gives none or repeats one, numbers in order.
     std::vector<DeckTag> numbers(std::span<const std::vector<std::int32_t>> given, std::size_t count,
                                  const char* what)
     {
@@ -327,7 +331,8 @@ private:
         std::ranges::sort(sorted);
         const bool twice = std::ranges::adjacent_find(sorted) != sorted.end();
         if (all.size() == count && !twice && (all.empty() || sorted.front() >= 0)) return all;
-        if (!all.empty()) into_.warn(formatted("{} are numbered in their order: their numbers repeat", what));
+        if (!all.empty())
+            into_.warn(formatted("{} are numbered in order, because their numbers repeat", what));
         all.resize(count);
         for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<DeckTag>(i) + 1;
         return all;
@@ -336,10 +341,10 @@ private:
     std::size_t add_cells(const Cells& cells, std::span<const DeckTag> tags)
     {
         const auto shape = std::ranges::find(kShapes, cells.type, &MedShape::type);
-        if (shape == std::end(kShapes)) cursor_.fail("cells of type {} are not known", cells.type);
+        if (shape == std::end(kShapes)) cursor_.fail("the cell type {} is unknown", cells.type);
         const auto size = static_cast<std::size_t>(shape_info(shape->shape).nodes);
         const std::size_t count = cells.families.size();
-        if (cells.nodes.size() != count * size) cursor_.fail("a number of nodes does not fit the cells");
+        if (cells.nodes.size() != count * size) cursor_.fail("the number of nodes does not match the cells");
         const std::size_t block = into_.block_of(shape->shape, "");
         std::vector<Index> nodes(size);
         for (std::size_t e = 0; e < count; ++e) {
@@ -350,7 +355,7 @@ private:
                                  found(node));
                 nodes[k] = node - 1;
             }
-            if (is_inverted(shape->shape, nodes)) // some programs write the order of VTK
+            if (is_inverted(shape->shape, nodes)) // some programs write nodes in the order of VTK
                 for (std::size_t k = 0; k < size; ++k) nodes[k] = cells.nodes[e * size + k] - 1;
             const std::int32_t family = cells.families[e];
             const Index region = into_.region_of(
@@ -367,7 +372,7 @@ private:
         const auto [dimension, corners, count] = shape_info(shape);
         if (dimension < 3) return false;
         const auto at = [&](int k) -> const Vec3& { return into_.deck().points[index(nodes[index(k)])]; };
-        double volume = 0; // six times that of the cell, by its sides from the first corner
+        double volume = 0; // six times the volume of the cell: sum over its faces, seen from the first corner
         for (const Quad& face : face_corners(shape)) {
             const auto add = [&](int a, int b, int c) {
                 volume += (at(a) - at(0)).dot((at(b) - at(0)).cross(at(c) - at(0)));
@@ -417,14 +422,14 @@ private:
     Cursor& cursor_;
     DeckBuilder& into_;
     Content content_;
-    std::map<std::int32_t, std::vector<DeckTag>> cells_of_; ///< by family
+    std::map<std::int32_t, std::vector<DeckTag>> cells_of_; ///< numbers of the cells of each family
     std::map<std::int32_t, Index> region_of_;
 };
 
 // --- writing ----------------------------------------------------------------------------------------------
 
-/// The content of a MED file: each entity of the view becomes a family of cells, and each combination of its
-/// sets of nodes a family of nodes.
+/// The content of a MED file. Each entity of the view becomes a family of cells. Nodes that are in the same
+/// sets of nodes become a family of nodes.
 Content content_of(const MeshView& view, const std::string& unit)
 {
     Content content{.unit = unit};
@@ -455,7 +460,7 @@ Content content_of(const MeshView& view, const std::string& unit)
     for (auto& [shape, own] : cells) content.cells.push_back(std::move(own));
     for (std::size_t e = 0; e < view.entities.size(); ++e)
         content.families.push_back({-static_cast<std::int32_t>(e) - 1, view.entities[e].groups});
-    // A family of nodes for each list of sets that some are in.
+    // A family of nodes for each list of sets to which nodes belong.
     SetLists lists;
     content.point_families.assign(view.points, 0);
     const TagPlaces places(tags);
@@ -565,9 +570,9 @@ void read_med(Cursor& cursor, DeckBuilder& into)
 {
     cursor.has_bytes = true;
     const std::string_view bytes = cursor.rest();
-    if (!bytes.starts_with("\x89HDF")) cursor.fail("expected a MED file, which begins as HDF5 does");
+    if (!bytes.starts_with("\x89HDF")) cursor.fail("expected a MED file, which begins like HDF5");
     const std::string result = in_other_process(bytes.size(), [&] { return bytes_of(content_of(bytes)); });
-    if (result.empty()) cursor.fail("the MED library fails on it: the file is damaged");
+    if (result.empty()) cursor.fail("the MED library cannot read it: the file is damaged");
     Content content;
     Reader reader(result);
     reader(content);
@@ -590,7 +595,7 @@ DeckFile med_file(const View& view, const MeshFileOptions& options, const mesh::
     }
     if (image.no_library) tell_no_library();
     if (result.empty() || !image.error.empty())
-        throw BackendError("io.med_library", "the MED library fails to write the {}",
+        throw BackendError("io.med_library", "the MED library cannot write the {}",
                            image.error.empty() ? "file" : image.error);
     DeckFile file;
     file.notes = std::move(content.notes);

@@ -15,7 +15,7 @@ struct Section {
     DeckShape shape = DeckShape::tri3; ///< shape of the section's elements
 };
 
-/// Shapes without middle nodes are read as they are; others are reduced to their corners.
+/// Solids and shells without middle nodes are read as they are; others are reduced to their corners.
 constexpr Section kSections[] = {{"Vertices", 4},
                                  {"Triangles", 4, true, DeckShape::tri3},
                                  {"TrianglesP2", 7, true, DeckShape::tri3},
@@ -55,7 +55,8 @@ public:
             if (same_word(word, "Dimension")) {
                 if (cursor_.integer() != 3) cursor_.fail("expected Dimension 3");
             } else if (section == std::end(kSections)) {
-                cursor_.fail("expected a section, as Vertices or Triangles, found {}", found(shown(word)));
+                cursor_.fail("expected a section such as Vertices or Triangles, found {}",
+                             found(shown(word)));
             } else {
                 read_section(*section);
             }
@@ -80,7 +81,7 @@ private:
                                                       static_cast<std::uint64_t>(section.values));
         if (!is_index(count)) cursor_.fail("too many {}", section.name);
         if (section.name == "Vertices") {
-            if (!into_.points().empty()) cursor_.fail("a second section Vertices");
+            if (!into_.points().empty()) cursor_.fail("the section Vertices occurs twice");
             into_.points().reserve(count);
             for (std::uint64_t i = 0; i < count; ++i) {
                 into_.points().push_back(cursor_.point());

@@ -15,7 +15,7 @@
 namespace lacuna::io {
 namespace {
 
-/// The common values, increasing.
+/// The values that are in both lists, increasing.
 std::vector<DeckTag> in_both(std::vector<DeckTag> a, std::vector<DeckTag> b)
 {
     std::ranges::sort(a);
@@ -65,8 +65,8 @@ public:
         if (same_ && !clashes_ && scale == 1)
             all_.gap.gone.insert(all_.gap.gone.end(), more_.gap.gone.begin(), more_.gap.gone.end());
         else if (!more_.gap.gone.empty())
-            log_line(context_, formatted("note: sets of {} do not get the cells that replace what was left "
-                                         "out of it: they have other names, numbers or units now",
+            log_line(context_, formatted("note: sets of {} do not get the cells that replace its left-out "
+                                         "parts: their names, numbers or units have changed",
                                          more_.path));
         all_.gap.node = std::max(all_.gap.node, more_.gap.node + node_offset_);
         all_.gap.cell = std::max(all_.gap.cell, more_.gap.cell + cell_offset_);
@@ -74,7 +74,7 @@ public:
     }
 
 private:
-    /// Refuse or record numbers that both decks have.
+    /// Handle numbers that both decks have: refuse them or, if renumbering is allowed, record the clash.
     void check_clash(const char* what, const std::vector<DeckTag>& both)
     {
         if (both.empty()) return;
@@ -108,7 +108,7 @@ private:
         });
     }
 
-    /// Check the names of sets and materials, which cards use.
+    /// Check the names of sets and materials, because cards refer to them.
     void check_names()
     {
         std::vector<std::string> both;
@@ -138,7 +138,7 @@ private:
         first_point_ = static_cast<Index>(all_.points.size());
         for (const Vec3& p : more_.points) all_.points.push_back(scale == 1 ? p : Vec3(p * scale));
         for (const DeckTag tag : more_.point_tags) all_.point_tags.push_back(tag + node_offset_);
-        if (!same_ || clashes_) return; // frames are cards
+        if (!same_ || clashes_) return; // `point_more` names frames, which are defined on cards
         for (const auto& [at, text] : more_.point_more)
             all_.point_more.emplace_back(index(first_point_) + at, text);
     }
@@ -189,8 +189,8 @@ private:
         if (!same_ || clashes_ || !more_.instances.empty()) {
             log_line(context_, formatted("cards of {} are left out: {}", more_.path,
                                          !same_     ? "they are of another format"
-                                         : clashes_ ? "they name numbers and sets that are others now"
-                                                    : "they name nodes by their instances"));
+                                         : clashes_ ? "they refer to numbers and sets that have changed"
+                                                    : "they refer to nodes by instance"));
             return;
         }
         if (all_.format != DeckFormat::abaqus) {

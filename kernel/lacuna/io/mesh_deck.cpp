@@ -25,7 +25,7 @@
 namespace lacuna::io {
 namespace {
 
-/// The first of `count` consecutive free numbers. @param highest  highest number in use before.
+/// The first of `count` consecutive numbers that are free. @param highest  highest number in use before.
 DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& texts,
                   std::vector<DeckTag>& taken, DeckTag highest, const char* option, const char* what)
 {
@@ -47,8 +47,8 @@ DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& tex
     return first;
 }
 
-/// The Abaqus face of the cell at each quad of the skin: S1 at the bottom, S2 at the top, and S3 to S6 (to S5
-/// for a wedge) on the sides.
+/// For each quad of the skin, the Abaqus number of this face in its cell: S1 at the bottom, S2 at the top,
+/// and S3 to S6 (for a wedge to S5) at the sides.
 std::vector<int> sides_of_skin(const mesh::HexMesh& mesh, const std::vector<std::uint32_t>& cells)
 {
     std::vector<int> sides(mesh.skin_count(), 1);
@@ -64,7 +64,7 @@ std::vector<int> sides_of_skin(const mesh::HexMesh& mesh, const std::vector<std:
     return sides;
 }
 
-// What a swept mesh and tetrahedra have in common: cells and skin by shape, and the nodes of each.
+// Common interface of swept meshes and tetrahedra: cells and skin by shape, and their nodes.
 
 /// Positions [begin, end) of the cells, or of the sides of the skin, of one shape.
 struct OfShape {
@@ -73,7 +73,7 @@ struct OfShape {
 };
 using ByShape = std::array<OfShape, 2>;
 
-/// A swept mesh, whose cells and skin are stored in another order.
+/// A swept mesh. Its cells and skin are stored in another order than by shape.
 struct SweptParts {
     const mesh::HexMesh& mesh;
     mesh::CellKinds kinds{mesh};
@@ -94,7 +94,7 @@ struct SweptParts {
     [[nodiscard]] mesh::CellNodes skin_nodes(std::size_t i) const { return mesh::skin_nodes(mesh, i); }
     [[nodiscard]] Quad skin_quad(std::size_t i) const { return mesh::skin_quad(mesh, i).nodes; }
     [[nodiscard]] Index patch(std::size_t i) const { return mesh::skin_quad(mesh, i).patch; }
-    /// The cell of each side of the skin, and the number of its face there.
+    /// For each side of the skin: its cell, and the number of that face in the cell.
     [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<int>> behind_skin() const
     {
         std::vector<std::uint32_t> cells = cells_of_skin(mesh);
@@ -181,7 +181,7 @@ public:
         add_points();
         add_cells();
         if (joins()) update_sets(of_all);
-        if (abaqus) add_groups(); // surfaces keep their names, element sets are renamed
+        if (abaqus) add_groups(); // surfaces get their names first; element sets are renamed if necessary
         if (options_.format != DeckFormat::nastran)
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
         if (added_.skin_cells) add_skin_cells();
@@ -198,16 +198,16 @@ private:
     void check_element()
     {
         const DeckShape shape = parts_.cells()[0].shape;
-        if (shape_info(shape).corners < 8) return; // tetrahedra and pyramids are of one type each
+        if (shape_info(shape).corners < 8) return; // tetrahedra and pyramids have one type each
         const bool second = shape != DeckShape::hex8;
         element_ = options_.element.empty() ? (second ? "C3D20" : "C3D8") : options_.element;
         const bool wedges = parts_.cells()[1].begin < parts_.cells()[1].end;
         if (wedges && is_layer(element_) && layer_wedge(element_).empty())
-            throw InvalidInput(Message("io.element",
-                                       "element = \"{}\": the mesh has wedges, and there is no "
-                                       "such element of six nodes",
-                                       element_)
-                                   .remedy("use SC8R, COH3D8 or GK3D8"));
+            throw InvalidInput(
+                Message("io.element",
+                        "element = \"{}\": the mesh has wedges, but there is no such element with six nodes",
+                        element_)
+                    .remedy("use SC8R, COH3D8 or GK3D8"));
         if (is_abaqus_element(element_, shape)) return;
         throw InvalidInput("io.element", "element = \"{}\": expected an Abaqus name of a hexahedron of {}",
                            element_,
@@ -223,12 +223,13 @@ private:
         if (done % kPolled == 0) check_cancelled(context_);
     }
 
-    /// Whether the deck holds the nodes and cells.
+    /// Whether the deck stores the nodes and cells of the mesh.
     [[nodiscard]] bool stores() const { return added_.bulk == nullptr; }
-    /// Whether it was read from a file.
+    /// Whether the deck was read from a file.
     [[nodiscard]] bool joins() const { return stores() && !added_.is_new; }
 
-    /// The point of the deck for a node of the mesh; for numbered parts, its number.
+    /// The deck's point for a node of the mesh. If the deck stores no nodes: the number of the node in the
+    /// whole mesh.
     [[nodiscard]] Index point(Index node) const
     {
         if (stores()) return point_[index(node)];
@@ -299,7 +300,7 @@ private:
         return find_word(deck_.gap.names, name) != deck_.gap.names.end();
     }
 
-    /// Whether the volume has the name of a region that lost its elements: the mesh then replaces that
+    /// Whether the volume has the name of a region that lost its elements. The mesh then replaces that
     /// region.
     [[nodiscard]] bool takes_place() const { return place_ >= 0; }
 
@@ -334,7 +335,7 @@ private:
         std::string& region = deck_.regions[index(region_)].name;
         const bool own = group == volume_;
         DeckSet cells;
-        cells.listed = extended_ >= 0; // so that several pieces can extend it
+        cells.listed = extended_ >= 0; // lists the set, so that several pieces can extend it
         for (std::size_t c = 0; c < mesh_.cell_count() && stores(); ++c)
             cells.members.push_back(first_cell_ + static_cast<DeckTag>(c));
         const DeckSet& set = add_set(cells, group, own && takes_place() ? region : group);
@@ -342,7 +343,8 @@ private:
         if (!stores()) added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
     }
 
-    /// Update the sets of the deck that the mesh joins. @param of_all  `sets_of_all()` before the mesh
+    /// Update the sets of the deck that should contain the mesh. @param of_all  result of `sets_of_all()`
+    /// before the mesh was added
     void update_sets(const std::vector<std::size_t>& of_all)
     {
         if (of_all.empty() && deck_.gap.gone.empty()) return;
@@ -362,8 +364,9 @@ private:
         join_sets(deck_, added, of_all, [&](const DeckSet& set) { return may_join(set); });
     }
 
-    /// Whether the cells may join a set. They must not if its section would give them a second material, or a
-    /// second section if several decks each have one for all their cells.
+    /// Whether the cells may join a set. They must not if the set's section would give them a second
+    /// material. If several decks each have a section for all their cells, the cells must not get a second
+    /// section either.
     bool may_join(const DeckSet& set)
     {
         if (options_.format != deck_.format || takes_place()) return true;
@@ -380,8 +383,8 @@ private:
         return true;
     }
 
-    /// Add a group as a set, named `wanted` if that is free. It is merged with the set of a mesh added
-    /// before, reuses a set that lost all members, or is a new set.
+    /// Add a group as a set, named `wanted` if that name is free. The group extends the set of a mesh that
+    /// was added before, or a set that lost all members; otherwise a new set is made.
     const DeckSet& add_set(DeckSet& set, const std::string& group, const std::string& wanted)
     {
         tidy(set);
@@ -400,7 +403,8 @@ private:
             return std::ranges::find_if(deck_.sets, [&](const DeckSet& other) {
                 if (other.kind != set.kind || !same_word(other.name, name)) return false;
                 const bool none = other.members.empty() && other.sides.empty();
-                // Without bulk, the sets of all cells are those that this mesh created and that are empty.
+                // If cells are not stored, a set of all cells is recognised by this: this mesh created it,
+                // and it is empty.
                 if (none && !stores()) return set.members.empty() && &other >= deck_.sets.data() + first_set_;
                 return none ? is_emptied(name) : other.members == set.members && other.sides == set.sides;
             });
@@ -429,7 +433,7 @@ private:
         });
     }
 
-    /// Report sets that were not changed because Nastran's cards or case control refer to them by number.
+    /// Report sets that were not extended because Nastran's cards or case control refer to them by number.
     void tell_kept_sets() const
     {
         if (!joins() || deck_.format != DeckFormat::nastran) return;
@@ -461,7 +465,8 @@ private:
 
     void add_skin_cells()
     {
-        // In UNV each skin element needs a property, in MSH one group; other formats only have skin groups.
+        // In UNV each skin element needs a property, in MSH one group. In other formats the skin has groups
+        // only.
         std::map<std::string, Index> regions;
         const auto region_of = [&](std::size_t i) {
             if (options_.format != DeckFormat::msh) return unv() ? region_ : -1;
@@ -470,7 +475,7 @@ private:
             const auto [found, fresh] = regions.try_emplace(groups.front(), -1);
             if (!fresh) return found->second;
             const auto same = std::ranges::find_if(deck_.regions, [&](const DeckRegion& of) {
-                return of.tag == 0 && of.name == groups.front(); // from a mesh added before
+                return of.tag == 0 && of.name == groups.front(); // a region that an earlier mesh has created
             });
             found->second = static_cast<Index>(same - deck_.regions.begin());
             if (same == deck_.regions.end()) deck_.regions.push_back({0, groups.front(), {}});
@@ -489,7 +494,7 @@ private:
         }
     }
 
-    /// Whether a mesh added before has the same quad of the skin; if not, the quad is recorded.
+    /// Whether a mesh that was added before has the same quad of the skin. If not, the quad is recorded.
     bool is_there(std::size_t i)
     {
         if (added_.skin_tags == nullptr) return false;
@@ -500,8 +505,8 @@ private:
         return !fresh;
     }
 
-    /// Whether a quad is an interface: between pieces of a volume (no group), or between meshes if not
-    /// written.
+    /// Whether a quad is an interface that is not written: between pieces of a volume (it has no group), or
+    /// between meshes if `interfaces` is off.
     [[nodiscard]] bool is_inner(std::size_t i) const
     {
         const bool several = added_.before != nullptr;
@@ -529,8 +534,8 @@ private:
                 of.push_back(static_cast<std::uint32_t>(i));
             }
         }
-        // A name that is valid in Abaqus is kept: of "wall:3" and "wall_3", the former is renamed. Names with
-        // a colon are generated ones, and are placed last.
+        // Groups with names that are valid in Abaqus come first and keep their names: of "wall:3" and
+        // "wall_3", the former is renamed. Names with a colon are generated and come last.
         const auto rank = [&](const std::string& name) {
             if (options_.format != DeckFormat::abaqus || abaqus_name(name) == name) return 0;
             return name.find(':') == std::string::npos ? 1 : 2;
@@ -567,7 +572,7 @@ private:
         add_set(sides, name, name);
     }
 
-    /// Use the requested material or, by default, that of the elements next to the mesh.
+    /// Choose the material: the requested one or, by default, that of the elements next to the mesh.
     void choose_material()
     {
         material_ = options_.material;
@@ -575,10 +580,9 @@ private:
         const std::vector<std::string> known = materials_in_text(deck_);
         if (takes_place() && options_.format == deck_.format) {
             material_ = deck_.regions[index(place_)].material;
-            if (extended_ >= 0) return; // another piece of a mesh added before
-            log_line(context_,
-                     formatted("{} takes the place of the region of that name, whose cards stay{}", volume(),
-                               options_.material.empty() ? "" : "; material is not looked at"));
+            if (extended_ >= 0) return; // the mesh is another piece of one that was added before
+            log_line(context_, formatted("{} replaces the region of that name and keeps its cards{}",
+                                         volume(), options_.material.empty() ? "" : "; material is ignored"));
             return;
         }
         if (material_.empty()) {
@@ -598,7 +602,7 @@ private:
                            known.empty() ? "no materials"
                                          : formatted("the materials {}", short_list(known, std::identity())));
     }
-    // Separates keys of skin groups from those of cell groups; occurs in no name.
+    // Separates the keys of skin groups from those of cell groups, because it occurs in no name.
     static constexpr const char* kSkin = "\n";
 
     [[nodiscard]] std::string name() const
@@ -612,7 +616,8 @@ private:
         if (options_.format != deck_.format || takes_place()) return;
         const DeckRegion& region = deck_.regions[index(region_)];
         if (deck_.format == DeckFormat::nastran) {
-            // A material name comes from another format: write 1, and the user sets the number.
+            // Nastran needs a number. If the material is a name, from another format, write 1; the user sets
+            // the number.
             const std::string number = parse_integer<int>(material_) ? material_ : "1";
             const bool named = number != material_ && !material_.empty();
             deck_.texts.push_back(
@@ -634,17 +639,17 @@ private:
     const RunContext& context_;
     TextNumbers texts_;
     std::string material_;
-    std::vector<Index> point_; ///< for each node of the mesh
+    std::vector<Index> point_; ///< the deck's point for each node of the mesh
     std::string volume_, element_;
-    std::string section_set_;                    ///< set of the deck whose section the cells have
-    std::map<std::string, std::string> renamed_; ///< groups whose names were in use
+    std::string section_set_;                    ///< set of the deck whose section applies to the cells
+    std::map<std::string, std::string> renamed_; ///< groups whose names were in use, with their new names
     Index place_ = -1, region_ = -1;             ///< region that the volume replaces, and region of the cells
-    Index extended_ = -1;                        ///< region of meshes added before that the cells extend
+    Index extended_ = -1;                        ///< region of an earlier mesh that the cells extend
     DeckTag first_cell_ = 1;
-    std::size_t first_set_ = 0;              ///< number of sets before
+    std::size_t first_set_ = 0;              ///< number of sets before the mesh was added
     std::vector<std::uint32_t> cells_;       ///< cell of each quad of the skin
-    std::vector<int> sides_;                 ///< face number in these cells
-    std::map<std::size_t, DeckTag> skin_of_; ///< quads of the skin that already are elements
+    std::vector<int> sides_;                 ///< for each of these quads, the number of the face in the cell
+    std::map<std::size_t, DeckTag> skin_of_; ///< quads of the skin that are elements already
 };
 
 } // namespace
@@ -663,7 +668,7 @@ void add_mesh(Deck& deck, const mesh::TetPart& mesh, const AddedMesh& added, con
 
 namespace {
 
-/// Whether another skin has the same side, for each side of each skin.
+/// For each side of each skin: whether another skin has the same side.
 std::vector<std::vector<char>> inner_sides(const std::vector<std::vector<Quad>>& skins)
 {
     struct Place {
@@ -686,7 +691,7 @@ std::vector<std::vector<char>> inner_sides(const std::vector<std::vector<Quad>>&
     return inner;
 }
 
-/// The skin of a mesh in the numbers of the whole. @param number  of each of its nodes
+/// The skin of a mesh, with the node numbers of the whole mesh. @param number  returns the number of a node
 template <class Number>
 std::vector<Quad> numbered_skin(const mesh::HexMesh& mesh, const Number& number)
 {
@@ -716,7 +721,7 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
     Deck deck = new_deck(options.format);
     const bool cells = format_of(options.format).skin == Format::Skin::quads;
     const bool several = parts.front().numbers != nullptr;
-    JoinedBefore before; // parts of one name form one region
+    JoinedBefore before; // parts of the same name form one region
     std::vector<std::vector<char>> inner(parts.size());
     if (cells && several && !interfaces) {
         std::vector<std::vector<Quad>> skins;
@@ -778,7 +783,7 @@ Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedT
     std::vector<std::vector<char>> inner(skins.size());
     const bool cells = format_of(options.format).skin == Format::Skin::quads;
     if (cells && !interfaces) inner = inner_sides(skins);
-    JoinedBefore before; // parts of one name form one region
+    JoinedBefore before; // parts of the same name form one region
     std::map<Quad, DeckTag> skin_tags;
     options.first_node = 0;
     const auto add = [&](const auto& parts, std::size_t p) {

@@ -15,7 +15,7 @@
 namespace lacuna::io {
 namespace {
 
-/// @param team  only rank 0 logs
+/// Log notes. @param team  only its rank 0 logs
 void tell(const std::vector<std::string>& notes, const OutputPath& path, const RunContext& context,
           const Team* team = nullptr)
 {
@@ -35,10 +35,10 @@ void check_version(const Format& format, const MeshFileOptions& options)
                                .remedy("leave out the version"));
 }
 
-/// Write a view.
-/// @param divide  makes the parts of a view of swept meshes, if parts are requested or if the format consists
-///                of pieces; empty: the view is not divided
-/// @param notes   to be logged after those of the writer
+/// Write a view to a file.
+/// @param divide  divides a view of swept meshes into parts. Given if parts are requested or the format
+///                consists of pieces; empty: the view is not divided
+/// @param notes   logged after those of the writer
 void write_view(const FormatRow& format, const View& view, const std::function<mesh::ViewParts()>& divide,
                 const std::vector<std::string>& notes, const MeshFileOptions& options, const OutputPath& path,
                 const RunContext& context, const Team* team)
@@ -79,7 +79,7 @@ void write_as_deck(const Format& format, std::span<BulkPart> parts, const Output
         context, team);
 }
 
-/// Write a swept mesh. @param readers  makes the readers of its fields, which decks do not have
+/// Write a swept mesh. @param readers  makes the readers of its fields; not used for decks
 template <class Readers>
 void write_swept(const Format& format, const mesh::HexMesh& mesh, std::unique_ptr<const NodeReader> nodes,
                  const Readers& readers, const OutputPath& path, const MeshFileOptions& options,
@@ -108,7 +108,7 @@ void note_sets(const Format& format, const Deck& deck, std::vector<std::string>&
     if (unwritten > 0) notes.push_back(formatted("{} {}", unwritten, format.unwritten_sets));
 }
 
-/// A copy of the deck without line elements, also removed from sets.
+/// A copy of the deck without line elements. They are removed from sets, too.
 Deck without_lines(const Deck& deck)
 {
     Deck less = deck;
@@ -175,11 +175,11 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
     const View view = view_of(deck, format);
     for (std::size_t b = 0; b < deck.blocks.size(); ++b)
         if (!row.omits_middles && std::ranges::find(deck.blocks[b].nodes, -1) != deck.blocks[b].nodes.end())
-            refuse_element(view->blocks[b], format.word, "some have not all their middle nodes");
+            refuse_element(view->blocks[b], format.word, "some lack middle nodes");
     if (deck.format == DeckFormat::abaqus && deck.instances.size() > 1 && !deck.texts.empty() &&
         format.deck == DeckFormat::abaqus)
         tell({formatted("the {} instances become one mesh, sets are named instance_set, and cards are not "
-                        "carried over: they name nodes by their instances",
+                        "copied: they refer to nodes by instance",
                         deck.instances.size())},
              path, context);
     std::vector<std::string> notes;
@@ -188,7 +188,7 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
         deck.texts, [](const DeckText& text) { return text.place == DeckText::Place::cards; });
     if (format.deck != deck.format && texts)
         notes.push_back(formatted(
-            "materials, loads and other cards of {} are of another format and not carried over", deck.path));
+            "materials, loads and other cards of {} are of another format and not copied", deck.path));
     MeshFileOptions own = options;
     own.unit = common_unit(options.unit, "the mesh", deck.unit, deck.path);
     write_view(row, view, {}, notes, own, path, context, nullptr);

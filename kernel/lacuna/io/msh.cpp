@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. All nodes form one block of one
-// entity; elements are written entity by entity. In partitioned files $Entities lists the entities of the
-// whole mesh; $PartitionedEntities has one for each part of each of them, and nodes and elements refer to
-// these.
+// entity. Elements are written entity by entity. In partitioned files, $Entities lists the entities of the
+// whole mesh. $PartitionedEntities lists, for each of these and each part, the entity's share in the part;
+// nodes and elements refer to these shares.
 #include <lacuna/io/detail/format_table.h>
 
 #include <lacuna/core/error.h>
@@ -29,9 +29,10 @@ using mesh::ViewParts;
 
 // ---- Physical groups
 
-constexpr std::size_t kLongestName = 127; // limit of Gmsh
+constexpr std::size_t kLongestName = 127; // longest name that Gmsh allows
 
-/// Make a name safe for the format, which has no escape for quotes and ends a name at the end of its line.
+/// Make a name safe for the format. The format has no escape for quotes, and ends a name at the end of its
+/// line.
 std::string printable(const std::string& name)
 {
     std::string result;
@@ -63,8 +64,9 @@ struct PhysicalName {
 /// Assigns each group a tag. Tags are unique over all dimensions, since some readers ignore the dimension.
 class GroupTags {
 public:
-    /// Give a group the tag that it had in a file; its name is not written if it is `unnamed_group()`. If two
-    /// groups of one dimension had the same tag, the first keeps it. Call before any other tag is assigned.
+    /// Give a group the tag that it had in a file. If its name is `unnamed_group()`, the name is not written.
+    /// If two groups of one dimension had the same tag, the first keeps it. Call before any other tag is
+    /// assigned.
     void keep(int dimension, const std::string& group, int tag)
     {
         if (tag < 1 || tag == std::numeric_limits<int>::max() || tags_.contains({dimension, group}) ||
@@ -88,7 +90,7 @@ public:
     std::vector<PhysicalName> take() { return std::move(names_); }
 
 private:
-    /// Names that shortening makes equal are made distinct again.
+    /// A name that no other group has: shortening may make names equal.
     std::string unique_name(int dimension, const std::string& group)
     {
         const std::string whole = printable(group);
@@ -135,7 +137,7 @@ struct MshNumbers {
         text.resize(static_cast<std::size_t>(end(out) - text.data()));
         return text;
     }
-    /// Append a box and lists of tags, each after its length, to the last line of `text`.
+    /// Append a box and lists of tags to the last line of `text`. Each list follows its length.
     void add_lists(std::string& text, const Eigen::AlignedBox3d& box,
                    std::initializer_list<std::vector<int>> lists) const
     {
@@ -171,10 +173,10 @@ struct Row {
     Index part;
     std::size_t block;
     Ranges cells;
-    int tag = 0; ///< tag of the entity that the elements are written under
+    int tag = 0; ///< tag of the entity to which the elements are written
 };
 
-/// The share that one part has of an entity; it has the groups of that entity.
+/// The share that one part has of an entity. It has the groups of that entity.
 struct PartEntity {
     int dimension, tag;
     int parent; ///< tag of the whole entity, of the same dimension
@@ -197,8 +199,8 @@ public:
         number_cells();
         const bool can_overlap = options.version != 2.2;
         if (options.all_groups && !can_overlap)
-            file_.notes.emplace_back("MSH 2.2 holds one group an element, so groups = \"all\" is not "
-                                     "followed; version = 4.1 holds all");
+            file_.notes.emplace_back("MSH 2.2 holds one group per element, so groups = \"all\" is ignored; "
+                                     "version = 4.1 holds all");
         name_groups(options.all_groups && can_overlap);
         if (view->point_tags.given() && view->points > 0)
             nodes_ = view->point_tags.bounds(view->points);
@@ -234,7 +236,7 @@ public:
         return take();
     }
 
-    /// In version 2.2 an element has one physical group and its entity.
+    /// Write version 2.2, in which an element has one physical group and its entity.
     DeckFile write_22()
     {
         open("2.2");
@@ -292,10 +294,11 @@ private:
         return rows;
     }
 
-    /// Use the element numbers of the view or, in an unpartitioned file, number the elements in file order.
+    /// Number the elements: as in the view or, in an unpartitioned file, in file order.
     void number_cells()
     {
-        std::vector<std::map<std::size_t, std::size_t>> number(view_->blocks.size()); // of the next element
+        std::vector<std::map<std::size_t, std::size_t>> number(view_->blocks.size()); // next number, by
+                                                                                      // entity
         std::size_t next = 1;
         for (const Row& row : rows_) {
             number[row.block][row.entity] = next;
@@ -325,7 +328,7 @@ private:
         }
     }
 
-    /// Assign physical groups to entities. @param all  all groups of each, else one
+    /// Assign physical groups to entities. @param all  each entity gets all its groups, not only one
     void name_groups(bool all)
     {
         std::set<std::string> lost;
@@ -362,7 +365,7 @@ private:
     void open(const char* version)
     {
         text_ = std::string("$MeshFormat\n") + version + (numbers_.binary ? " 1 8\n" : " 0 8\n");
-        if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // shows readers the byte order
+        if (numbers_.binary) text_ += numbers_.line(int{1}) + "\n"; // readers see the byte order
         text_ += "$EndMeshFormat\n";
         if (!unit_.empty()) text_ += "$Comments\nlengths are in " + unit_ + "\n$EndComments\n";
         text_ += "$PhysicalNames\n" + std::to_string(names_.size()) + "\n";
@@ -393,10 +396,10 @@ private:
                  all + numbers_.gap() + "$EndEntities\n";
     }
 
-    /// Add an entity for each part of each entity.
+    /// For each entity and each part that has a share of it, add the entity of that share.
     void add_part_entities()
     {
-        // If entities are numbered over all dimensions, so are those of parts.
+        // If entities are numbered over all dimensions together, so are the entities of parts.
         std::array<int, 4> next{};
         for (const MeshView::Entity& entity : view_->entities)
             for (const int dimension : {0, 1, 2, 3})
@@ -430,8 +433,8 @@ private:
                  all[0] + all[1] + all[2] + all[3] + numbers_.gap() + "$EndPartitionedEntities\n";
     }
 
-    /// Write all nodes as one block; in partitioned files one block for each part with nodes, under its first
-    /// volume.
+    /// Write all nodes as one block. In partitioned files, write one block for each part that has nodes,
+    /// under the first volume of the part.
     void add_nodes()
     {
         struct Block {
@@ -496,7 +499,7 @@ private:
         return out;
     }
 
-    /// Write the elements of a row: number, `middle`, nodes. Numbers are of type `Tag`.
+    /// Write the elements of a row. Each is its number, the numbers in `middle` and its nodes, of type `Tag`.
     template <class Tag>
     void add_elements(const Row& row, const std::vector<int>& middle)
     {
@@ -514,8 +517,8 @@ private:
             });
     }
 
-    /// Call `visit(first, last, tags)` with the numbers of the cells at the list positions [begin, end), at
-    /// most `kAtOnce` cells a call.
+    /// Call `visit(first, last, tags)` for chunks of the cells at the list positions [begin, end), with the
+    /// numbers of the cells in the chunk. A chunk has at most `kAtOnce` cells.
     template <class Tag, class Visit>
     static void each_chunk(const Ranges& cells, std::size_t begin, std::size_t end, const Numbers& tags,
                            const Visit& visit)
@@ -533,7 +536,7 @@ private:
         });
     }
 
-    /// The most frequent records: a number and eight nodes that are numbered from 1.
+    /// Write the most frequent records faster: a number and eight nodes that are numbered from 1.
     template <class Tag>
     static char* put_hexes(const MeshView::Block& block, const Tag* tags, std::size_t begin, std::size_t end,
                            char* out)
@@ -599,9 +602,10 @@ private:
         std::string all;
         std::size_t links = 0;
         for (const MeshView::Periodic& own : view_->periodic) {
-            std::map<Index, Index> from; // by the node it is moved to
+            std::map<Index, Index> from; // for each node of the second side, its partner on the first
             for (const auto& [a, b] : own.nodes.pairs) from.emplace(b, a);
-            // Surfaces of the quads on the first side, and nodes of the surfaces on the second one.
+            // For each quad on the first side, its surface; for each quad on the second side, its surface and
+            // nodes.
             std::map<std::vector<Index>, std::size_t> entity_of;
             std::vector<std::pair<std::size_t, std::vector<Index>>> sides;
             for (const MeshView::Block& block : view_->blocks) {
@@ -617,7 +621,8 @@ private:
                         });
                     });
             }
-            std::map<std::pair<std::size_t, std::size_t>, std::map<Index, Index>> pairs; // by both surfaces
+            std::map<std::pair<std::size_t, std::size_t>, std::map<Index, Index>> pairs; // pairs of nodes, by
+                                                                                         // both surfaces
             for (const auto& [entity, nodes] : sides) {
                 std::vector<Index> key;
                 for (const Index n : nodes) key.push_back(from.at(n));
@@ -635,7 +640,7 @@ private:
         text_ += "$Periodic\n" + (old_ ? std::to_string(links) + "\n" : numbers_.line(size_of(links))) + all +
                  (old_ ? "" : numbers_.gap()) + "$EndPeriodic\n";
     }
-    /// In version 2.2 the section is text in binary files too.
+    /// The link between two surfaces. In version 2.2 it is text in binary files too.
     [[nodiscard]] std::string periodic_link(const Eigen::Isometry3d& onto, std::size_t entity,
                                             std::size_t master, const std::map<Index, Index>& nodes) const
     {
@@ -698,9 +703,9 @@ private:
 
     View view_;
     MshNumbers numbers_;
-    bool old_; ///< version 2.2
+    bool old_; ///< the version is 2.2
     const ViewParts* parts_;
-    std::string unit_; ///< declared for the lengths; empty: none
+    std::string unit_; ///< declared unit of the lengths; empty: none
     std::vector<Row> rows_, part_rows_;
     std::vector<char> used_;    ///< whether an entity has elements
     std::vector<Numbers> tags_; ///< element numbers, for each block
@@ -710,7 +715,7 @@ private:
     std::vector<Eigen::AlignedBox3d> boxes_; ///< one for each entity
     std::vector<PhysicalName> names_;
     std::vector<PartEntity> entities_;
-    std::string text_; ///< text before the next section
+    std::string text_; ///< text that precedes the next section
     DeckFile file_;
 };
 

@@ -16,14 +16,15 @@ namespace lacuna::io {
 
 namespace {
 
-/// Data of an element type for reading or skipping it, and the shape that it becomes.
+/// How an element type is read or skipped, and the shape that it becomes.
 struct ElementType {
     int type, dimension, nodes;
     DeckShape shape = DeckShape::line2;
-    bool is_kept = true; ///< otherwise elements are only counted
+    bool is_kept = true; ///< if false, elements are only counted
 };
 
-/// Types without a DeckShape: points, and elements of order 3 and more, which are reduced to their corners.
+/// Types that are no DeckShape: points, and elements of order 3 and more. The latter are reduced to their
+/// corners.
 using enum DeckShape;
 constexpr ElementType kFurtherTypes[] = {
     {15, 0, 1, line2, false}, {26, 1, 4, line2, false}, {27, 1, 5, line2, false}, {28, 1, 6, line2, false},
@@ -32,7 +33,7 @@ constexpr ElementType kFurtherTypes[] = {
     {38, 2, 36, quad4},       {29, 3, 20, tet4},        {30, 3, 35, tet4},        {31, 3, 56, tet4},
     {92, 3, 64, hex8},        {93, 3, 125, hex8},       {90, 3, 40, wedge6}};
 
-// Numbers in binary have the byte order of this machine.
+// Numbers in binary files have the byte order of this machine; others are refused.
 constexpr bool kBig = std::endian::native == std::endian::big;
 
 ElementType type_of(const Cursor& cursor, int type)
@@ -52,7 +53,7 @@ public:
     {
         for (std::string_view line; !(line = cursor_.full_line()).empty();) {
             if (line.front() != '$')
-                cursor_.fail("expected a section, as $Nodes; this is no MSH file, or it is damaged");
+                cursor_.fail("expected a section such as $Nodes; this is no MSH file, or it is damaged");
             read_section(std::string(line.substr(1)));
         }
         if (version_ == 0) cursor_.fail("this is no MSH file: it has no $MeshFormat");
@@ -98,7 +99,7 @@ private:
         const std::int64_t bytes = cursor_.text_integer();
         if (version != 4.1 && version != 4 && !(version >= 2 && version < 3))
             cursor_.fail(Message(kUnreadable, "expected version 1.0, 2.2, 4.0 or 4.1")
-                             .remedy("save the mesh anew as one of them"));
+                             .remedy("save the mesh in one of these versions"));
         if (bytes != 8)
             cursor_.fail("numbers of {} bytes are not read; expected {}", found(bytes), needed(8));
         version_ = version >= 4 ? 4 : 2;
@@ -108,7 +109,7 @@ private:
         if (binary == 1) {
             cursor_.coding = std::endian::native == std::endian::little ? Coding::little : Coding::big;
             if (cursor_.raw_integer() != 1)
-                cursor_.fail(Message(kUnreadable, "the bytes are in another machine's order")
+                cursor_.fail(Message(kUnreadable, "the file has the byte order of another machine")
                                  .remedy("save the mesh as text"));
         } else if (binary != 0) {
             cursor_.fail("expected 0 for text or 1 for binary in $MeshFormat");
@@ -146,7 +147,8 @@ private:
 
     void read_entities() { read_entities(false); }
 
-    /// Read the parents of partitioned entities: a partitioned mesh is read as a whole one.
+    /// Read which entity each partitioned entity is a part of, so that a partitioned mesh is read as a whole
+    /// one.
     void read_parts()
     {
         cursor_.size(); // number of parts
@@ -155,7 +157,8 @@ private:
         read_entities(true);
     }
 
-    /// The parent of a partitioned entity; the entity itself if it has none, or one of another dimension.
+    /// The entity of which a partitioned entity is a part. If it has no such entity, or one of another
+    /// dimension, the entity itself.
     [[nodiscard]] int whole_of(int dimension, int entity) const
     {
         const auto found = whole_of_.find({dimension, entity});
@@ -222,7 +225,7 @@ private:
         if (into_.points().size() != count)
             cursor_.fail("the file announces {} nodes and holds {}", count, into_.points().size());
         tags_.emplace(into_.deck().point_tags, [&](Index, Index node) {
-            cursor_.fail("{} of the file has the tag of one before", numbered("node", node + 1));
+            cursor_.fail("{} of the file has the same tag as an earlier one", numbered("node", node + 1));
         });
         nodes_known_ = true;
     }
@@ -254,7 +257,7 @@ private:
         end_nodes(total);
     }
 
-    /// Read tags and then points in binary, in this machine's byte order.
+    /// Read tags and then points from binary data.
     void take_nodes_4(std::size_t count)
     {
         const std::size_t first = into_.points().size();
@@ -270,7 +273,7 @@ private:
         for (std::size_t i = first; i < points.size(); ++i)
             if (!points[i].allFinite()) {
                 Cursor at = cursor_.part(bytes.substr((i - first) * sizeof(Vec3)));
-                at.point(); // reports which number is wrong
+                at.point(); // reports which number is invalid
             }
     }
 
@@ -291,7 +294,7 @@ private:
         end_nodes(static_cast<std::uint64_t>(count));
     }
 
-    /// Read tags and points alternately, in binary.
+    /// Read tags and points, which alternate, from binary data.
     void take_nodes_2(std::size_t count)
     {
         constexpr std::size_t kRecord = 4 + sizeof(Vec3);
@@ -306,13 +309,14 @@ private:
             tags[i] = tag;
             std::memcpy(static_cast<void*>(points.data() + i), record + 4, sizeof(Vec3));
             if (tag >= 0 && points[i].allFinite()) continue;
-            cursor_ = cursor_.part(bytes.substr(i * kRecord)); // reports which number is wrong
+            cursor_ = cursor_.part(bytes.substr(i * kRecord)); // the next calls report which number is
+                                                               // invalid
             node_tag();
             cursor_.point();
         }
     }
 
-    /// The block for the announced cells.
+    /// Choose the block for the announced cells.
     void expect_cells(const ElementType& type, std::uint64_t count)
     {
         if (!nodes_known_) cursor_.fail("$Elements before $Nodes");
@@ -325,7 +329,7 @@ private:
         return "cells of type " + std::to_string(type.type);
     }
 
-    /// The region of cells with an entity and, in version 2, a physical group; 0: none.
+    /// Set the region for cells of an entity and, in version 2, of a physical group; 0: none.
     void enter(const ElementType& type, int entity, int physical)
     {
         const Place place{type.dimension, entity, physical};
@@ -339,7 +343,7 @@ private:
         region_ = static_cast<Index>(found->second);
     }
 
-    /// Cells as stored in binary: numbers of type `Tag`, a tag, `skipped` numbers, and nodes.
+    /// Read binary cells. Each consists of its tag, `skipped` numbers, and its nodes, all of type `Tag`.
     template <class Tag>
     void take_cells(const ElementType& type, std::size_t count, std::size_t skipped)
     {
@@ -371,7 +375,7 @@ private:
         return tag;
     }
 
-    /// One cell; `next_tag` reads the tag of each of its nodes.
+    /// Read one cell; `next_tag` reads the tag of each of its nodes.
     template <class NextTag>
     void take_cell(const ElementType& type, std::uint64_t tag, const NextTag& next_tag)
     {
@@ -395,7 +399,7 @@ private:
     Index position(DeckTag tag) const
     {
         const Index node = tags_->find(tag);
-        if (node < 0) cursor_.fail("a cell names {}, which is not there", numbered("node", tag));
+        if (node < 0) cursor_.fail("a cell names {}, which does not exist", numbered("node", tag));
         return node;
     }
 
@@ -464,7 +468,7 @@ private:
         take_cell(type, tag, [&] { return node_tag(); });
     }
 
-    /// Read binary cells in runs with the same physical group and entity.
+    /// Read binary cells. Consecutive cells with the same physical group and entity are read together.
     void take_cells_2(const ElementType& type, std::size_t count, std::size_t tags)
     {
         const std::size_t record = 4 * (1 + tags + static_cast<std::size_t>(type.nodes));
@@ -559,7 +563,8 @@ private:
         deck.sets.push_back(std::move(set));
     }
 
-    /// In version 2 a cell in several groups is repeated for each: keep one, in all of these groups.
+    /// In version 2 a cell in several groups is listed once for each group. Keep one of these cells, in all
+    /// of the groups.
     void merge_copies()
     {
         std::map<std::pair<int, int>, int> groups_of; // number of groups of each entity
@@ -569,7 +574,7 @@ private:
         for (const Place& place : place_of_)
             several.push_back(groups_of[{place.dimension, place.entity}] > 1);
         if (std::ranges::find(several, true) == several.end()) return;
-        // By the region of the first copy and all groups.
+        // new regions, by the region of the first copy and the groups of the others
         std::map<std::pair<Index, std::set<int>>, Index> joined;
         for (DeckBlock& block : deck.blocks) merge_copies(block, several, joined);
     }
@@ -591,14 +596,14 @@ private:
             const auto by = compare(a, b);
             return by != 0 ? by < 0 : a < b;
         });
-        std::map<std::size_t, std::set<int>> further; // groups of cells that occur more than once
+        std::map<std::size_t, std::set<int>> further; // further groups of cells that occur more than once
         std::vector<bool> copy(block.count(), false);
         for (std::size_t i = 0, first = 0; i < cells.size(); ++i) {
             if (i == first || compare(cells[first], cells[i]) != 0) {
                 first = i;
                 continue;
             }
-            // Repeated with the same group.
+            // listed twice with the same group: keep both
             if (place(cells[i]).physical == place(cells[first]).physical) continue;
             further[cells[first]].insert(place(cells[i]).physical);
             copy[cells[i]] = true;
@@ -615,7 +620,7 @@ private:
             }
             region = found->second;
         }
-        into_.pass_over("cells that stand once more for a further group",
+        into_.pass_over("cells that are repeated for a further group",
                         static_cast<std::size_t>(std::ranges::count(copy, true)));
         block = without_elements(block, [&](std::size_t e) { return copy[e]; });
     }
@@ -632,13 +637,14 @@ private:
     };
     Place last_place_{};
     std::map<Place, std::size_t> regions_;
-    std::vector<Place> place_of_;                ///< for each region
-    std::map<Index, std::set<int>> more_groups_; ///< of regions: further physical groups, in version 2
-    /// For each region, number of cells of its naming group, and whether by number.
+    std::vector<Place> place_of_;                ///< entity and group of each region
+    std::map<Index, std::set<int>> more_groups_; ///< further physical groups of regions, in version 2
+    /// For each region: the number of cells in the group that names it, and whether that group has a number
+    /// only.
     std::map<std::size_t, std::pair<std::size_t, bool>> named_by_;
     std::map<Key, std::string> names_; ///< dimension -1: not given
     std::map<Key, std::set<int>> members_;
-    std::map<Key, int> whole_of_; ///< of entities that are parts
+    std::map<Key, int> whole_of_; ///< entity of which a partitioned entity is a part
     int version_ = 0;
     bool first_of_4_ = false; ///< version 4.0, which has 4-byte counts and another order of tags
     bool nodes_known_ = false;

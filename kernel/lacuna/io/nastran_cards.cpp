@@ -8,11 +8,12 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kField = 8;       // characters of a small field, and of the first and last of each line
+constexpr std::size_t kField = 8;       // characters of a small field, which the first and last field of each
+                                        // line always are
 constexpr std::size_t kLargeField = 16; // characters
 constexpr std::size_t kFields = 8;      // data fields of a line; large ones take two lines
-/// Maximum number of cards created by replication in any deck, plus one for each sixteen bytes of the file.
-/// Without a limit, a wrong count would fill the memory. Not measured.
+/// Limit on the number of cards created by replication, plus one for each sixteen bytes of the file. Without
+/// a limit, a wrong count would fill the memory. Not measured.
 constexpr std::size_t kReplicas = 10'000;
 
 bool begins_with(std::string_view line, std::string_view word)
@@ -28,10 +29,10 @@ bool is_bulk_line(std::string_view line, std::string_view word)
     return text.find("BULK") != std::string::npos || text.find("SUPER") != std::string::npos;
 }
 
-/// Cards of text, equations and labels, in which commas do not separate fields.
+/// Cards that contain text, equations or labels, in which commas do not separate fields.
 constexpr std::string_view kTextCards[] = {"DEQATN", "MONPNT1", "MONPNT2", "MONPNT3", "MONDSP1", "UDNAME"};
 
-/// Whether commas separate the fields: then the first comma ends a word, unlike in text in columns.
+/// Whether commas separate the fields of a line: the text before its first comma is then one word, or empty.
 bool is_free(std::string_view line)
 {
     const std::string_view before = line.substr(0, line.find(','));
@@ -56,10 +57,10 @@ std::string stepped(std::string_view field, std::string_view step, const DeckPla
     if (whole && by) return std::to_string(std::int64_t(*whole) + *by);
     const auto real = parse_real(field, Exponents::fortran), more = parse_real(step, Exponents::fortran);
     if (whole || !real || !more)
-        place.fail("cannot add {} to {} of the card that is replicated", shown(step), shown(field));
+        place.fail("cannot add {} to {} of the replicated card", shown(step), shown(field));
     std::array<char, 32> text{};
     std::string sum(text.data(), std::to_chars(text.data(), text.data() + text.size(), *real + *more).ptr);
-    // Otherwise it would become an integer.
+    // without a point, the sum would become an integer
     return sum.find_first_of(".e") == std::string::npos ? sum + '.' : sum;
 }
 
@@ -194,7 +195,7 @@ void BulkData::include(Cursor& cursor, std::string_view rest, std::uint64_t from
         const char quote = name[0];
         while (name.find(quote, 1) == std::string::npos) {
             if (cursor.at_end() || name.size() > DeckFiles::kLongestName)
-                place.fail("INCLUDE: the name has no end");
+                place.fail("INCLUDE: the name has no closing quote");
             name += cursor.line();
         }
         name = name.substr(1, name.find(quote, 1) - 1);
@@ -273,7 +274,7 @@ void BulkData::read_line(const Cursor& cursor, std::uint64_t file, std::string_v
     }
 }
 
-/// Take the fields in `line_`. @return false if they belong to a card elsewhere
+/// Take over the fields in `line_`. @return false if they belong to another card than the current one
 bool BulkData::take_fields(const DeckPlace& place)
 {
     const std::string_view first = line_.front();
@@ -284,18 +285,18 @@ bool BulkData::take_fields(const DeckPlace& place)
     if (first.empty() || first[0] == '+' || first[0] == '*') {
         const bool both_named = first.size() > 1 && marker_.size() > 1;
         const bool another = both_named && !same_word(first.substr(1), marker_.substr(1));
-        // If the previous card names no continuation and no line gives this name, the name is only a remark
-        // of the user.
+        // A continuation that the previous card did not ask for. It belongs to another card if some line of
+        // the deck names it. If none does, its name is only a remark of the user.
         const bool unsaid = first.size() > 1 && marker_.size() <= 1 && open_ && is_awaited(first.substr(1));
         if (first.size() > 1 && (!open_ || another || unsaid)) return false;
-        if (!open_) place.fail("a continuation {} of no card", shown(first));
+        if (!open_) place.fail("the continuation {} belongs to no card", shown(first));
         if (first.size() > 1 && marker_.size() <= 1 && unasked_.empty()) unasked_ = shown(first);
         check_half(card_, is_large(first), place);
     } else if (const std::string_view name = first.substr(0, first.find('*')); !replicates(name)) {
         begin_card(name, place);
     } else {
         if (!open_ || (card_use_ != CardUse::keep && is_named(marker_)))
-            place.fail("expected the card that = repeats right above it, whole");
+            place.fail("expected a complete card right above = to repeat");
         begin_replica(place);
         steps_.clear();
     }
@@ -309,7 +310,7 @@ bool BulkData::take_fields(const DeckPlace& place)
     return true;
 }
 
-/// Whether the card in `line_` replicates the card before it, with the same name or none.
+/// Whether the card in `line_` replicates the card before it, which has the same name or is not named.
 bool BulkData::replicates(std::string_view name) const
 {
     const bool same = open_ && card_use_ != CardUse::keep && same_word(card_.name, name);
@@ -347,10 +348,10 @@ void BulkData::end_card()
     }
     card_.fields.clear();
     marker_ = {};
-    while (expanded_.size() > 1) expanded_.pop_front(); // the last one may be the line that ends the card
+    while (expanded_.size() > 1) expanded_.pop_front(); // the last may be the current line
 }
 
-/// Pass on a card. @return false if it repeats a card of another superelement, which is then ignored
+/// Pass on a card. @return false if the card repeats one of another superelement and is therefore ignored
 bool BulkData::hand_over(const Card& card, CardUse use)
 {
     if (use == CardUse::both) {
@@ -358,7 +359,8 @@ bool BulkData::hand_over(const Card& card, CardUse use)
                                                    std::pair(superelements_, card.text(3)));
         const bool again = !fresh && known->second.first != superelements_;
         if (again && known->second.second != card.text(3))
-            card.fail(Message(kUnreadable, "superelements are read as one deck, and another has another {}",
+            card.fail(Message(kUnreadable,
+                              "superelements are read as one deck, but another one has a different {}",
                               known->first)
                           .remedy("renumber one of them"));
         if (again) return false;
@@ -369,7 +371,7 @@ bool BulkData::hand_over(const Card& card, CardUse use)
 
 // --- replication -------------------------------------------------------------------------------------------
 
-/// Begin a card replicated from the one before it, which is still open and becomes the pattern.
+/// Begin a card that is replicated from the card before it. That card is still open, and becomes the pattern.
 void BulkData::begin_replica(const DeckPlace& place)
 {
     pattern_.assign(card_.fields.begin(), card_.fields.end());
@@ -380,8 +382,8 @@ void BulkData::begin_replica(const DeckPlace& place)
     card_.place = place;
 }
 
-/// Add the next field of a replica: `=` copies the pattern's field, `*(n)` adds n to it, here and in replicas
-/// of this card.
+/// Add the next field of a replica. `=` copies the pattern's field. `*(n)` adds n to it, here and in further
+/// replicas of this card.
 void BulkData::add_replicated(std::string_view field)
 {
     const std::size_t at = card_.fields.size();
@@ -403,7 +405,7 @@ void BulkData::replicate(std::string_view count, const DeckPlace& place)
         place.fail("expected =n with a count above 0 right below a card that begins with =, found ={}",
                    count.substr(0, kField));
     if (index(*times) > room_)
-        place.fail(Message(kUnreadable, "={} makes more cards than a deck of this size may", *times)
+        place.fail(Message(kUnreadable, "={} generates too many cards for a deck of this size", *times)
                        .remedy("write them out"));
     room_ -= index(*times);
     for (Index n = 0; n < *times && card_use_ != CardUse::keep; ++n) {
@@ -414,7 +416,7 @@ void BulkData::replicate(std::string_view count, const DeckPlace& place)
 
 // --- continuations -----------------------------------------------------------------------------------------
 
-/// Whether a line of the deck names this continuation. The deck is searched on the first call.
+/// Whether a line of the deck names this continuation. The first call searches the deck.
 bool BulkData::is_awaited(std::string_view name)
 {
     if (!awaited_) {
@@ -436,14 +438,14 @@ bool BulkData::is_awaited(std::string_view name)
     return std::ranges::binary_search(*awaited_, upper(name));
 }
 
-/// Copy the fields of a card, so that they remain valid when its lines are discarded.
+/// Copy the fields of a card, so that they stay valid when its lines are discarded.
 void BulkData::own_fields(Card& card)
 {
     for (std::string_view& field : card.fields)
         if (!field.empty()) field = owned_.emplace_back(field);
 }
 
-/// Store the continuation in `line_`, which does not belong to the card before it.
+/// Store the continuation in `line_`, which belongs to another card than the one before it.
 void BulkData::take_elsewhere(const DeckPlace& place, std::string_view raw)
 {
     Waiting found{
@@ -461,7 +463,7 @@ void BulkData::take_elsewhere(const DeckPlace& place, std::string_view raw)
     go_on(std::move(waiting));
 }
 
-/// Append the available continuations of a card, and pass it on if it is complete.
+/// Append to a card the continuations that are read already, and pass the card on if it is complete.
 void BulkData::go_on(Waiting waiting)
 {
     while (is_named(waiting.marker)) {
@@ -491,17 +493,17 @@ void BulkData::finish()
     if (!continuations_.empty()) {
         const Waiting& line = std::ranges::min_element(continuations_, {}, place)->second;
         const std::string text = shown(line.raw.substr(0, kField));
-        if (cards_.empty()) line.card.place.fail("a continuation {} of no card", text);
+        if (cards_.empty()) line.card.place.fail("the continuation {} belongs to no card", text);
         const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
-        card.card.fail("its continuation {} is not there, and {} is a continuation of no card",
+        card.card.fail("its continuation {} is missing, and the continuation {} belongs to no card",
                        shown(card.marker), text);
     }
     if (!cards_.empty() && !unasked_.empty()) {
         const Waiting& card = std::ranges::min_element(cards_, {}, place)->second;
-        card.card.fail("its continuation {} is not there, and no card names {}", shown(card.marker),
-                       unasked_);
+        card.card.fail("its continuation {} is missing, and no card names the continuation {}",
+                       shown(card.marker), unasked_);
     }
-    // The named continuations never appeared, so the names were only remarks.
+    // No continuation with these names exists, so the names were only remarks: pass on the cards as they are.
     std::map<std::uint64_t, const Waiting*> in_order;
     for (const auto& [name, waiting] : cards_) in_order.emplace(waiting.card.place.number(), &waiting);
     for (const auto& [place, waiting] : in_order) hand_over(waiting->card, waiting->use);

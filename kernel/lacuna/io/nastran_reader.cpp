@@ -9,7 +9,7 @@
 namespace lacuna::io {
 namespace {
 
-/// An element card: its shape without and with middle nodes.
+/// An element card, and the shapes without and with middle nodes that it can have.
 struct ElementCard {
     std::string_view name;
     DeckShape corners, all;
@@ -31,7 +31,7 @@ constexpr ElementCard kElementCards[] = {
     {"CHEXA", DeckShape::hex8, DeckShape::hex20},
 };
 constexpr std::string_view kFrameCards[] = {"CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S"};
-/// Property cards of shells and solids, and the field of their material; 0: they have none.
+/// Property cards of shells and solids, and the number of the field that holds their material; 0: none does.
 struct PropertyCard {
     std::string_view name;
     std::size_t material;
@@ -169,7 +169,7 @@ private:
             frames_.add(card.needed(2), frame);
             return;
         }
-        // A card holds two.
+        // A card defines up to two frames.
         for (const std::size_t first : {std::size_t(2), std::size_t(6)}) {
             if (first == 6 && card.field(first).empty()) break;
             for (std::size_t k = 0; k < 3; ++k) frame.node[k] = card.needed(first + 1 + k);
@@ -177,7 +177,7 @@ private:
         }
     }
 
-    /// Merge nodes that are listed twice with the same data; then convert all nodes to the basic frame.
+    /// Merge nodes that are listed twice with the same data. Then convert all nodes to the basic frame.
     void finish_nodes()
     {
         Deck& deck = into_.deck();
@@ -187,13 +187,13 @@ private:
                 !(grids_[index(first)] == grids_[index(second)]))
                 bulk_.files()
                     .place_of(grids_[index(second)].place)
-                    .fail("the number of this GRID is that of another elsewhere");
+                    .fail("another GRID with this number lies elsewhere");
             repeated.resize(grids_.size(), false);
             repeated[index(second)] = true;
         });
         if (default_frame_ != 0 || !default_output_.empty() || !default_constraint_.empty()) use_defaults();
         if (!repeated.empty()) drop(repeated);
-        // The basic frame is the default.
+        // Drop the basic frame, which is the default.
         std::erase_if(deck.point_more,
                       [&](const auto& more) { return default_output_.empty() && more.second == "0"; });
         const std::vector<Vec3> given = deck.points;
@@ -258,23 +258,23 @@ private:
     Vec3 node_in_basic(Index tag, const DeckPlace& place)
     {
         const Index node = tags_->find(tag);
-        if (node < 0) place.fail("the coordinate system names {}, which is not there", numbered("node", tag));
+        if (node < 0)
+            place.fail("the coordinate system names {}, which does not exist", numbered("node", tag));
         return in_basic(index(node));
     }
 
-    /// Check that superelements do not share numbers, because they are merged into one deck.
+    /// Check that superelements do not use the same numbers, because they are merged into one deck.
     void finish_superelements()
     {
         const DeckPlace& place = bulk_.first_superelement();
         if (default_frame_ != 0) place.fail("GRDSET of superelements that are read as one deck is ambiguous");
         const std::vector<DeckTag> tags = element_tags(into_.deck());
         const TagPlaces elements(tags, [&](Index, Index again) {
-            place.fail(Message(kUnreadable, "superelements are read as one deck, and {} is there twice",
+            place.fail(Message(kUnreadable, "superelements are read as one deck, but {} occurs twice",
                                numbered("element", tags[index(again)]))
                            .remedy("renumber one of them"));
         });
-        into_.warn(formatted("read as one deck with its superelements, of which there are {}",
-                             bulk_.superelements()));
+        into_.warn(formatted("read as one deck with its superelements ({})", bulk_.superelements()));
     }
 
     /// An element without a property has the property of its own number. If no card defines such properties,
@@ -297,8 +297,8 @@ private:
     DeckBuilder& into_;
     std::vector<Grid> grids_;
     std::optional<TagPlaces> tags_;
-    const std::vector<Vec3>* given_ = nullptr; ///< points as in the file, during their conversion
-    std::vector<std::pair<std::size_t, std::size_t>> unowned_; ///< elements with a blank property
+    const std::vector<Vec3>* given_ = nullptr; ///< points as in the file, while they are converted
+    std::vector<std::pair<std::size_t, std::size_t>> unowned_; ///< elements whose property field is blank
     /// Materials of the properties that have a card.
     std::map<Index, std::string> materials_;
     Index last_property_ = -1, last_region_ = -1;

@@ -9,8 +9,9 @@
 #include <array>
 #include <map>
 
-// Nodes are written in large fields, in the basic frame; elements in small fields if their numbers fit.
-// Fields that a card was read with keep their text; if they do not fit, the card is written in free format.
+// Nodes are written in large fields, in the basic frame. Elements are written in small fields if their
+// numbers fit. Fields that were read from a card keep their text; if they do not fit, the card is written in
+// free format.
 
 namespace lacuna::io {
 
@@ -40,7 +41,7 @@ public:
         used_ += kNumber;
         fields_.emplace_back(at, static_cast<std::size_t>(end - at));
     }
-    /// Add fields that are separated by commas.
+    /// Add several fields, given as a text with commas between them.
     void add_text(std::string_view text)
     {
         while (!text.empty()) {
@@ -77,7 +78,7 @@ public:
         *out++ = '\n';
         return out;
     }
-    /// Upper bound of the bytes of a card with this many fields of at most this length.
+    /// Upper bound on the bytes of a card with this number of fields, none longer than `longest`.
     static std::size_t room(std::size_t fields, std::size_t longest)
     {
         return (std::max(longest, kLarge) + 4) * (fields + 8) + 32;
@@ -101,7 +102,7 @@ private:
     std::size_t used_ = 0;
 };
 
-/// Bytes of the longest text when it is written as fields.
+/// Number of bytes that the longest of the texts takes when it is written as fields.
 std::size_t room_of(MeshView::TextByIndex more)
 {
     std::size_t room = 0;
@@ -165,7 +166,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
         section_of_cells(view, b, CardWriter::room(nodes + 2, kNumber) + room_of(more), put));
 }
 
-/// A SET1 card; it does not state the kind of its members, so a comment does.
+/// A SET1 card. The card does not state whether its members are nodes or elements, so a comment does.
 std::string set_text(const MeshView::Set& set, int number)
 {
     CardWriter card;
@@ -186,7 +187,7 @@ std::string set_text(const MeshView::Set& set, int number)
            "\n" + text;
 }
 
-/// Comments with the property names of a deck in another format, and property cards for solids.
+/// For decks from another format: comments with the names of the properties, and property cards for solids.
 std::string property_text(const MeshView& view)
 {
     std::vector<bool> solid(view.regions.size(), false);
@@ -209,7 +210,7 @@ std::string real_text(double value)
     return {room.data(), put_real(room.data(), value, kLarge, RealForm::nastran)};
 }
 
-/// Multipoint constraints of periodic faces, of number 1, with a GRID for each reference.
+/// Multipoint constraints of periodic faces, all in the set 1, with a GRID for each reference node.
 std::string periodic_text(const MeshView& view)
 {
     if (view.periodic.empty()) return {};
@@ -239,10 +240,11 @@ std::string periodic_text(const MeshView& view)
     return text;
 }
 
-/// A coordinate system for all cells with the same axes, and the MATCID card that gives it to them.
+/// Coordinate systems: one for all cells that have the same axes, with a MATCID card that assigns it to them.
 std::string orientation_text(const MeshView& view)
 {
-    std::map<std::array<std::string, 6>, std::vector<DeckTag>> cells; // by the z axis and the direction of x
+    std::map<std::array<std::string, 6>, std::vector<DeckTag>> cells; // numbers of the cells, by the z axis
+                                                                      // and the direction of x
     for (std::size_t b = 0; b < view.blocks.size(); ++b) {
         if ((*view.frames)[b].empty()) continue;
         view.blocks[b].tags.each(0, view.blocks[b].count, [&](std::size_t i, DeckTag tag) {

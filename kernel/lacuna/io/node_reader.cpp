@@ -31,7 +31,7 @@ NodeReader::NodeReader(const mesh::LayeredMesh& layered, const RunContext& conte
         const std::size_t begin = places.side(index(first), 0);
         std::vector<Vec3> nodes(places.upright(index(last), 0) - begin);
         layers_->place_middles(first, last, nodes, context);
-        // The next part starts with these.
+        // the next part starts with the middle nodes of the last level
         if (last < mesh_.layers) nodes.resize(places.side(index(last), 0) - begin);
         return nodes;
     });
@@ -58,7 +58,7 @@ FieldReader::FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, c
     };
     const auto cache = std::make_shared<LayerCache<double>>(values_of);
     make_ = [cache, step](std::span<const std::uint32_t> of, double* out) {
-        LayerCache<double>::Values part; // nearby cells reuse the last part
+        LayerCache<double>::Values part; // consecutive cells often lie in the same part
         std::size_t number = 0;
         for (const std::uint32_t cell : of) {
             if (!part || cell / step != number) part = cache->part(number = cell / step);
@@ -66,7 +66,8 @@ FieldReader::FieldReader(const mesh::HexMesh& mesh, const LayeredField& field, c
         }
     };
 
-    // Each part of the cells has the values of the quads before them; a team shares the parts.
+    // Compute the values of the cells behind the skin, one part of the cells after the other. A team shares
+    // the parts.
     const std::vector<std::uint32_t> cells = cells_of_skin(mesh);
     skin_.resize(cells.size());
     const std::size_t all = columns * static_cast<std::size_t>(mesh.layers);

@@ -6,7 +6,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Words of a Wavefront file without faces, which are skipped without a note.
+/// Words of a Wavefront file that do not contribute to faces. They are skipped without a note.
 constexpr std::string_view kUncounted[] = {"vt", "vn", "s", "usemtl", "mtllib"};
 
 class ObjReader {
@@ -67,7 +67,7 @@ private:
         into_.add_face(corners_, label_, cursor_);
     }
 
-    /// A point number: from 1, or if negative, counted back from the last point.
+    /// The point that a number means: counted from 1 or, if it is negative, back from the last point.
     Index corner(std::string_view word) const
     {
         const auto value = parse_integer<std::int64_t>(word);

@@ -23,7 +23,7 @@ namespace {
 
 using mesh::MeshView;
 
-/// A face of a cell: its corners, counter-clockwise seen from outside the cell; the fourth is -1 for a
+/// A face of a cell: its corners, counter-clockwise seen from outside the cell. The fourth is -1 for a
 /// triangle.
 struct CellFace {
     Quad corners;
@@ -40,7 +40,7 @@ std::string word_of(const std::string& name)
     return word;
 }
 
-/// Maps names to words; different names get different words.
+/// Converts names to words, so that different names get different words.
 class Words {
 public:
     const std::string& operator[](const std::string& name)
@@ -73,9 +73,9 @@ public:
         std::size_t first, count;
     };
     mesh::Ranges points;           ///< view indices of the points that cells use
-    std::vector<Quad> faces;       ///< point numbers, counter-clockwise seen from outside the owner
+    std::vector<Quad> faces;       ///< point numbers, counter-clockwise seen from outside the owner cell
     std::vector<Index> owners;     ///< one for each face
-    std::vector<Index> neighbours; ///< one for each internal face; these come first
+    std::vector<Index> neighbours; ///< one for each internal face; internal faces come before boundary faces
     std::vector<Patch> patches;
     std::vector<std::pair<std::string, mesh::Ranges>> zones; ///< cells of each region
     std::size_t cells = 0;
@@ -121,7 +121,7 @@ private:
             throw InvalidInput("io.no_such_element", "a polyMesh needs cells, but the mesh has none");
     }
 
-    /// Drop points that no cell uses, which checkMesh reports as an error.
+    /// Drop points that no cell uses, because checkMesh would report them as an error.
     void number_points()
     {
         place_.assign(view_.points, -1);
@@ -143,8 +143,8 @@ private:
         owners.push_back(face.cell);
     }
 
-    /// Two faces with the same corners are one face between two cells. A quad or triangle with the corners of
-    /// a face of one cell gives it its entity.
+    /// Two faces with the same corners become one internal face. A boundary face gets the entity of the quad
+    /// or triangle with the same corners.
     void find_faces()
     {
         std::vector<std::pair<Quad, Index>> skin; // corners and entity
@@ -173,7 +173,8 @@ private:
             const auto beside = static_cast<std::size_t>(std::ranges::count_if(alike, is_cell));
             if (beside == 0) return;
             const auto face = static_cast<Index>(alike[0].number);
-            const Index owner = found_[index(face)].cell; // faces were collected cell by cell
+            const Index owner = found_[index(face)].cell; // the owner is the lower cell, because faces were
+                                                          // collected cell by cell
             if (beside > 2)
                 throw InvalidInput("io.not_conformal",
                                    "a face of {} belongs to {} cells, but at most {} can share a face",
@@ -193,15 +194,15 @@ private:
             neighbours.push_back(of.neighbour);
         }
         if (inside > 0)
-            notes.push_back(formatted("{} quads and triangles that are no faces outside are not written: a "
-                                      "polyMesh has patches there alone",
+            notes.push_back(formatted("{} quads and triangles inside the mesh are not written: a polyMesh "
+                                      "has patches on its boundary only",
                                       inside));
     }
 
     /// Make a patch of the faces of each group.
     void find_patches()
     {
-        // Entities of one group form one patch; faces without a group come last.
+        // Entities of the same group form one patch. Faces without a group come last.
         std::vector<std::pair<std::string, std::vector<Index>>> groups;
         const auto add = [&](const std::string& name, const std::vector<Index>& own) {
             auto group = std::ranges::find(groups, name, &std::pair<std::string, std::vector<Index>>::first);
@@ -220,12 +221,13 @@ private:
         found_ = {};
     }
 
-    static constexpr const char* kNoGroup = "defaultFaces"; // OpenFOAM's name for them
+    static constexpr const char* kNoGroup = "defaultFaces"; // OpenFOAM's name for faces in no patch
 
     const MeshView& view_;
     const RunContext& context_;
-    std::vector<CellFace> found_;                   ///< by cell
-    std::map<Index, std::vector<Index>> of_entity_; ///< faces with only one cell; -1: those without entity
+    std::vector<CellFace> found_;                   ///< the faces of all cells, cell by cell
+    std::map<Index, std::vector<Index>> of_entity_; ///< boundary faces of each entity; -1: faces without an
+                                                    ///< entity
     std::vector<Index> place_; ///< for each view point: index among the points used; -1: unused
 };
 
@@ -279,8 +281,8 @@ std::string zones_text(const PolyMesh& mesh)
     return text + ")\n";
 }
 
-/// Whether OpenFOAM and its tools write a file of this name into a polyMesh, so that it is useless for
-/// another mesh.
+/// Whether OpenFOAM or one of its tools writes a file of this name into a polyMesh. Such a file is useless
+/// for another mesh.
 bool is_of_mesh(std::string_view name)
 {
     constexpr std::array<std::string_view, 14> kFiles{

@@ -25,7 +25,7 @@ using mesh::MeshView;
             .remedy("use partitions = {} or fewer", layers));
 }
 
-/// Number of parts of each mesh if there are more parts than meshes, in proportion to its cells.
+/// Number of parts that each mesh is divided into, in proportion to its cells. For more parts than meshes.
 std::vector<int> parts_of_each(std::span<const BulkPart> meshes, int parts)
 {
     std::vector<int> each(meshes.size(), 1);
@@ -46,7 +46,7 @@ std::vector<int> parts_of_each(std::span<const BulkPart> meshes, int parts)
     return each;
 }
 
-/// The part of each layer of each mesh.
+/// For each mesh, the part of each of its layers.
 std::vector<std::vector<Index>> parts_of_layers(std::span<const BulkPart> meshes, int parts)
 {
     std::vector<std::vector<Index>> all(meshes.size());
@@ -58,7 +58,7 @@ std::vector<std::vector<Index>> parts_of_layers(std::span<const BulkPart> meshes
                 all[m].resize(index(part.last), next++);
         return all;
     }
-    // Assign the largest mesh first, each to the part with the fewest cells so far.
+    // Assign the meshes from the largest to the smallest, each to the part that has the fewest cells so far.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::ranges::stable_sort(order, std::greater<>{},
@@ -72,7 +72,7 @@ std::vector<std::vector<Index>> parts_of_layers(std::span<const BulkPart> meshes
     return all;
 }
 
-/// Divides the elements of a view. Lists of parts are numbered; list 0 is empty.
+/// Divides the elements of a view. Lists of parts are identified by numbers; list 0 is empty.
 class Divider {
 public:
     Divider(const MeshView& view, std::span<const BulkPart> meshes, int parts) : view_(view), meshes_(meshes)
@@ -109,7 +109,8 @@ private:
         return of_layer_[m][cell / meshes_[m].mesh.quads.size()];
     }
 
-    /// Find the parts of solids, which are stored mesh after mesh in their blocks.
+    /// Find the parts of solids. A block contains the solids of the first mesh, then those of the second, and
+    /// so on.
     void find_solids()
     {
         for (std::size_t b = 0; b < part_.size(); ++b) {
@@ -125,7 +126,7 @@ private:
         }
     }
 
-    /// Find the parts of quads; each mesh numbers its cells first, then its skin.
+    /// Find the parts of quads. Each mesh numbers its cells first, then its skin.
     void find_quads()
     {
         std::vector<std::vector<std::uint32_t>> behind;
@@ -144,12 +145,14 @@ private:
         }
     }
 
-    /// Find the parts for which elements are ghosts, row by row: those of elements with a common node.
+    /// Find the ghosts of each part, row by row. In each row, an element becomes a ghost of all parts that
+    /// reach one of its nodes.
     void find_ghosts(int rows)
     {
         std::vector<Index> alone;
         for (int p = 0; p < parts_.parts; ++p) alone.push_back(list_of({p}));
-        std::vector<std::vector<Index>> reached(part_.size()); // for each solid, a list with its own part
+        std::vector<std::vector<Index>> reached(part_.size()); // for each solid, the number of a list that
+                                                               // holds its own part at first
         for (std::size_t b = 0; b < part_.size(); ++b)
             for (const Index part : part_[b]) reached[b].push_back(alone[index(part)]);
         for (int row = 0; row < rows; ++row) {
@@ -197,7 +200,7 @@ private:
         return at->second;
     }
 
-    /// Find the part of each point: the lowest part that uses it.
+    /// Find the owner of each point: the lowest part that uses the point.
     void find_points()
     {
         std::vector<Index> lowest(view_.points, parts_.parts - 1);
@@ -231,8 +234,9 @@ private:
     const MeshView& view_;
     std::span<const BulkPart> meshes_;
     std::vector<std::vector<Index>> of_layer_; ///< part of each layer of each mesh
-    std::vector<std::vector<Index>> part_;     ///< for each element of each block
-    /// Ghosts by their own part and the list of the parts that see them, then by block.
+    std::vector<std::vector<Index>> part_;     ///< part of each element of each block
+    /// Ghost elements of each block, by the part that owns them and the list of the parts that have them as
+    /// ghosts.
     std::map<std::pair<Index, Index>, std::map<std::size_t, mesh::Ranges>> ghosts_;
     std::vector<std::vector<int>> lists_{{}}; ///< lists of parts, increasing
     std::map<std::vector<int>, Index> known_{{{}, 0}};

@@ -8,10 +8,11 @@ namespace lacuna::io {
 /// How a mesh is divided into parts, one for each process of a solver.
 struct PartitionOptions {
     int parts = 0;  ///< >= 1; 0: the mesh is not divided
-    int ghosts = 0; ///< rows of other parts' cells around each part that are marked as its ghosts, >= 0
+    int ghosts = 0; ///< number of rows of cells around each part that are marked as its ghosts, >= 0
 };
 
-/// Layers [first, last) of a swept mesh that form a part; with its ghosts [with_first, with_last).
+/// Layers [first, last) of a swept mesh that form a part. Together with its ghosts, the part has the layers
+/// [with_first, with_last).
 struct LayerPart {
     int first = 0, last = 0;
     int with_first = 0, with_last = 0;

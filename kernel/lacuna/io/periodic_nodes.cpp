@@ -19,15 +19,15 @@ namespace {
 
 bool is_translation(const mesh::PeriodicNodes& pair) { return pair.onto.linear() == Matrix3d::Identity(); }
 
-/// The displacement of a node: that of the first node of its set, turned, and multiples of those of
-/// references.
+/// The displacement of a node as a sum: the displacement of the first node of its chain, rotated by `turn`,
+/// plus multiples of displacements of reference nodes.
 struct Depends {
     std::size_t first = 0;
     Matrix3d turn = Matrix3d::Identity();
     std::map<std::size_t, Matrix3d> references{};
 };
 
-/// A node on the axis moves along it: the two directions across it are eliminated.
+/// Let a node on the axis move along the axis only: equations eliminate the two other directions.
 void hold_on_axis(std::size_t node, const Vec3& axis, std::vector<std::vector<PeriodicTerm>>& equations)
 {
     Eigen::Index along = 0;
@@ -44,7 +44,7 @@ void hold_on_axis(std::size_t node, const Vec3& axis, std::vector<std::vector<Pe
 
 void add_periodic(std::span<const mesh::PeriodicNodes> pairs, bool sets, MeshView& view)
 {
-    view.periodic.reserve(pairs.size()); // sets refer to the tags
+    view.periodic.reserve(pairs.size()); // the vector must not grow later, because sets refer to its tags
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         view.periodic.push_back({pairs[p], {}});
         MeshView::Periodic& own = view.periodic.back();
@@ -71,7 +71,7 @@ PeriodicEquations periodic_equations(const MeshView& view)
 {
     PeriodicEquations found;
     std::map<std::size_t, std::vector<std::pair<std::size_t, std::pair<std::size_t, bool>>>> next;
-    std::map<std::size_t, std::size_t> on_axis; // node: pair
+    std::map<std::size_t, std::size_t> on_axis; // for each node on the axis, its pair
     for (std::size_t p = 0; p < view.periodic.size(); ++p) {
         const mesh::PeriodicNodes& own = view.periodic[p].nodes;
         found.number.push_back(is_translation(own) ? found.references.size() : kNoIndex);
@@ -133,7 +133,8 @@ CyclicSector cyclic_sector(const MeshView& view)
     const bool axis = std::ranges::any_of(pair.pairs, [](const auto& nodes) { return nodes[0] == nodes[1]; });
     if (is_translation(pair) || !whole || axis) return {};
     CyclicSector sector{static_cast<int>(std::lround(sectors)), {}, turn.axis()};
-    // The point of the axis next to the origin: (1 - R) p = t, of which the part along the axis is none.
+    // The point of the axis closest to the origin solves (1 - R) p = t. The component along the axis is set
+    // to zero.
     const Matrix3d across = Matrix3d::Identity() - pair.onto.linear() + turn.axis() * turn.axis().transpose();
     const Vec3 shift = pair.onto.translation();
     const double along = shift.dot(turn.axis());

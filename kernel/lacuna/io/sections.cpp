@@ -21,18 +21,18 @@
 namespace lacuna::io {
 namespace {
 
-/// A buffer that stays in the second-level cache between being filled and being written: measured 20 ms for
-/// 109 MB in blocks of 256 KiB to 1 MiB, 24 ms in blocks of 64 KiB or 4 MiB.
+/// Size of a buffer, which stays in the second-level cache between being filled and being written. Measured
+/// for 109 MB: 20 ms with 256 KiB to 1 MiB, 24 ms with 64 KiB or 4 MiB.
 constexpr std::size_t kBufferBytes = std::size_t(512) * 1024;
 
-/// Consecutive records, and the section's text if they are the first.
+/// Consecutive records, preceded by the section's text if they are its first.
 struct Chunk {
     const Section* section;
     std::string_view text;
     std::size_t begin, end;
-    std::uint64_t offset; ///< in the file, if sizes are exact
-    /// If sizes are exact, the bytes that this chunk writes: [skip, skip + bytes) of its text and records. A
-    /// record on the border of two chunks is filled for both.
+    std::uint64_t offset; ///< position in the file, if sizes are exact
+    /// If sizes are exact: the chunk writes the bytes [skip, skip + bytes) of its text and records. A record
+    /// that lies across the border of two chunks is filled for both.
     std::size_t skip = 0, bytes = 0;
 
     [[nodiscard]] std::size_t most_bytes() const
@@ -42,7 +42,7 @@ struct Chunk {
 };
 
 /// This process's share of each section, cut at multiples of `kBufferBytes` in the file, so that writes fill
-/// pages. The text precedes the first records.
+/// pages. The text of a section precedes its first records.
 std::vector<Chunk> cut_exact(const std::vector<Section>& sections, const Team* team)
 {
     const bool first = team == nullptr || team->rank == 0;
@@ -81,7 +81,7 @@ std::uint64_t size_of(const std::vector<Section>& sections)
     return bytes;
 }
 
-/// Split sections with records of varying size into pieces. The text precedes the first records.
+/// Split sections with records of varying size into pieces. The text of a section precedes its first records.
 std::vector<Chunk> cut(const std::vector<Section>& sections)
 {
     std::vector<Chunk> chunks;
@@ -113,7 +113,7 @@ struct Buffer {
     }
 };
 
-/// Reports progress in steps of a hundredth, from the thread that called the writer.
+/// Reports progress in steps of one percent, on the thread that called the writer.
 class Share {
 public:
     Share(const RunContext& context, std::string stage, std::size_t count)
@@ -138,7 +138,7 @@ private:
     std::thread::id thread_ = std::this_thread::get_id();
 };
 
-/// A value of each process of a team.
+/// Collect a value from each process of a team.
 template <class Value>
 std::vector<Value> gather_values(const Team* team, Value own)
 {
@@ -154,7 +154,7 @@ std::vector<Value> gather_values(const Team* team, Value own)
 
 using WriteAt = std::function<void(std::uint64_t offset, std::string_view bytes)>;
 
-/// The offset of every chunk is known: while one thread fills, another writes.
+/// Write chunks whose offsets are known: while one thread fills, another writes.
 void write_exact(const std::vector<Chunk>& chunks, const WriteAt& write, Share& share,
                  const RunContext& context)
 {
@@ -172,14 +172,14 @@ void write_exact(const std::vector<Chunk>& chunks, const WriteAt& write, Share& 
                  });
 }
 
-/// Offsets are known once the preceding text is: chunks are filled in rounds, and the chunks of a round are
-/// written in order. A team shares each round: the processes exchange the lengths of their chunks before they
-/// write, so that nothing is filled twice.
+/// Write chunks whose offsets are known only after the text before them is filled. Chunks are filled in
+/// rounds, and the chunks of a round are written in order. In a team, the processes share each round. They
+/// exchange the lengths of their chunks before they write, so that nothing is filled twice.
 void write_varying(const std::vector<Chunk>& chunks, const WriteAt& write, Share& share,
                    const RunContext& context, const Team* team)
 {
-    // With a team, at most 64 MB per round, about half of it text: more takes memory, less adds rounds. Not
-    // measured.
+    // Number of chunks in a round. With a team, a round has at most 64 MB, about half of it text. More would
+    // take memory, less would add rounds. Not measured.
     const std::size_t most = team != nullptr ? 128 : 4 * static_cast<std::size_t>(thread_count(context));
     std::uint64_t offset = 0;
     std::vector<Buffer> buffers(std::min(most, chunks.size()));
@@ -195,7 +195,7 @@ void write_varying(const std::vector<Chunk>& chunks, const WriteAt& write, Share
         std::uint64_t own = 0;
         for (std::size_t i = 0; i < count; ++i) own += filled[i].size();
         const std::vector<std::uint64_t> lengths = gather_values(team, own);
-        const std::ptrdiff_t before = team != nullptr ? team->rank : 0; // processes that write before it
+        const std::ptrdiff_t before = team != nullptr ? team->rank : 0; // processes before this one
         std::uint64_t at = std::accumulate(lengths.begin(), lengths.begin() + before, offset);
         offset = std::accumulate(lengths.begin(), lengths.end(), offset);
         for (std::size_t i = 0; i < count; at += filled[i++].size()) write(at, filled[i]);
@@ -212,10 +212,12 @@ void write_sections(const std::vector<Section>& sections, Sizes sizes, const Wri
     write_varying(chunks, write, share, context, team);
 }
 
-/// Reserve space for a whole file in steps, because it takes time if the file is in memory.
+/// Reserve space for a whole file in steps, between which the host can cancel: for a file in memory,
+/// reserving takes time.
 void reserve(WholeFile& file, std::uint64_t bytes, const RunContext& context)
 {
-    constexpr std::uint64_t kStep = std::uint64_t(256) << 20; // tens of milliseconds in memory. Not measured
+    constexpr std::uint64_t kStep = std::uint64_t(256) << 20; // takes tens of milliseconds in memory; not
+                                                              // measured
     for (std::uint64_t begin = 0; begin < bytes; begin += kStep) {
         check_cancelled(context);
         file.reserve(begin, std::min(begin + kStep, bytes));
@@ -234,7 +236,8 @@ public:
         begin(paths, WholeFile::Naming::named);
     }
 
-    /// Write a file's sections; with a team, a share of each. @param sharing  null: this process only
+    /// Write the sections of a file. A team shares each section. @param sharing  null: this process writes
+    /// alone
     void write(std::size_t f, const std::vector<Section>& sections, Sizes sizes, const std::string& stage,
                const RunContext& context, const Team* sharing)
     {
@@ -250,7 +253,7 @@ public:
         if (shared) shared->close();
     }
 
-    std::vector<std::unique_ptr<WholeFile>> files; ///< of rank 0; empty in other processes
+    std::vector<std::unique_ptr<WholeFile>> files; ///< files of rank 0; empty in other processes
 
 private:
     void begin(const std::vector<OutputPath>& paths, WholeFile::Naming naming)
@@ -271,7 +274,7 @@ private:
         for (std::string& name : names_) reader(name);
     }
 
-    /// Whether all processes can open the files of rank 0, which the system may forbid.
+    /// Whether all processes can open the files of rank 0. The system may forbid it.
     [[nodiscard]] bool all_can_open() const
     {
         const std::int8_t can = ::access(names_.front().c_str(), W_OK) == 0 ? 1 : 0;
@@ -289,7 +292,7 @@ void write_file(const OutputPath& path, const std::vector<Section>& sections, Si
 {
     SharedFiles shared({path}, team);
     shared.write(0, sections, sizes, "writing " + path.text(), context, team);
-    gather(team, {}); // everything is written
+    gather(team, {}); // wait until all processes have written
     if (!shared.files.empty()) shared.files.front()->commit();
 }
 
@@ -304,7 +307,7 @@ void write_files(const std::vector<FileOfSet>& files, const OutputPath& head_pat
     for (std::size_t f = begin; f < end; ++f)
         shared.write(f, files[f].sections(), Sizes::exact, "writing " + files[f].path.text(), context,
                      nullptr);
-    gather(team, {}); // everything is written
+    gather(team, {}); // wait until all processes have written
     if (shared.files.empty()) return;
     shared.files.back()->append(head);
     commit_together(shared.files);

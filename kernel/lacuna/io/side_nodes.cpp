@@ -62,7 +62,7 @@ SideNodes::Nodes SideNodes::nodes_of(CellShape shape, std::span<const Index> cel
             edges, [&](const auto& of) { return of == std::pair(a, b) || of == std::pair(b, a); });
         add(static_cast<std::size_t>(corners + (edge - edges.begin())));
     }
-    constexpr std::size_t kCentres[] = {24, 25, 22, 21, 23, 20}; // of the faces of a hex27
+    constexpr std::size_t kCentres[] = {24, 25, 22, 21, 23, 20}; // centres of hex27 faces S1 … S6
     if (shape == CellShape::quad9) add(8);
     if (shape == CellShape::hex27) add(kCentres[side - 1]);
     return nodes;

@@ -10,7 +10,7 @@
 namespace lacuna::io {
 namespace {
 
-/// For each element, the side of a solid on which it lies if it is two-dimensional; side 0: none.
+/// For each element, if it is two-dimensional: the side of a solid on which it lies. Side 0: none.
 std::vector<DeckSide> sides_below(const Deck& deck)
 {
     const std::vector<DeckTag> tags = element_tags(deck);
@@ -32,7 +32,8 @@ Deck skin_as_sets(Deck deck, DeckFormat format)
     const bool has_faces = from.is_mesh && from.skin == Format::Skin::quads && deck.format != DeckFormat::unv;
     if (!has_faces || format_of(format).skin == Format::Skin::quads) return deck;
     const std::vector<DeckSide> below = sides_below(deck);
-    std::unordered_map<DeckTag, std::vector<std::string>> names; // for the elements that become sets
+    std::unordered_map<DeckTag, std::vector<std::string>> names; // for each element that becomes sets: the
+                                                                 // names of these sets
     each_element(deck, [&](const DeckBlock& block, std::size_t e, std::size_t i) {
         if (below[i].side > 0) names[block.tags[e]];
     });

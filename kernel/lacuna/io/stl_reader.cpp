@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kHeader = 80; // bytes, of any content
 constexpr std::size_t kFacet = 50;  // bytes: a normal and three points as floats, and two unused bytes
 
-/// The text at the start of a header; empty if it is not text.
+/// The text at the start of a header; empty if the header does not start with text.
 std::string_view name_in(std::string_view header)
 {
     header = trimmed(header.substr(0, header.find('\0')));
@@ -52,12 +52,12 @@ public:
         const std::string_view rest = cursor_.rest();
         if (std::ranges::any_of(rest, [](char c) { return c != 0 && c != '\n' && !is_blank(c); }))
             cursor_.fail_at(cursor_.position(),
-                            "expected a header of 80 bytes and a count of facets, found {} bytes more",
+                            "expected a header of 80 bytes and a count of facets, found only {} more bytes",
                             found(rest.size()));
     }
 
 private:
-    /// Check the counts: only with these can the header of the next solid be found.
+    /// Check the counts of facets. Only correct counts lead to the header of the next solid.
     void check_counts() const
     {
         const std::string_view all = cursor_.rest();
@@ -66,7 +66,7 @@ private:
             const std::uint64_t room = (all.size() - begin) / kFacet;
             if (count > room)
                 cursor_.fail_at(at + kHeader,
-                                "the header announces {} facets and the bytes after it hold {}{}", count,
+                                "the header announces {} facets, but the bytes after it hold {}{}", count,
                                 room, at == 0 ? "" : ": it or a count before it is wrong");
             at = begin + kFacet * count;
         }
@@ -82,7 +82,7 @@ private:
     void read_facet()
     {
         cursor_.expect("normal");
-        cursor_.line_end(); // the normal is recomputed from the corners
+        cursor_.line_end(); // skip the normal, which is recomputed from the corners
         cursor_.expect("outer");
         cursor_.expect("loop");
         std::array<Vec3, 3> corner;
@@ -97,7 +97,7 @@ private:
         add(corner);
     }
 
-    /// Check that the last word ends a block, written as one word or two.
+    /// Check that the last word ends a block: "endloop", or "end" followed by "loop".
     void end_of(const std::string& thing)
     {
         if (same_word(cursor_.last_word(), "end"))
@@ -118,7 +118,7 @@ private:
                 Vec3& p = points.emplace_back();
                 for (std::size_t i = 0; i < 3; ++i)
                     p[Index(i)] = from_bytes<float>(bytes.data() + 12 + 4 * (3 * corner + i), false);
-                if (!p.allFinite()) cursor_.fail("expected finite coordinates, found one that is none");
+                if (!p.allFinite()) cursor_.fail("expected finite coordinates, found one that is not finite");
             }
         }
         const auto room = into_.add_elements(into_.block_of(DeckShape::tri3, ""), count, label());
@@ -164,7 +164,7 @@ bool is_binary_stl(std::string_view bytes)
 void read_stl(Cursor& cursor, DeckBuilder& into)
 {
     StlReader reader(cursor, into);
-    // Headers of binary files may begin with "solid" too, but their counts contain a byte 0.
+    // Headers of binary files may begin with "solid" too, but the count after them contains a zero byte.
     const bool text = !is_binary_stl(cursor.rest()) &&
                       same_word(trimmed(cursor.rest()).substr(0, 5), "solid") &&
                       cursor.rest().substr(0, kHeader + 4).find('\0') == std::string_view::npos;

@@ -16,7 +16,7 @@ namespace {
 using mesh::MeshView;
 using mesh::Ranges;
 
-/// Add the entities, and for each group the list of its entities.
+/// Add the entities and, for each group, the list of its entities.
 void add_entities(const mesh::HexMesh& mesh, MeshView& view)
 {
     const auto list = [&](const std::string& name, int number) {
@@ -87,7 +87,7 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const mesh::HexMesh& mesh, const NodeR
     return boxes;
 }
 
-/// The nodes of the levels [first, last] with their mid-side nodes. With `below`, level `last` is excluded.
+/// The nodes of the levels [first, last], mid-side nodes included. With `below`, level `last` is excluded.
 Ranges nodes_of_levels(const mesh::HexMesh& mesh, int first, int last, bool below)
 {
     const std::size_t row = index(mesh.nodes_per_layer), corners = mesh::corner_count(mesh);
@@ -174,7 +174,8 @@ mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& opti
     parts.has_ghosts = options.ghosts > 0;
     parts.of.resize(4);
     const Index last = static_cast<Index>(layers.size()) - 1;
-    // Skin quads and triangles belong to the part of their cell: those of the source to the first part.
+    // Skin quads and triangles belong to the part of their cell. Those on the source belong to the first
+    // part, those on the target to the last.
     for (const std::size_t k : {std::size_t(2), std::size_t(3)}) {
         const std::size_t each_end = k == 2 ? cells.quads : cells.triangles;
         mesh::add_run(parts.of[k], each_end, 0);
@@ -188,7 +189,7 @@ mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& opti
         parts.points.emplace_back(p, nodes_of_levels(mesh, part.first, part.last, p != last));
         parts.used.push_back(nodes_of_levels(mesh, part.with_first, part.with_last, false));
     }
-    // Runs of layers in one part that are ghosts of the same other parts.
+    // Consecutive layers of one part that are ghosts of the same other parts.
     const auto others = [&](Index own, int layer) {
         std::vector<int> of;
         for (Index p = 0; p <= last; ++p)

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::string_view kMark = "-1"; ///< begins and ends a dataset
 
-/// Datasets of groups: how many numbers each entity has (type, tag, and in later datasets node and
-/// component), and which number of the header is the number of entities.
+/// A dataset of groups. `values`: how many numbers each entity has (type and tag; in later datasets also node
+/// and component). `count_at`: which number of the header is the number of entities.
 struct GroupDataset {
     int number;
     std::size_t values, count_at;
@@ -23,10 +23,10 @@ constexpr GroupDataset kGroupDatasets[] = {{752, 2, 5},  {2417, 2, 6}, {2429, 2,
                                            {2430, 2, 7}, {2432, 2, 7}, {2435, 4, 7},
                                            {2452, 4, 7}, {2467, 4, 7}, {2477, 4, 7}};
 
-/// The meaning of an element descriptor: the shape (none for beams and other ignored elements), and the
-/// number of nodes listed for each one read; cubic faces are reduced to their corners. Plane stress 41-46,
-/// plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96 are numbered alike:
-/// triangles linear, quadratic and cubic, then quadrilaterals.
+/// What an element descriptor means: the shape (none for beams and other ignored elements), and `step`. Of
+/// the nodes in the file, each `step`-th is read, so that cubic faces are reduced to their corners. Plane
+/// stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96 are
+/// numbered alike: first linear, quadratic and cubic triangles, then quadrilaterals.
 struct ElementKind {
     std::optional<DeckShape> shape;
     std::size_t step = 1;
@@ -58,7 +58,7 @@ public:
     void read()
     {
         std::size_t datasets = 0;
-        std::string_view between; // the first line of only numbers since the last dataset
+        std::string_view between; // the first line since the last dataset that has numbers only
         for (std::string_view line; !(line = cursor_.full_line()).empty();) {
             const std::size_t begin = cursor_.last();
             if (line != kMark) {
@@ -71,8 +71,7 @@ public:
             }
             ++datasets;
             const std::string_view head = cursor_.full_line();
-            // If this mark is the last of its dataset, these numbers are a dataset whose first mark is
-            // missing.
+            // If this mark ends a dataset, the numbers before it are a dataset whose first mark is missing.
             if (!between.empty() && (head.empty() || head == kMark))
                 cursor_.fail_at(static_cast<std::size_t>(between.data() - whole_.data()),
                                 "expected -1, which begins a dataset, found {}", found(shown(between)));
@@ -83,7 +82,7 @@ public:
         }
         if (datasets == 0) cursor_.fail_at(0, "expected -1, which begins a dataset, found none");
         const TagPlaces tags(into_.deck().point_tags, [&](Index, Index node) {
-            cursor_.fail("{} of the file has the tag of one before", numbered("node", node + 1));
+            cursor_.fail("{} of the file has the same tag as an earlier one", numbered("node", node + 1));
         });
         for (const auto& [frame, position] : frames_used_)
             if (frames_turned_.contains(frame))
@@ -100,7 +99,7 @@ public:
     }
 
 private:
-    /// @return  false: the dataset is not part of the mesh.
+    /// Read a dataset. @return  false if it is not part of the mesh.
     bool read_dataset(int dataset)
     {
         const auto group = std::ranges::find(kGroupDatasets, dataset, &GroupDataset::number);
@@ -120,8 +119,8 @@ private:
                dataset == 2412 || group != std::end(kGroupDatasets);
     }
 
-    /// Coordinate frames that rotate or shift coordinates: part, its name, then label, name and four rows of
-    /// each.
+    /// Read coordinate frames, of which some rotate or shift coordinates. The dataset has a part and its
+    /// name, then for each frame a label, a name and four rows.
     void read_frames()
     {
         if (!more_lines() || !more_lines()) return;
@@ -140,7 +139,7 @@ private:
         }
     }
 
-    /// The next line of the dataset as `line_`; false at its end.
+    /// Read the next line of the dataset into `line_`. @return  false at the end of the dataset.
     bool more_lines()
     {
         if (cursor_.at_end()) cursor_.fail("the file ends within a dataset; expected -1");
@@ -148,7 +147,7 @@ private:
         return line_ != kMark;
     }
 
-    /// Read the next line of the dataset as words.
+    /// Split the next line of the dataset into words.
     bool next_line()
     {
         do {
@@ -175,7 +174,7 @@ private:
             cursor_.fail("expected {} numbers of {}, found {}", needed(least), what, found(numbers_.size()));
     }
 
-    /// A tag or a small number.
+    /// A tag or another small whole number.
     Index whole(std::size_t at) const
     {
         const auto value = parse_integer<Index>(numbers_[at]);
@@ -191,7 +190,7 @@ private:
         read_node(tag, 0);
     }
 
-    /// @param first  index of x in the line.
+    /// @param first  index of x among the numbers of the line.
     void read_node(Index tag, std::size_t first)
     {
         expect_numbers(first + 3, "a node");
@@ -272,9 +271,9 @@ private:
     DeckBuilder& into_;
     std::string_view line_;
     std::vector<std::string_view> numbers_;    ///< words of the line
-    std::string_view whole_;                   ///< the file
+    std::string_view whole_;                   ///< the whole file
     std::string text_;                         ///< datasets that are not part of the mesh
-    std::map<int, std::string> others_;        ///< elements other than shells and solids, by dataset
+    std::map<int, std::string> others_;        ///< elements that are no shells or solids, by dataset
     std::map<Index, std::size_t> frames_used_; ///< frames used by nodes, and the place of their first use
     std::set<Index> frames_turned_;
 };

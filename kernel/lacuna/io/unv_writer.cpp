@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <charconv>
 
-// Datasets 2411 (nodes), 2412 (elements) and 2467 (groups) follow those kept as text. Integers are I10, real
-// numbers D25.16, which holds all 17 digits.
+// Datasets 2411 (nodes), 2412 (elements) and 2467 (groups) follow the datasets that are kept as text.
+// Integers have the format I10, real numbers D25.16, which holds all 17 digits.
 
 namespace lacuna::io {
 
@@ -52,7 +52,7 @@ std::string columns(std::initializer_list<long long> numbers)
     return text + "\n";
 }
 
-/// Dataset 164: a length in the file is one in metres times the first factor.
+/// Dataset 164. Its first factor converts lengths in metres to lengths in the file.
 std::string units(const MeshView& view, const std::string& unit)
 {
     const std::string begin = std::string(kMark) + "   164\n";
@@ -60,7 +60,7 @@ std::string units(const MeshView& view, const std::string& unit)
     char factors[3 * kReal + kNumberBytes];
     char* out = put_double(factors, 1 / metres_of(unit));
     for (const double one : {1.0, 1.0}) out = put_double(out, one);
-    constexpr int kOwn = 9; // units that the dataset defines itself
+    constexpr int kOwn = 9; // number for units that the dataset defines itself
     return begin + formatted("{:>10}{:<20}{:>10}\n", kOwn, unit, 2) + std::string(factors, out) + "\n" +
            "   0.0000000000000000D+00\n" + std::string(kMark);
 }
@@ -106,7 +106,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
     file.sections.push_back(section_of_cells(view, b, (nodes + 7) * kNumberBytes + 4, put));
 }
 
-/// Add the members of one kind, two per line.
+/// Add the members of a set, two on each line.
 void add_members(const View& view, std::size_t set, std::string head, DeckFile& file)
 {
     const int kind = view->sets[set].kind == mesh::SetKind::nodes ? kUnvNode : kUnvElement;
@@ -124,7 +124,8 @@ void add_members(const View& view, std::size_t set, std::string head, DeckFile& 
 
 DeckFile unv_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
-    constexpr DeckTag kMost = 9'999'999'999; // ten characters: larger numbers would touch the previous number
+    constexpr DeckTag kMost = 9'999'999'999; // ten characters; a larger number would touch the number before
+                                             // it
     check_numbers(*view, kMost, "a universal file", "write another format");
     const std::vector<MeshView::Set>& sets = view->sets;
     DeckFile file;
@@ -142,7 +143,7 @@ DeckFile unv_file(const View& view, const MeshFileOptions& options, const mesh::
     for (std::size_t s = 0; s < sets.size(); ++s) {
         const MeshView::Set& set = sets[s];
         if (set.kind == mesh::SetKind::sides || set.count == 0) continue;
-        // A group of elements and nodes was read as two sets.
+        // A group of elements and nodes was read as two sets: write these as one group.
         const bool two = s + 1 < sets.size() && set.tag > 0 && sets[s + 1].tag == set.tag &&
                          sets[s + 1].name == set.name && sets[s + 1].kind == mesh::SetKind::nodes;
         const std::size_t count = set.count + (two ? sets[s + 1].count : 0);

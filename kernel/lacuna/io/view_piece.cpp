@@ -12,7 +12,7 @@ using mesh::Ranges;
 PieceView piece_of(const std::shared_ptr<const MeshView>& whole, const mesh::ViewParts& parts, Index part)
 {
     struct Piece {
-        std::vector<Ranges> cells; ///< for each block of the whole view
+        std::vector<Ranges> cells; ///< cells of the piece in each block of the whole view
         Ranges points;
     };
     const auto piece = std::make_shared<Piece>();

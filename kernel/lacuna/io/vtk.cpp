@@ -20,7 +20,7 @@ namespace {
 
 using mesh::MeshView;
 
-/// The index in a cell of node `k` of VTK, whose wedges have the triangle 0-1-2 facing away from 3-4-5.
+/// The index in a cell of VTK's node `k`. In VTK's wedges the triangle 0-1-2 faces away from 3-4-5.
 std::size_t place_of_node(DeckShape shape, std::size_t k)
 {
     constexpr std::array<std::size_t, 6> kWedge{0, 2, 1, 3, 5, 4};
@@ -40,10 +40,10 @@ std::size_t list_size(const MeshView& view)
     return sum;
 }
 
-/// Writes the records of the cells [begin, end) of a block.
+/// Writes the records of the cells [begin, end) of a block to `out`.
 using FillBlock = std::function<char*(std::size_t block, std::size_t begin, std::size_t end, char* out)>;
 
-/// One section for each block. @param bytes  bytes of a record, by block
+/// Make one section for each block. @param bytes  returns the size of a record of a block
 std::vector<Section> by_blocks(const MeshView& view,
                                const std::function<std::size_t(const MeshView::Block&)>& bytes,
                                const FillBlock& fill)
@@ -59,7 +59,7 @@ std::vector<Section> by_blocks(const MeshView& view,
     return sections;
 }
 
-/// Write one value `of(entity)` for each cell of an entity.
+/// Writes one value `of(entity)` for each cell.
 template <class Of, class Put>
 FillBlock by_entity(const View& view, Of of, Put put_one)
 {
@@ -137,9 +137,9 @@ std::string escaped(std::string_view name)
     return text;
 }
 
-/// The order of the arrays in the appended data. meshio 5 finds an array by its offset, and reads a wrong one
-/// if the offset equals the base64 offset of an earlier array. The order is changed to avoid such equal
-/// offsets.
+/// Choose the order of the arrays in the appended data. meshio 5 finds an array by its offset. It reads a
+/// wrong array if the offset equals the base64 offset of an earlier array. The order is changed to avoid such
+/// equal offsets.
 std::vector<std::size_t> order_behind(const std::vector<VtuArray>& arrays)
 {
     constexpr int kTries = 5000; // covers all orders of six arrays, and limits the time
@@ -212,7 +212,8 @@ std::vector<Section> xml_sections(const MeshView& view, std::vector<VtuArray> ar
 {
     std::string text = opening("UnstructuredGrid") + ">\n";
     if (!view.lists.empty()) text += "<FieldData>\n";
-    // As text: they are short, and more binary arrays are harder to order, see `order_behind()`.
+    // Lists are written as text: they are short, and more binary arrays are harder to order, see
+    // `order_behind()`.
     for (const auto& [name, values] : view.lists) {
         text += formatted("<DataArray type=\"Int32\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">",
                           escaped(name), values.size());
@@ -246,7 +247,7 @@ std::vector<Section> xml_sections(const MeshView& view, std::vector<VtuArray> ar
     return sections;
 }
 
-/// The arrays of a view. @param ghosts  piece whose ghosts are marked; null: none
+/// The arrays of a view. @param ghosts  the piece whose ghosts are marked; null: none are
 std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = nullptr)
 {
     using Place = VtuArray::Place;
@@ -290,7 +291,7 @@ std::vector<VtuArray> arrays_of(const View& view, const PieceView* ghosts = null
                               });
                               return out;
                           })});
-    std::vector<std::size_t> before{0}; // list entries before each block
+    std::vector<std::size_t> before{0}; // number of list entries before each block
     for (const MeshView::Block& block : view->blocks)
         before.push_back(before.back() + block.count * size_of(block));
     of_cells(Place::cells, "type=\"Int64\" Name=\"offsets\"", 8,
@@ -351,7 +352,7 @@ char* end_line(char* out, bool binary)
     return out;
 }
 
-/// A name without blanks. As in VTK, special characters are percent-encoded: %20.
+/// Percent-encode blanks and special characters of a name, as VTK does: %20.
 std::string vtk_name(std::string_view name)
 {
     constexpr std::string_view kHex = "0123456789ABCDEF";
@@ -451,7 +452,7 @@ std::vector<Section> vtk_sections(const View& view, bool binary, const std::stri
     return all;
 }
 
-/// The mesh with shapes that VTK has: its pyramids have no node in the centre of the base alone.
+/// The mesh with shapes that VTK has. VTK has no pyramid with a centre node in its base.
 View vtk_view(const View& view, std::vector<std::string>& notes)
 {
     auto own = std::make_shared<MeshView>(*view);

@@ -44,8 +44,8 @@ constexpr VtkType kTypes[] = {
     type_of<std::int64_t>("vtktypeint64", ""), type_of<std::uint64_t>("vtktypeuint64", ""),
     type_of<std::int32_t>("vtktypeint32", ""), type_of<std::int64_t>("vtkIdType", "")};
 
-/// Cells by VTK's type numbers: shapes that are kept, cells that are split into faces, lists of corners, and
-/// others.
+/// How cells of a VTK type are read: as a shape; as cells that are split into faces; as lists of corners; or
+/// not at all.
 enum class Kind { shape, polygon, pixel, voxel, strip, other };
 struct CellType {
     std::int64_t number;
@@ -73,7 +73,7 @@ constexpr CellType kFurtherTypes[] = {
     {37, Kind::shape, 19, pyramid14},
     {41, Kind::other, 4},
     {42, Kind::other, 4},
-    // Lagrange cells, of any order
+    // Lagrange cells of any order
     {68, Kind::other, 2},
     {69, Kind::shape, 3, tri3},
     {70, Kind::shape, 4, quad4},
@@ -87,7 +87,7 @@ std::optional<CellType> find_type(std::int64_t number)
 {
     if (const auto shape = shape_numbered(&ShapeWords::vtk, number))
         return CellType{number, Kind::shape, shape_info(*shape).nodes, *shape};
-    // Bézier cells have the numbers of Lagrange cells plus seven.
+    // Bézier cells have the numbers of the Lagrange cells plus seven.
     const auto known = std::ranges::find(kFurtherTypes, number >= 75 && number <= 81 ? number - 7 : number,
                                          &CellType::number);
     if (known == std::end(kFurtherTypes)) return {};
@@ -155,7 +155,7 @@ void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& curs
             if (!known) cursor.fail("{}: the cell type {} is not known", name(c), cells.types[c]);
             type = *known;
         }
-        // Runs of cells of one type are taken together; lists of corners one by one.
+        // Consecutive cells of one type are read together. Cells with lists of corners are read one by one.
         next = c + 1;
         const bool list = type.kind == Kind::polygon || type.kind == Kind::strip;
         while (!list && next < cells.ends.size() && cells.types[next] == type.number) ++next;

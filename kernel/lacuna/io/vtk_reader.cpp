@@ -9,7 +9,7 @@
 namespace lacuna::io {
 namespace {
 
-/// Reads the geometry of a legacy file; data of points and cells follow and are ignored.
+/// Reads the geometry of a legacy file. The data of points and cells come after it and are ignored.
 class VtkReader {
 public:
     VtkReader(Cursor& cursor, DeckBuilder& into) : cursor_(cursor), into_(into) {}
@@ -29,7 +29,7 @@ public:
         while (cursor_.more()) {
             const std::string_view word = cursor_.word();
             if (same_word(word, "CELL_DATA") || same_word(word, "POINT_DATA")) {
-                // The first array of files with groups, see `note_groups()`.
+                // In files with groups, this is the first array; see `note_groups()`.
                 const std::string_view next = cursor_.rest().substr(0, 64);
                 if (next.find("\nSCALARS entity int") != std::string_view::npos) note_groups(groups_, into_);
                 break;
@@ -64,7 +64,7 @@ private:
             read_lists(cells_.ends, cells_.points);
             into_.pass_over(same_word(word, "LINES") ? "lines" : "vertices", cells_.ends.size());
         } else if (same_word(word, "CELLS")) {
-            if (!unstructured_.empty()) cursor_.fail("a second section CELLS");
+            if (!unstructured_.empty()) cursor_.fail("the section CELLS occurs twice");
             read_lists(unstructured_, unstructured_points_);
         } else if (same_word(word, "CELL_TYPES")) {
             const std::uint64_t count = cursor_.size();
@@ -74,13 +74,13 @@ private:
         } else if (same_word(word, "FIELD")) {
             skip_field();
         } else {
-            cursor_.fail("expected a section, as POINTS or CELLS, found {}", found(shown(word)));
+            cursor_.fail("expected a section such as POINTS or CELLS, found {}", found(shown(word)));
         }
     }
 
     void read_points()
     {
-        if (!into_.points().empty()) cursor_.fail("a second section POINTS");
+        if (!into_.points().empty()) cursor_.fail("the section POINTS occurs twice");
         const std::uint64_t count = cursor_.size();
         if (!is_index(count)) cursor_.fail("too many points");
         const VtkType& type = needed_type(cursor_.word("a type of numbers"));
@@ -91,19 +91,20 @@ private:
             points.resize(count);
             if (count > 0) type.reals(bytes.data(), true, 3 * count, points.front().data());
             if (!std::ranges::all_of(points, [](const Vec3& p) { return p.allFinite(); }))
-                cursor_.fail("expected finite coordinates, found one that is none");
+                cursor_.fail("expected finite coordinates, found one that is not finite");
             return;
         }
         const auto take = [&](std::uint64_t i, double value) {
-            if (!std::isfinite(value)) cursor_.fail("expected finite coordinates, found one that is none");
+            if (!std::isfinite(value))
+                cursor_.fail("expected finite coordinates, found one that is not finite");
             if (i % 3 == 0) points.emplace_back();
             points.back()[static_cast<Index>(i % 3)] = value;
         };
         each_value(type, plausible(count, 3 * type.bytes, 3) * 3, take);
     }
 
-    /// Lists of points: each preceded by its length or, from version 5.1 on, first the offsets and then all
-    /// points.
+    /// Read lists of points. Each list follows its length; from version 5.1 on, all offsets come first, then
+    /// all points.
     void read_lists(std::vector<std::int64_t>& ends, std::vector<Index>& points)
     {
         ends.clear();
@@ -184,7 +185,7 @@ private:
         cursor_.line();
     }
 
-    /// A point number; must be valid.
+    /// A point number, checked to be an `Index`.
     Index place_of(std::int64_t value) const
     {
         const auto place = static_cast<Index>(value);
@@ -224,7 +225,7 @@ private:
     {
         const VtkType* type = vtk_type(name);
         if (type == nullptr)
-            cursor_.fail("expected a type of numbers, as float, found {}", found(shown(name)));
+            cursor_.fail("expected a number type such as float, found {}", found(shown(name)));
         return *type;
     }
 
@@ -237,7 +238,7 @@ private:
         return count;
     }
 
-    /// The bytes of an array; they begin on the line after its header.
+    /// The bytes of an array, which begin on the line after its header.
     std::string_view array_bytes(const VtkType& type, std::uint64_t count)
     {
         cursor_.line();
@@ -265,7 +266,8 @@ private:
     bool binary_ = false;
     VtkCells cells_;
     std::vector<std::string_view> groups_;   ///< names of fields of whole numbers
-    std::vector<std::int64_t> unstructured_; ///< ends of CELLS, until their types are known
+    std::vector<std::int64_t> unstructured_; ///< ends of the lists in CELLS, kept until the cells' types are
+                                             ///< known
     std::vector<Index> unstructured_points_;
 };
 

@@ -33,8 +33,9 @@ int base64_value(char c)
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-/// Decode base64 text up to the first character that is not part of it; each padded piece ends with '='.
-/// @param most  number of bytes required; no more are decoded.
+/// Decode base64 text up to the first character that is not base64. The text may consist of several pieces,
+/// each padded with '='.
+/// @param most  number of bytes that are needed; no more are decoded.
 std::string from_base64(std::string_view text, std::uint64_t most)
 {
     std::string bytes;
@@ -98,7 +99,7 @@ public:
 private:
     struct Array {
         const VtkType* type = nullptr;
-        std::string_view format, text; ///< `text`: the content between its tags
+        std::string_view format, text; ///< `text`: the content between its begin and end tags
         std::uint64_t offset = 0;
         std::size_t position = 0;
     };
@@ -107,7 +108,7 @@ private:
         Array at, connectivity, offsets, types;
     };
 
-    /// Read the next tag; false at the end of the file. Comments and declarations are skipped.
+    /// Read the next tag, skipping comments and declarations. @return  false at the end of the file.
     bool next_tag(XmlTag& tag)
     {
         while (cursor_.skip_past("<")) {
@@ -194,7 +195,7 @@ private:
     {
         Array array{vtk_type(tag["type"]), tag["format"], {}, 0, cursor_.last()};
         if (!tag.empty) {
-            // The text contains no '<'; an inner tag such as <InformationKey> ends it.
+            // the text contains no '<': an inner tag such as <InformationKey> ends it
             array.text = cursor_.rest().substr(0, cursor_.rest().find('<'));
         }
         if (section_ == "FieldData" && tag["type"] == "Int32") groups_.push_back(tag["Name"]);
@@ -236,7 +237,7 @@ private:
         cells.ends = wholes(piece.offsets, "offsets", piece.cells);
         cells.types = wholes(piece.types, "types", piece.cells);
         const std::int64_t all = cells.ends.empty() ? 0 : cells.ends.back();
-        if (all < 0) cursor_.fail_at(piece.offsets.position, "expected offsets that rise");
+        if (all < 0) cursor_.fail_at(piece.offsets.position, "expected increasing offsets");
         read_places(piece.connectivity, static_cast<std::uint64_t>(all), cells.points);
         cells.first_cell = cells_;
         cells_ += static_cast<DeckTag>(piece.cells);
@@ -272,7 +273,7 @@ private:
         return static_cast<std::int64_t>(value);
     }
 
-    /// Like `each_run()`, but arrays of floating-point numbers are passed one by one.
+    /// Like `each_run()`, but passes the numbers of floating-point arrays one by one.
     template <class Take, class Run>
     void each_whole(const Array& array, const char* name, std::uint64_t count, const Take& take,
                     const Run& run)
@@ -314,8 +315,8 @@ private:
         });
     }
 
-    /// Read all `count` values of an array in any encoding: `take(value)` is called for values in text,
-    /// `run(bytes, n)` for n values in binary.
+    /// Read all `count` values of an array in any encoding. Values in text are passed one by one to
+    /// `take(value)`, binary values to `run(bytes, n)`, n at a time.
     template <class Take, class Run>
     void each_run(const Array& array, const char* name, std::uint64_t count, const Take& take, const Run& run)
     {
@@ -334,7 +335,8 @@ private:
         if (array.format != "binary" && array.format != "appended")
             fail("expected format ascii, binary or appended, found {}", found(shown(array.format)));
         const bool appended = array.format == "appended";
-        if (appended && array.offset > appended_.size()) fail("the appended data end before it begins");
+        if (appended && array.offset > appended_.size())
+            fail("the array begins after the end of the appended data");
         const std::string_view from = appended ? appended_.substr(array.offset) : array.text;
         if (!compressor_.empty() && compressor_ != "vtkZLibDataCompressor")
             cursor_.fail_at(array.position,
@@ -363,7 +365,7 @@ private:
         return static_cast<std::uint64_t>(number);
     }
 
-    /// Blocks that are compressed separately, preceded by a list of their lengths.
+    /// Read values from blocks that are compressed separately. A list of their lengths precedes them.
     template <class Fail, class Run>
     void each_compressed(const Array& array, std::string_view from, bool raw, std::uint64_t count,
                          const Fail& fail, const Run& run)
@@ -392,7 +394,7 @@ private:
         const std::string_view all = raw ? from.substr(0, packed) : std::string_view(bytes);
         if (all.size() < packed)
             fail("the file is cut off: expected {} bytes, found {}", needed(packed), found(all.size()));
-        std::string left; // bytes of a value that continues in the next block
+        std::string left; // the start of a value that continues in the next block
         std::uint64_t taken = 0;
         for (std::uint64_t b = 0, at = (3 + blocks) * width; b < blocks; ++b) {
             const std::uint64_t length = whole(list, 3 + b);
@@ -413,7 +415,7 @@ private:
                  found(taken == count ? "more" : std::to_string(taken)));
     }
 
-    // 2^53: up to here a double holds every whole number.
+    // 2^53: a double can represent every whole number up to this.
     static constexpr double kMostWhole = 9007199254740992.0;
 
     Cursor& cursor_;

@@ -25,7 +25,7 @@ namespace lacuna::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// The path itself, or the target of a link, so that the link is kept.
+/// The path itself or, if it is a link, its target, so that the link is kept.
 fs::path resolved(const std::string& path)
 {
     std::error_code ignored;
@@ -40,14 +40,15 @@ fs::path resolved(const std::string& path)
 {
     throw InvalidInput(Message("io.no_folder", "the folder '{}' cannot be used: {}", path,
                                std::generic_category().message(error))
-                           .remedy("create it first, or name another place"));
+                           .remedy("create it first, or give another path"));
 }
 
-/// Beginning of the names of temporary files next to the path, before the number of the process: `unfinished`
-/// files are still being written; `replacing` files are complete and about to replace one.
+/// Beginning of the name of a temporary file next to the path; the number of the process follows. State
+/// "unfinished": the file is still being written. State "replacing": it is complete and about to replace a
+/// file.
 std::string prefix_beside(const std::string& name, const char* state)
 {
-    // The temporary name must not exceed the file system's limit, whatever the length of `name`.
+    // The temporary name must not exceed the file system's limit, however long `name` is.
     constexpr std::size_t kLongest = 200;
     return "." + name.substr(0, kLongest) + "." + state + "-";
 }
@@ -60,7 +61,7 @@ std::string numbered(const std::string& prefix, std::uint64_t number)
     return formatted("{}{}-{}", prefix, ::getpid(), number);
 }
 
-/// A number that this process has not used before.
+/// A number that nobody has used before in a name, with high probability.
 std::uint64_t new_number()
 {
     std::uint64_t number = 0;
@@ -70,8 +71,8 @@ std::uint64_t new_number()
     return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Whether the process that wrote a file has ended: running processes hold a lock on theirs. On file systems
-/// without locks, no file counts as abandoned.
+/// Whether the process that wrote a file has ended. A running process holds a lock on its file. On file
+/// systems without locks, no file counts as abandoned.
 bool is_abandoned(int folder, const char* name)
 {
     const int descriptor = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -81,14 +82,14 @@ bool is_abandoned(int folder, const char* name)
     return locked;
 }
 
-/// Age after which a file without writes counts as abandoned [s], since its process may run on another
-/// machine, where its number is meaningless. A lower value could remove files of slow writers; a higher one
-/// keeps remains longer.
+/// Age after which a file without writes counts as abandoned [s]. The number of its process does not help,
+/// because that process may run on another machine. A lower value could remove files of slow writers; a
+/// higher one keeps abandoned files longer.
 constexpr std::time_t kLeftOver = 3600;
 
-/// Files larger than the system's memory divided by this bypass the page cache. The system lets about a fifth
-/// of its memory wait for the disk before writers must wait, so larger files take the disk's time anyway. Not
-/// measured.
+/// Files bypass the page cache if they are larger than the system's memory divided by this. The system lets
+/// about a fifth of its memory wait for the disk before writers must wait, so larger files take the disk's
+/// time anyway. Not measured.
 constexpr std::uint64_t kCachedShare = 8;
 
 std::uint64_t share_of_memory()
@@ -126,7 +127,7 @@ OutputPath OutputPath::below(const std::shared_ptr<const Folder>& folder, const 
     fs::path inside = fs::path(path);
     if (inside.is_absolute()) {
         inside = inside.lexically_relative(folder->path());
-        if (inside.empty() || *inside.begin() == "..") throw outside("it is a path of another place");
+        if (inside.empty() || *inside.begin() == "..") throw outside("it leads to another place");
     }
     OutputPath result(path);
     result.folder_ = folder;
@@ -162,13 +163,13 @@ std::pair<std::shared_ptr<const Folder>, std::string> OutputPath::place() const
     if (!fs::is_directory(parent, ignored))
         throw InvalidInput(
             Message("io.no_folder", "cannot write '{}': there is no folder '{}'", path_, parent.string())
-                .remedy("create it first, or name another place"));
+                .remedy("create it first, or give another path"));
     return {std::make_shared<const Folder>(parent.string()), target.filename().string()};
 }
 
 WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text()), cached_(share_of_memory())
 {
-    if (path_.empty()) throw InvalidInput("io.no_path", "no file name was given to write to");
+    if (path_.empty()) throw InvalidInput("io.no_path", "no file name was given");
     std::tie(folder_, name_) = path.place();
     struct stat before = {};
     const bool exists = ::fstatat(folder_->descriptor(), name_.empty() ? "." : name_.c_str(), &before,
@@ -187,7 +188,7 @@ WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text())
 void WholeFile::open_unnamed()
 {
 #ifdef O_TMPFILE
-    // A nameless file can get a name only through /proc without privileges.
+    // Without privileges, a nameless file can get a name only through /proc.
     if (::access("/proc/self/fd", X_OK) != 0) return;
     descriptor_ = ::openat(folder_->descriptor(), ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
 #endif
@@ -226,7 +227,7 @@ void WholeFile::open_named()
         const bool runs = ::kill(file.process, 0) == 0 || errno != ESRCH;
         return !runs && std::time(nullptr) - file.written >= kLeftOver;
     });
-    // Exclusive creation, so that two writers never share a name.
+    // Create the file exclusively, so that two writers never use the same name.
     for (std::uint64_t attempt = 0; descriptor_ < 0; ++attempt) {
         unfinished_ = numbered(prefix, attempt);
         descriptor_ = ::openat(folder_->descriptor(), unfinished_.c_str(),
@@ -256,7 +257,7 @@ void WholeFile::fail(int error)
     Message failed("io.write_failed", "cannot write '{}': {}. No partial file was left", path_,
                    std::generic_category().message(error));
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
-        failed = failed.remedy("make room, or name another disk");
+        failed = failed.remedy("free some space, or write to another disk");
     if (error == EMFILE) failed = failed.remedy("ask for fewer partitions");
     throw BackendError(std::move(failed));
 }
@@ -274,9 +275,9 @@ void WholeFile::reserve(std::uint64_t begin, std::uint64_t end)
 #endif
 }
 
-/// Bypassing the page cache avoids allocating a page for everything written. On a virtual machine that gets
-/// its memory piece by piece, each new page cost ten times the copying: 6 GB took 22 s of processor time, and
-/// 1.5 s if pages are released as soon as the disk has them.
+/// Write some of the bytes. Bypassing the page cache saves a new page for everything that is written. On a
+/// virtual machine that gets its memory piece by piece, each new page costs ten times as much as copying.
+/// Writing 6 GB took 22 s of processor time, and 1.5 s if pages are released as soon as the disk has them.
 ssize_t WholeFile::write_some(std::uint64_t offset, std::string_view bytes)
 {
 #ifdef __linux__
@@ -316,7 +317,8 @@ void WholeFile::append(std::string_view bytes)
 
 void WholeFile::publish_unnamed()
 {
-    // Closing may report errors that writing did not: close a duplicate before the file is moved to its path.
+    // Closing a file may report errors that writing did not. So close a duplicate before the file is moved to
+    // its path.
     const int other = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
     if (other >= 0 && ::close(other) != 0) fail(errno);
     const std::string source = formatted("/proc/self/fd/{}", descriptor_);
@@ -326,13 +328,14 @@ void WholeFile::publish_unnamed()
     };
     if (link_as(name_)) return;
     if (errno != EEXIST) fail(errno);
-    // Linking does not replace an existing file, renaming does, so a temporary name exists for two system
-    // calls. Whether such a name was left over is decided by its lock, because process numbers recur in
-    // containers.
+    // Linking does not replace an existing file, but renaming does. So the file has a temporary name during
+    // two system calls. Whether an old temporary name was left over is decided by the lock, because process
+    // numbers recur in containers.
     ::flock(descriptor_, LOCK_EX | LOCK_NB);
     const std::string prefix = replacing_prefix(name_);
     remove_left_over(prefix, [](const LeftOver& file) { return is_abandoned(file.folder, file.name); });
-    // Use a name that nobody has used: whoever removes an abandoned file then removes no other.
+    // Use a name that nobody has used before. A process that removes an abandoned file then cannot remove
+    // this one.
     const std::string between = numbered(prefix, new_number());
     if (!link_as(between)) fail(errno);
     if (::renameat(folder_->descriptor(), between.c_str(), folder_->descriptor(), name_.c_str()) == 0) return;

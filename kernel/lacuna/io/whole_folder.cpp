@@ -46,7 +46,7 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
         if (!S_ISDIR(before.st_mode))
             throw InvalidInput(
                 Message("io.not_replaced", "cannot write '{}': it exists and is not a folder", path_)
-                    .remedy("remove it, or name another place"));
+                    .remedy("remove it, or give another path"));
         for (const std::string& name : names_in(folder_->descriptor(), name_)) {
             struct stat status = {};
             const std::string inside = name_ + "/" + name;
@@ -58,7 +58,7 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
                     Message("io.not_replaced",
                             "cannot write '{}': the folder already contains '{}', which would be lost", path_,
                             name)
-                        .remedy("move that file away, or name another place"));
+                        .remedy("move that file away, or give another path"));
         }
     } else if (errno != ENOENT) {
         fail(errno);
@@ -95,7 +95,7 @@ void WholeFolder::commit()
         return remove_unfinished(); // now the old folder
     if (errno != EINVAL && errno != ENOSYS) fail(errno);
 #endif
-    // The file system cannot exchange names, so between the two renames there is no folder at the path.
+    // The file system cannot exchange names. So there is no folder at the path between the two renames.
     const std::string before = unfinished_ + "-before";
     if (::renameat(folder, name_.c_str(), folder, before.c_str()) != 0) fail(errno);
     if (::renameat(folder, unfinished_.c_str(), folder, name_.c_str()) != 0) {

@@ -52,8 +52,9 @@ std::span<const std::pair<int, int>> side_corners(CellShape shape);
 /// The corners of each face of a solid, counter-clockwise seen from outside; the fourth is -1 for a triangle.
 std::span<const Quad> face_corners(CellShape shape);
 
-/// A side of a cell as in surfaces: 1, 2, … is a face (of a shell in 3D, an edge) in the numbering of Abaqus;
-/// 0 is the side to which a shell's normal points, -1 the other.
+/// A side of a cell, as in the sets of sides of a file. Numbers 1, 2, … are the faces of a solid or the edges
+/// of a shell, as Abaqus numbers them. For a shell, 0 is the side that its normal points to, and -1 the
+/// opposite side.
 struct CellSide {
     std::int64_t element = 0; ///< number of the cell
     int side = 0;

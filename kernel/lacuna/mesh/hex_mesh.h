@@ -33,8 +33,8 @@ inline constexpr std::array<std::array<std::size_t, 3>, 8> kHexNeighbours{
     {{1, 3, 4}, {0, 2, 5}, {3, 1, 6}, {2, 0, 7}, {5, 7, 0}, {4, 6, 1}, {7, 5, 2}, {6, 4, 3}}};
 
 ///        5           Nodes of a wedge (Gmsh's order): 0..2 lie on the source side, 3..5 above them.
-///       /|\          Functions that take hexahedra get it as one with its last two columns of nodes merged:
-///      3---4         {0, 1, 2, 2, 3, 4, 5, 5}.
+///       /|\          Functions that take hexahedra get a wedge as a hexahedron whose last two columns of
+///      3---4         nodes are merged: {0, 1, 2, 2, 3, 4, 5, 5}.
 ///      | 2 |
 ///      |/ \|
 ///      0---1

@@ -15,7 +15,7 @@ namespace lacuna::mesh {
 /// Computes the nodes of a swept mesh a few layers at a time, instead of storing them. The same call returns
 /// the same bits each time.
 ///
-/// The mesh is a complete `HexMesh` except that `nodes` has those of the source only.
+/// The mesh is a complete `HexMesh`, except that `nodes` holds the source nodes only.
 struct LayeredNodes {
     /// Compute the nodes of levels [first, last) into `out`, (last - first) × nodes_per_layer points. Level 0
     /// is the source, level `layers` the target.

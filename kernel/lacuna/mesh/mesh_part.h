@@ -46,7 +46,7 @@ public:
         return first_ + node - static_cast<Index>(at - known_.begin());
     }
 
-    /// The `i`-th node, from 0, among those that no earlier mesh has.
+    /// The `i`-th node (from 0) of those that no earlier mesh has.
     [[nodiscard]] std::size_t fresh_node(std::size_t i) const
     {
         std::size_t low = 0, high = known_.size(); // number of shared nodes before it
@@ -69,11 +69,12 @@ private:
     std::vector<Index> before_; ///< number of shared nodes before each block
 };
 
-/// Nodes of two groups of faces with the same mesh.
+/// Pairs of matching nodes on two groups of faces that have the same mesh.
 struct PeriodicNodes {
     Eigen::Isometry3d onto =
         Eigen::Isometry3d::Identity();       ///< moves the first node of each pair to the second
-    std::vector<std::array<Index, 2>> pairs; ///< in the numbering of the whole mesh; equal on the axis
+    std::vector<std::array<Index, 2>> pairs; ///< in the numbering of the whole mesh; both nodes are equal on
+                                             ///< the axis
 };
 
 /// One of several swept meshes with shared nodes, which may not store its nodes. Holds references only.

@@ -11,7 +11,7 @@ namespace lacuna::mesh {
 
 namespace {
 
-/// The motion between two levels of nodes: a screw, or none that is rigid.
+/// The motion from one level of nodes to the next. It is known only if it is rigid: a translation or a screw.
 class Step {
 public:
     Step(const HexMesh& mesh, std::size_t layer)
@@ -26,7 +26,7 @@ public:
         const double size = (low.colwise() - low.rowwise().mean().eval()).cwiseAbs().maxCoeff();
         if (!(off <= kSamePlace * size)) return;
         const Eigen::AngleAxisd turn(motion.linear());
-        if (!(turn.angle() > kSamePlace)) return; // a translation: its chords are its tangents
+        if (!(turn.angle() > kSamePlace)) return; // for a translation, tangents are chords
         axis_ = turn.axis();
         stretch_ = turn.angle() / 2 / std::sin(turn.angle() / 2);
         const Eigen::Matrix3d half = Eigen::AngleAxisd(turn.angle() / 2, axis_).toRotationMatrix();
@@ -35,7 +35,7 @@ public:
         turns_ = true;
     }
 
-    /// The point half way, and the direction there.
+    /// The point half way along the motion from `low` to `high`. `direction()` returns the tangent there.
     [[nodiscard]] Vec3 middle(const Vec3& low, const Vec3& high) const
     {
         return turns_ ? Vec3(half_ * low) : Vec3((low + high) / 2);
@@ -49,7 +49,7 @@ public:
 private:
     bool turns_ = false;
     Vec3 axis_ = Vec3::Zero();
-    double stretch_ = 1; ///< of a tangent across the axis over the chord
+    double stretch_ = 1; ///< length of the tangent over that of the chord, both taken normal to the axis
     Eigen::Isometry3d half_ = Eigen::Isometry3d::Identity();
 };
 
@@ -66,7 +66,7 @@ Vec3 centroid(const HexMesh& mesh, std::size_t level)
 {
     const Vec3* const node = mesh.nodes.data() + level * index(mesh.nodes_per_layer);
     Vec3 normal = Vec3::Zero();
-    const auto area = [&](const Quad& q, std::size_t k) { // of the triangle of corners 0, k, k + 1
+    const auto area = [&](const Quad& q, std::size_t k) { // area vector of triangle 0, k, k + 1
         const Vec3& from = node[q[0]];
         return Vec3((node[q[k]] - from).cross(node[q[k + 1]] - from) / 2);
     };
@@ -84,7 +84,8 @@ Vec3 centroid(const HexMesh& mesh, std::size_t level)
     return origin + sum / all;
 }
 
-/// The part of a vector across a direction, of length 1; for a parallel one any direction across.
+/// The component of a vector normal to a direction, scaled to length 1. If the vector is parallel to the
+/// direction, any normal direction is returned.
 Vec3 across(const Vec3& vector, const Vec3& direction, double size)
 {
     const Vec3 part = vector - direction * direction.dot(vector);

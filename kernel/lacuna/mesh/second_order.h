@@ -46,9 +46,9 @@ struct CellNodes {
 /// faces over the source sides and of the cells.
 struct MiddleNodes {
     bool full = false;           ///< true: hex27; false: hex20
-    std::vector<Segment> sides;  ///< of the source quads, each once, lower node first
+    std::vector<Segment> sides;  ///< sides of the source quads, each once, lower node first
     std::vector<Quad> side_of;   ///< for each quad, the number of the side from corner k to the next
-    std::vector<Index> rim_side; ///< for each side in `HexMesh::rim`
+    std::vector<Index> rim_side; ///< for each side in `HexMesh::rim`, its index in `sides`
     std::vector<Vec3> nodes;     ///< [model length]
 
     /// Whether there are no middle nodes: the mesh is of order 1.

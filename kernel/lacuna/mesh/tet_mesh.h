@@ -18,8 +18,8 @@ constexpr bool has_apex(const Hex& hex) { return hex[4] == hex[5] && hex[4] == h
 constexpr bool is_pyramid(const Hex& hex) { return has_apex(hex) && hex[2] != hex[3]; }
 constexpr bool is_tet(const Hex& hex) { return has_apex(hex) && hex[2] == hex[3]; }
 
-/// Places of the corners of a tetrahedron, pyramid, wedge or hexahedron, in the order of `CellShape`, at
-/// those of a hexahedron. @param corners  4, 5, 6 or 8
+/// For a tetrahedron, pyramid, wedge or hexahedron: the index of its corner (in the order of `CellShape`) at
+/// each of the eight corners of a hexahedron. @param corners  4, 5, 6 or 8
 constexpr Hex merged_corners(int corners)
 {
     switch (corners) {
@@ -43,9 +43,9 @@ constexpr CellNodes distinct_corners(const Hex& hex)
     return corners;
 }
 
-/// The nodes of a solid, given in the order of its shape, as `quality::measure_cells()` takes them: those of
-/// a hexahedron as they are, those of others as of a hexahedron of 8 or 20 nodes with merged corners,
-/// followed by the centre of a pyramid's base. Middle nodes of the faces of wedges are left out.
+/// The nodes of a solid, given in the order of its shape, in the form that `quality::measure_cells()` takes.
+/// A hexahedron keeps its nodes. Other shapes become a hexahedron of 8 or 20 nodes with merged corners,
+/// followed by the centre of a pyramid's base. Middle nodes on the faces of wedges are left out.
 CellNodes merged_nodes(CellShape shape, std::span<const Index> nodes);
 
 /// A closed surface of triangles and quads, oriented outward.
@@ -58,7 +58,7 @@ struct ClosedSkin {
 /// Cells that fill a closed skin: tetrahedra, and a pyramid on each of its quads.
 struct TetMesh {
     std::vector<Vec3> nodes; ///< first the points of the skin, as given
-    std::vector<Hex> cells;  ///< as `is_tet()` and `is_pyramid()` say
+    std::vector<Hex> cells;  ///< stored as `is_tet()` and `is_pyramid()` describe
 };
 
 /// Fills a skin; `cad::fill_skin()` does it with Gmsh.
@@ -66,10 +66,10 @@ using TetMesher = std::function<TetMesh(const ClosedSkin&, const RunContext&)>;
 
 /// The middle nodes of pyramids and tetrahedra of order 2. Their numbers follow those of the corners.
 struct TetMiddles {
-    bool full = false;           ///< the base of a pyramid and a quad of the skin have one in their centre
+    bool full = false;           ///< pyramid bases and quads of the skin have a node in their centre
     std::vector<Vec3> nodes;     ///< [model length]
-    std::vector<Index> of_cells; ///< those of each cell, in the order of `CellShape`
-    std::vector<Index> of_skin;  ///< those of each quad and triangle of the skin, likewise
+    std::vector<Index> of_cells; ///< middle nodes of each cell, in the order of `CellShape`
+    std::vector<Index> of_skin;  ///< middle nodes of each quad and triangle of the skin, likewise
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
 };
@@ -84,7 +84,7 @@ struct TetPart {
     std::vector<Index> skin_patch; ///< patch of each quad and triangle of the skin
     std::vector<SkinPatch> patches;
     std::vector<std::string> volume_groups{"volume"}; ///< the first is the name of the region
-    TetMiddles middles;                               ///< empty: of order 1
+    TetMiddles middles;                               ///< empty: the mesh is of order 1
 
     [[nodiscard]] int order() const { return middles.empty() ? 1 : 2; }
     [[nodiscard]] std::size_t cell_count() const { return cells.size(); }
@@ -100,10 +100,10 @@ struct TetPart {
 CellShape cell_shape(const TetPart& mesh, bool is_pyramid);
 CellShape skin_shape(const TetPart& mesh, bool is_quad);
 
-/// All nodes of a cell, in the order of its shape; and as `merged_nodes()`.
+/// All nodes of a cell: in the order of its shape, or in the form of `merged_nodes()`.
 CellNodes cell_nodes(const TetPart& mesh, std::size_t cell);
 CellNodes merged_nodes(const TetPart& mesh, std::size_t cell);
-/// A quad or triangle of the skin, and all its nodes, as of a `HexMesh`.
+/// A quad or triangle of the skin, and all its nodes, as for a `HexMesh`.
 inline SkinQuad skin_quad(const TetPart& mesh, std::size_t i) { return {mesh.skin[i], mesh.skin_patch[i]}; }
 CellNodes skin_nodes(const TetPart& mesh, std::size_t i);
 

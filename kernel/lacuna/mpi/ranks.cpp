@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// MPI waits in a busy loop, which takes a core from working processes; here it is polled with pauses.
+// MPI waits in a busy loop, which takes a core from working processes. So requests are polled with pauses.
 constexpr std::chrono::microseconds kShortest = 20us,
                                     kLongest = 2ms; // short against a task, which takes 0.1 s or more
 
@@ -161,7 +161,7 @@ void Ranks::help(const RunContext& context)
         try {
             team::help(task, bytes, state_->team, context);
         } catch (const std::exception&) {
-            // Rank 0 reports it.
+            // rank 0 reports the failure
         }
     }
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kWriteTask = "write", kPartsTask = "write parts";
 
-/// Serialise a mesh except its nodes and quads, which are in its layer plan.
+/// Serialise a mesh without its nodes and quads, which are sent with its layer plan.
 template <class A, class Mesh>
 void put_mesh(A& with, Mesh& mesh)
 {
@@ -51,7 +51,7 @@ mesh::NodeNumbers read_numbers(Reader& reader, const mesh::HexMesh& mesh)
 }
 
 /// Values of a metric, computed for a range of layers at a time.
-/// @param average_volume  of all cells, for metrics that are relative to it
+/// @param average_volume  mean volume of all cells, for metrics that are relative to it
 io::LayeredField field_of(const mesh::LayeredMesh& layered, quality::Metric metric, double average_volume,
                           const RunContext& context)
 {

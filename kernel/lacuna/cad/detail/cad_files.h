@@ -24,22 +24,22 @@ struct CadOrder {
 /// The names of the files, for messages.
 std::string subject_of(const CadOrder& order);
 
-/// CAD files copied into memory, as they are sent to the CAD process: the bytes that were checked are the
-/// bytes that are read.
+/// CAD files copied into memory and sent to the CAD process. So the CAD process reads exactly the bytes that
+/// were checked here.
 struct CadFiles {
     cad_protocol::LoadRequest request;                 ///< their formats, and the names of their contents
-    std::vector<cad_protocol::Descriptor> descriptors; ///< of all contents
+    std::vector<cad_protocol::Descriptor> descriptors; ///< one for each of the contents
     std::uint64_t bytes = 0;                           ///< size of all contents
     std::uint64_t digest = 0;                          ///< hash of all contents and names
-    std::vector<Message> notes;                        ///< which script commands are skipped
+    std::vector<Message> notes;                        ///< script commands that are skipped
 };
 
-/// The first bytes of a file, `most` at most.
+/// The first bytes of a file: all, or at most the number `most`.
 std::string text_of(const cad_protocol::Descriptor& file, std::size_t most);
 
-/// Open CAD files and check that their contents agree with their endings. A script is parsed: files in the
-/// same folder that it includes or merges are copied too; commands that write files or mesh are removed from
-/// the copy; any other command outside Gmsh's geometry is an error.
+/// Open CAD files and check that their contents agree with their endings. A script is parsed. Files of its
+/// own folder that it includes or merges are copied too. Commands that mesh or write files are removed from
+/// the copy. Any other command that does not belong to Gmsh's geometry is an error.
 /// @throw InvalidInput  not a regular file, not of the format, or a script with a forbidden command; names
 ///                      file and line.
 /// @throw BackendError  a file cannot be read.

@@ -9,14 +9,14 @@
 
 namespace lacuna::cad {
 
-/// The most exact shape known of an edge, as a function of its relative arc length (the share).
+/// The most exact shape that is known for an edge, as a function of its relative arc length (the share).
 class EdgeShape {
 public:
-    /// A given edge is its exact curve, or its polyline if it has no curve. A void edge is straight, or a
-    /// smooth curve through its points.
+    /// The shape of a given edge is its exact curve or, without one, its polyline. The shape of a void edge
+    /// is a straight line, or a smooth curve through its points.
     EdgeShape(const topology::Model& model, EdgeId edge);
 
-    /// Points at shares in [0, 1], counted from `from` to `to` of the edge.
+    /// Points at shares in [0, 1] of the length, counted from the edge's `from` to its `to`.
     [[nodiscard]] std::vector<Vec3> at(std::span<const double> shares) const;
     /// The share, in [0, 1], of each model point on the edge.
     [[nodiscard]] const std::vector<double>& shares() const { return shares_; }

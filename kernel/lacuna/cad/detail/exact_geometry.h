@@ -14,10 +14,11 @@
 
 namespace lacuna::cad {
 
-/// A model held by the CAD process, for the lifetime of this object; shared by its exact curves and surfaces.
+/// A model in the CAD process, kept there as long as this object exists. The exact curves and surfaces of the
+/// model share it.
 ///
-/// If that process has ended, the next request loads the files again, into the process that replaced it. The
-/// files must not have changed; the facets of the model stay as they are. Thread-safe.
+/// If that process has ended, the next request loads the files again into the process that replaced it. The
+/// files must not have changed. The facets of the model stay as they are.
 class CadSource {
 public:
     CadSource(std::shared_ptr<Worker> worker, std::uint64_t handle, CadOrder order, std::uint64_t digest)
@@ -33,13 +34,13 @@ public:
 
     /// Send a request to the process that holds the model.
     /// @param make  makes the request from the handle of the model.
-    /// @throw BackendError  the process ended during this request. "cad.file_changed": it had ended before,
-    ///     and the files have changed since.
+    /// @throw BackendError  the process ended during this request; "cad.file_changed": the process had ended
+    ///        before, and the files have changed since they were loaded.
     /// @throw Cancelled
     template <class Reply, class Make>
     Reply ask(cad_protocol::Opcode opcode, const Make& make, const Task& task) const
     {
-        constexpr int kTries = 3; // limits the restarts of a process that is killed again and again
+        constexpr int kTries = 3; // limits the restarts if the process is killed again and again
         for (int i = 0;; ++i) {
             const Held held = now();
             try {
@@ -53,7 +54,8 @@ public:
 
     /// The running process that holds the model; null if it has ended.
     [[nodiscard]] std::shared_ptr<Worker> worker() const;
-    /// The handle of the model in `worker`, which reads the files first if needed. @throw as ask()
+    /// The handle of the model in `worker`, which loads the files first if it does not hold them. @throw as
+    /// ask()
     std::uint64_t handle_in(const std::shared_ptr<Worker>& worker, const RunContext& context) const;
 
     [[nodiscard]] const std::string& path() const { return path_; }
@@ -78,7 +80,7 @@ private:
 /// A face or curve of a loaded model.
 struct CadEntity {
     std::shared_ptr<const CadSource> source;
-    int tag = 0; ///< in the source file
+    int tag = 0; ///< tag of the entity in the source file
 };
 
 /// A face of a loaded model, as an exact surface.
@@ -91,7 +93,7 @@ public:
 /// A curve of a loaded model, as an exact curve.
 class CadCurve final : public geometry::ExactCurve, public topology::BesideLeftOut, public CadEntity {
 public:
-    /// @param plain  an equivalent line or arc, evaluated without the CAD process.
+    /// @param plain  the same curve as a line or arc, which is evaluated without the CAD process.
     CadCurve(CadEntity entity, geometry::PlainCurve plain, std::vector<topology::LeftOutFace> left_out)
         : CadEntity(std::move(entity)), plain_(std::move(plain)), left_out_(std::move(left_out))
     {

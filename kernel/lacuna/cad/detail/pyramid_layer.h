@@ -7,7 +7,7 @@
 
 namespace lacuna::cad {
 
-/// A side of a face of a skin, in the direction of the face. Triangles are numbered first, then quads.
+/// A side of a face of the skin, directed as in the face. Faces are numbered: first triangles, then quads.
 struct SkinSide {
     Index from = -1, to = -1, face = -1;
 };
@@ -16,19 +16,21 @@ std::vector<SkinSide> skin_sides(const mesh::ClosedSkin& skin);
 
 /// The triangles that remain to be filled with tetrahedra once each quad has a pyramid.
 struct PyramidLayer {
-    std::vector<Vec3> points;                      ///< those of the skin, then the apex of each quad
-    std::vector<std::vector<Triangle>> face_sides; ///< per face of the skin: itself, or the pyramid's four
+    std::vector<Vec3> points;                      ///< the points of the skin, then the apex of each quad
+    std::vector<std::vector<Triangle>> face_sides; ///< for each face of the skin: the triangle itself, or the
+                                                   ///< four sides of its pyramid
 };
 
 /// Place a pyramid on each quad of a closed skin.
 ///
 /// Gmsh makes pyramids too, but starts with the apexes in the quads. On 24 distorted blocks of hexahedra it
-/// left inverted pyramids in 19, 2.6 times as many tetrahedra, and a third of the least scaled Jacobian.
+/// left inverted pyramids in 19 of them, made 2.6 times as many tetrahedra, and reached a third of the least
+/// scaled Jacobian.
 ///
-/// An apex stands above the centre of its quad. Its height is half the side of a square of the same area,
-/// less where a pyramid would take more than a third of the angle to a neighbouring face or of the distance
-/// to the opposite one, and more where a warped quad needs it. Pyramids that still cross another face are
-/// lowered.
+/// An apex stands above the centre of its quad. Its height is half the side of a square of the same area. It
+/// is lower where the pyramid would take more than a third of the angle to a neighbouring face or of the
+/// distance to the opposite face. It is higher where a warped quad needs it. Pyramids that still cross
+/// another face are lowered.
 /// @throw NotSweepable  a quad that is not convex ("cad.skin_quad"), or faces of the skin that cross
 ///                      ("cad.skin_crosses"); both give the place.
 PyramidLayer place_pyramids(const mesh::ClosedSkin& skin, const std::vector<SkinSide>& sides,

@@ -23,17 +23,17 @@ struct SkippedCommand {
 /// Result of `look_through_script()`: the files that a script reads, and the commands to remove from it.
 struct ScriptContent {
     std::vector<ScriptFile> files;
-    /// Commands that write files, run plugins or mesh, and all from `Exit` on; in order.
+    /// In order: commands that write files, run plugins or mesh, and everything from `Exit` on.
     std::vector<SkippedCommand> skipped;
 };
 
-/// Parse a Gmsh script before it is run: find the files that it includes or merges, which must be names
-/// without a folder, and the commands to remove.
+/// Parse a Gmsh script before it is run. Find the files that it includes or merges, which must be in the
+/// script's own folder, and the commands to remove.
 ///
-/// The sandbox of the CAD process blocks programs, other files and writing in any case. Parsing first gives
-/// an error that names the line, and lets scripts through that also mesh or write files.
-/// @throw InvalidInput  "cad.script": the script runs programs, ends under a condition, names a file in
-///                      another folder or by an expression, or has no ';' after a command to remove.
+/// The sandbox of the CAD process blocks programs, other files and writing anyway. Parsing first gives an
+/// error that names the line. It also lets scripts through that mesh or write files besides making geometry.
+/// @throw InvalidInput  "cad.script": the script runs programs, ends inside a condition, names a file in
+///        another folder or by an expression, or lacks the ';' after a command to remove.
 ScriptContent look_through_script(const std::string& path, std::string_view text);
 
 } // namespace lacuna::cad

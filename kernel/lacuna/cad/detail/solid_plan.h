@@ -9,24 +9,25 @@
 
 namespace lacuna::cad {
 
-/// The CAD models that the exact faces of a volume come from, and the entities of each that a solid needs.
+/// The CAD models that contain the exact faces of a volume, and the entities of each model that a solid
+/// needs.
 struct SolidSources {
     std::shared_ptr<Worker> worker; ///< holds all the models; null if no face has an exact surface
     std::vector<const CadSource*> order;
     std::vector<cad_protocol::SolidSource> wanted; ///< one for each model
 };
-/// Load all CAD models of a volume into one process. Until then several processes may hold them, and some of
+/// Load all CAD models of a volume into one process. Before, several processes may hold them, and some of
 /// these may have ended.
 /// @throw BackendError  a file has changed since, or cannot be read. Cancelled.
 SolidSources sources_of(const topology::Model& model, const RunContext& context);
 
-/// How a sealed volume is made into a solid: each face is an exact face, a plane, spline patches or a filled
-/// surface, with the edges that these need.
+/// How a sealed volume is made into a solid. Each face becomes an exact face, a plane, spline patches or a
+/// filled surface, with the edges that it needs.
 struct SolidPlan {
-    cad_protocol::MakeSolidRequest request; ///< with the points, edges, faces and the diagonal
+    cad_protocol::MakeSolidRequest request; ///< contains the points, edges, faces and the diagonal
     std::size_t planes = 0, fitted = 0;     ///< number of void faces made as planes, and as fitted surfaces
 };
-/// @param found  which entities of the sources exist in the CAD process.
+/// @param found  the entities of the sources that exist in the CAD process.
 /// @throw InvalidInput  a face is curved and has no exact surface; names it.
 SolidPlan plan_solid(const topology::OpenVolume& volume, const SolidSources& sources,
                      const cad_protocol::BeginSolidReply& found, const RunContext& context);

@@ -22,7 +22,7 @@ SplineAxisData even_axis(std::size_t count);
 SplineAxisData axis_of_spans(std::size_t spans, int degree);
 /// Values of all basis functions at a parameter: one for each pole.
 Eigen::VectorXd basis(const SplineAxisData& axis, double parameter);
-/// A row of these for each parameter.
+/// The values of all basis functions at several parameters, one row for each.
 Eigen::MatrixXd basis_rows(const SplineAxisData& axis, std::span<const double> parameters);
 Vec3 point_at(const SplineCurveData& curve, double parameter);
 
@@ -37,8 +37,8 @@ using CurveFunction = std::function<std::vector<Vec3>(std::span<const double>)>;
 using SurfaceFunction =
     std::function<std::vector<Vec3>(std::span<const double> u, std::span<const double> v)>;
 
-/// Interpolate a function at equidistant parameters. Their number is doubled until the spline deviates by at
-/// most `precision` halfway between them, or until a fixed maximum. A straight line gets degree 1.
+/// Interpolate a function at equidistant parameters. Their number is doubled until, half way between them,
+/// the spline deviates by at most `precision`, or until a maximum is reached. A straight line gets degree 1.
 SplineCurveData approximate(const CurveFunction& function, double precision);
 SplineSurfaceData approximate(const SurfaceFunction& function, double precision);
 

@@ -27,12 +27,13 @@ struct Task {
     std::uint64_t bytes = 0;  ///< size of the files sent with the request
     std::uint64_t points = 0; ///< number of points sent with the request
     const RunContext* context = nullptr;
-    double grace = 0;                    ///< how long the request may continue after it is cancelled [s]
+    double grace = 0;                    ///< time that the request may continue after it is cancelled [s]
     const char* stage = "";              ///< stage that is reported as progress
-    std::optional<NamedEntity> entity{}; ///< in messages after `doing`: "projecting points onto face 3"
+    std::optional<NamedEntity> entity{}; ///< appended to `doing` in messages: "projecting points onto face 3"
 };
 
-/// The process had ended before the request was sent: nothing was done, so another process can be asked.
+/// The process had ended before the request was sent. Nothing was done, so another process can get the
+/// request.
 class WorkerGone : public BackendError {
 public:
     using BackendError::BackendError;
@@ -41,13 +42,14 @@ public:
 /// A CAD process (lacuna-cad), started at the first request and kept.
 ///
 /// It may end at any time (a crash, a limit, a signal). The request in progress then fails with a
-/// BackendError that says how it ended, and later requests to this object with WorkerGone; `current()`
-/// starts another one. A process that failed to load a file or to mesh still serves the models it holds but
-/// loads no more. Thread-safe: requests are serialised. A child made by fork() starts its own process.
+/// BackendError that says how the process ended. Later requests to this object fail with WorkerGone;
+/// `current()` starts another process. A process that failed to load a file or to mesh still serves the
+/// models it holds, but it loads no others. Thread-safe: requests are serialised. A child made by fork()
+/// starts its own process.
 class Worker {
 public:
     /// The running process, started if there is none.
-    /// @param subject  what it is needed for, usually a file, for the message.
+    /// @param subject  what the process is needed for, usually a file; for the message.
     /// @throw BackendError  "cad.no_worker": the program is not found or does not start; names the subject.
     static std::shared_ptr<Worker> current(const RunContext* context = nullptr,
                                            const std::string& subject = {});
@@ -83,7 +85,7 @@ public:
 private:
     explicit Worker(const RunContext* context);
 
-    /// Notice that the process has ended by itself, and clean up. @pre `busy_` is held
+    /// Check whether the process has ended by itself, and if so, clean up. @pre `busy_` is held
     void notice_end() noexcept;
     std::unique_lock<std::timed_mutex> enter(const Task& task);
     cad_protocol::Frame exchange(cad_protocol::Opcode opcode, const std::string& bytes, const Task& task,
@@ -91,7 +93,7 @@ private:
     void flush_released();
     void limit_memory(std::uint64_t bytes) const;
     /// Kill the process if it is running, and record how it ended.
-    /// @param why  the reason, for messages of later calls; empty: they give the exit status.
+    /// @param why  the reason, which messages of later calls give; empty: they give the exit status.
     void end(std::string why = {}) noexcept;
     [[nodiscard]] std::string how_it_ended() const;
     [[nodiscard]] std::string last_words() const;
@@ -101,13 +103,14 @@ private:
     std::timed_mutex busy_; ///< held during a request
     std::unique_ptr<cad_protocol::Channel> channel_;
     cad_protocol::Descriptor process_; ///< a pidfd
-    cad_protocol::Descriptor words_;   ///< its output
+    cad_protocol::Descriptor words_;   ///< file that receives the output of the process
     cad_protocol::Hello hello_;
     pid_t pid_ = 0;
-    pid_t owner_ = 0;                 ///< the process that started it (the host)
-    bool ended_ = false;              ///< by itself or killed by us; guarded by `busy_`
-    int status_ = 0;                  ///< its exit status, as from wait()
-    std::string end_;                 ///< why we killed it
+    pid_t owner_ = 0;                 ///< the process that started it: the host
+    bool ended_ = false;              ///< the process ended by itself or was killed by this object; guarded
+                                      ///< by `busy_`
+    int status_ = 0;                  ///< exit status of the process, as from wait()
+    std::string end_;                 ///< why this object killed it
     std::atomic<bool> spent_ = false; ///< loading or meshing failed, so the state of Gmsh is unknown
     std::mutex released_mutex_;
     std::vector<std::uint64_t> released_;

@@ -51,13 +51,14 @@ struct Failure {
 
 /// A file sent with the message as a descriptor.
 struct SentFile {
-    std::string name; ///< without a folder; the name by which scripts include it; gives Gmsh its format
+    std::string name; ///< without a folder; scripts include the file by this name, and its ending gives Gmsh
+                      ///< the format
 };
 
 struct LoadFile {
     enum Format : std::uint8_t { step, iges, brep, script };
     std::uint8_t format = step;
-    std::string path;               ///< as given by the user, for messages
+    std::string path;               ///< path as the user gave it, for messages
     std::vector<SentFile> contents; ///< the file itself, then the files that a script merges
 };
 
@@ -70,7 +71,7 @@ struct LoadRequest {
 /// A CAD model as facets and curves. Lengths are those of the file.
 struct LoadReply {
     struct Edge {
-        std::int32_t tag = 0, curve = 0, from = 0, to = 0; ///< ends: positions in `vertex_tags`
+        std::int32_t tag = 0, curve = 0, from = 0, to = 0; ///< `from` and `to`: positions in `vertex_tags`
         std::vector<double> params;
         std::vector<Index> points;
         std::vector<Index> left_out = {}; ///< positions in LoadReply::left_out: faces with this edge
@@ -88,14 +89,16 @@ struct LoadReply {
         std::vector<std::array<Vec2, 3>> uv;
     };
     std::uint64_t model = 0; ///< handle of the model
-    double diagonal = 0;     ///< of the exact bounding box [file length]
+    double diagonal = 0;     ///< diagonal of the exact bounding box [file length]
     std::vector<Vec3> points;
     std::vector<std::int32_t> vertex_tags; ///< vertex k is point k
     std::vector<Edge> edges;
     std::vector<Face> faces;
-    std::vector<std::vector<Index>> solids; ///< the faces of each solid, then those that are in no solid
+    std::vector<std::vector<Index>> solids; ///< the faces of each solid; the last list holds the faces in no
+                                            ///< solid
     std::vector<LeftOut> left_out = {};
-    std::vector<MessageParts> notes; ///< one sentence for each face left out, first those of `left_out`
+    std::vector<MessageParts> notes; ///< one sentence for each face left out, first those in `left_out`, then
+                                     ///< slivers
 };
 
 struct EvaluateRequest {
@@ -141,16 +144,16 @@ struct FillSkinRequest {
     std::vector<std::vector<Triangle>> shells;
 };
 struct FillSkinReply {
-    std::vector<Vec3> points; ///< those of the request first
+    std::vector<Vec3> points; ///< points of the request, then inner points
     std::vector<Quad> tets;   ///< the corners of each tetrahedron
 };
 
-/// Entities of a loaded model that are used to make a solid. Three files in memory are sent along: two for
-/// intermediate results, and the result.
+/// Entities of a loaded model that are used to make a solid.
 struct SolidSource {
     std::uint64_t model = 0;
     std::vector<std::int32_t> faces, curves;
 };
+/// Three files in memory are sent with this request: two for intermediate results, and one for the result.
 struct BeginSolidRequest {
     std::string subject; ///< the file to be written, for messages
     std::string result;  ///< its name without a folder; the ending gives the format
@@ -214,14 +217,14 @@ struct MakeSolidReply {
 };
 
 struct ReleaseRequest {
-    std::uint64_t handle = 0; ///< of a model or a solid under construction
+    std::uint64_t handle = 0; ///< handle of a model or a solid under construction
 };
 
 // --- bytes --------------------------------------------------------------------------------------------
 
-/// Check what `decode()` does not check. Replies come from a process that is not trusted, so their numbers
-/// must be finite and their indices in range. Of a request, only those values are checked here that the CAD
-/// process does not check when it uses them.
+/// Check values that `decode()` does not check. The kernel does not trust the process that replies, so
+/// numbers in replies must be finite and indices in range. In requests, only those values are checked that
+/// the CAD process does not check itself when it uses them.
 /// @throw ProtocolError
 template <class T>
 void check(const T&)
@@ -246,7 +249,7 @@ std::string encode(const T& message)
     writer(message);
     return std::move(writer).take();
 }
-/// @throw ProtocolError  the bytes are not such a message, or as check().
+/// @throw ProtocolError  the bytes are not such a message, or `check()` refuses it.
 template <class T>
 T decode(std::string_view bytes)
 {

@@ -12,37 +12,38 @@ namespace lacuna::cad_worker {
 /// A curve of the current Gmsh model: its topology and a polyline.
 struct CadCurveInfo {
     int tag = 0;
-    double low = 0, high = 0;   ///< parameters
+    double low = 0, high = 0;   ///< range of the curve's parameter
     int from = 0, to = 0;       ///< indices in CadWire::vertices
     int uses = 0;               ///< number of uses by faces; a seam counts twice
     double length = 0;          ///< length of a fine polyline [file length]
     std::vector<double> params; ///< parameters of that polyline, ascending
     std::vector<Vec3> points;
-    std::vector<std::size_t> pieces; ///< in CadWire::pieces, along the curve; empty if the curve is a point
+    std::vector<std::size_t> pieces; ///< indices in CadWire::pieces, in order along the curve; empty if the
+                                     ///< curve is a point
 };
 
-/// A part of a curve between two vertices, and the edge of the model to which it is sewn. Pieces that
-/// coincide within the tolerance share one edge.
+/// A part of a curve between two vertices. Pieces that coincide within the tolerance are sewn to one edge of
+/// the model.
 struct CadPiece {
     std::size_t curve = 0;
     double low = 0, high = 0;
-    Index from = -1, to = -1; ///< model points: sewn vertices
+    Index from = -1, to = -1; ///< model points of the vertices, which are sewn
     std::size_t edge = 0;
     bool reversed = false; ///< opposite to the direction of the edge
 };
 
 /// The edge of a set of sewn pieces; the master piece defines its shape.
 struct CadEdge {
-    std::size_t master = 0; ///< in CadWire::pieces
+    std::size_t master = 0; ///< index in CadWire::pieces
     int tag = 0;
-    std::vector<double> params; ///< on the master's curve, both ends included
+    std::vector<double> params; ///< parameters on the master's curve, both ends included
     std::vector<Index> points;  ///< model points
 };
 
 struct CadVertex {
     int tag = 0;
     Vec3 at = Vec3::Zero();
-    Index point = -1; ///< model point: vertices closer than the tolerance share it
+    Index point = -1; ///< model point; vertices closer than the tolerance have the same one
 };
 
 /// The curves around a face, each listed once.
@@ -62,13 +63,13 @@ struct CadWire {
     std::vector<CadCurveInfo> curves;
     std::vector<CadPiece> pieces;
     std::vector<CadEdge> edges;
-    std::vector<int> point_tag; ///< lowest tag among the vertices merged into each sewn vertex
+    std::vector<int> point_tag; ///< for each sewn vertex, the lowest tag among the vertices merged into it
     std::vector<Vec3> points;   ///< model points [file length]: sewn vertices, then those added by `divide()`
 };
 
 /// How finely curves and faces are divided.
 struct Fineness {
-    double turn = 0;     ///< largest turn of the tangent or normal per segment [radians]
+    double turn = 0;     ///< largest turn of the tangent or the normal over one segment [radians]
     double max_size = 0; ///< [file length]
 };
 
@@ -77,10 +78,11 @@ struct Fineness {
 /// coincide within the tolerance become one edge.
 CadWire read_wire(double tolerance);
 
-/// Place points on every edge, `refinement` (one value for each edge) times as many as the fineness requires.
+/// Place points on every edge: `refinement` times as many as the fineness requires, with one factor for each
+/// edge.
 void divide(CadWire& wire, const Fineness& fineness, const std::vector<double>& refinement);
 
-/// Parameters of a piece at the points of its edge, and those points, both in the direction of the piece.
+/// Parameters and model points of a piece at the points of its edge, in the direction of the piece.
 struct PieceNodes {
     std::vector<double> params;
     std::vector<Index> points;

@@ -15,19 +15,21 @@ namespace lacuna::cad_worker {
 struct CadFacets {
     std::vector<Vec3> added;             ///< [file length]
     std::vector<Triangle> triangles;     ///< counter-clockwise in the parameter plane
-    std::vector<std::array<Vec2, 3>> uv; ///< of the corners; on a seam, those on the triangle's side of it
+    std::vector<std::array<Vec2, 3>> uv; ///< parameters of the corners; on a seam, those on the triangle's
+                                         ///< side of the seam
     ParameterBox box;
     std::string kind;
 };
 
 struct FacetOptions {
     Fineness fineness;
-    double max_cells = 4000; ///< limit on the grid cells of a face: the facets grow to keep it
+    double max_cells = 4000; ///< limit on the grid cells of a face; facets become larger to keep it
     double tolerance = 0;    ///< [file length]
 };
 
-/// Triangulate a face in its parameter rectangle: a constrained Delaunay triangulation, in grid coordinates,
-/// of the boundary points and of inner grid points, whose spacing follows the turn of the normal.
+/// Triangulate a face in its parameter rectangle. The result is a constrained Delaunay triangulation, in grid
+/// coordinates, of the boundary points and of inner grid points, whose spacing follows the turn of the
+/// normal.
 ///
 /// @param first_added  number of the first point that is added.
 /// @return empty if the polygon of the boundary points intersects itself; the caller then divides the
@@ -36,8 +38,8 @@ struct FacetOptions {
 std::optional<CadFacets> cut_into_facets(const CadWire& wire, const CadFaceInfo& face,
                                          const FacetOptions& options, Index first_added);
 
-/// "plane", "cylinder", "cone", "sphere", "torus", "bspline" or "surface": the type that Gmsh reports or, if
-/// Gmsh does not know it, the type found from the principal curvatures.
+/// The kind of a surface: "plane", "cylinder", "cone", "sphere", "torus", "bspline" or "surface". It is the
+/// type that Gmsh reports or, if Gmsh reports none, the type that the principal curvatures show.
 std::string kind_of_face(int tag, const ParameterBox& box);
 
 } // namespace lacuna::cad_worker

@@ -42,8 +42,8 @@ struct FaceGrid {
     }
 };
 
-/// Choose grid lines such that between neighbours the normal turns no more than the fineness allows, cells
-/// are not too long, and their number stays below the limit.
+/// Choose the grid lines. The normal must turn no more between neighbouring lines than the fineness allows,
+/// cells must not be too long, and their number must stay below the limit.
 FaceGrid lay_grid(int tag, bool flat, const ParameterBox& box, const Fineness& fineness, double max_cells);
 
 } // namespace lacuna::cad_worker

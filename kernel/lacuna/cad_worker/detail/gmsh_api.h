@@ -37,7 +37,7 @@ inline std::vector<int> tags_of(int dim)
     return tags;
 }
 
-/// The boundaries of entities, one after the other: a seam is there twice.
+/// The boundaries of entities, one after the other. A seam occurs twice.
 inline gmsh::vectorpair boundary_of(const gmsh::vectorpair& entities)
 {
     gmsh::vectorpair boundary;
@@ -54,7 +54,7 @@ inline double mass_of(int dim, int tag)
 }
 
 /// Add the shapes of a file to the current model. @param format  "step", "iges" or "brep".
-/// @param highest_only  leave out shapes that bound no shape of the highest dimension
+/// @param highest_only  leave out shapes that are not part of a shape of the highest dimension
 inline void import_shapes(const std::string& path, const char* format, bool highest_only = false)
 {
     gmsh::vectorpair all;

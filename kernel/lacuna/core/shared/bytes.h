@@ -26,8 +26,8 @@ public:
     explicit ProtocolError(std::string_view what) : Error("core.protocol", "{}", what) {}
 };
 
-/// Types that are copied byte by byte: numbers, enumerators and fixed-size arrays of numbers. Not `bool`, of
-/// which only the bytes 0 and 1 are values.
+/// Types that are copied byte by byte: numbers, enumerators and fixed-size arrays of numbers. `bool` is
+/// excluded, because a byte other than 0 and 1 is not a valid value.
 template <class T>
 struct IsPlain
     : std::bool_constant<(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T>> {

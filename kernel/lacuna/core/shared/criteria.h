@@ -35,13 +35,14 @@ inline constexpr double kVisible = 1e-3;
 /// twelve sides is one patch.
 inline constexpr double kCreaseAngle = 30;
 
-/// Inner angles of a face [degrees]. A vertex with a smaller angle than the first is a corner, where a mapped
-/// grid and the rows along a side end; one with a larger angle than the second is a reversal. They lie half
-/// way between the angles of one and two quads, and of two and three.
+/// Limits on the inner angle of a face at a vertex [degrees]. A vertex with an angle below the first limit is
+/// a corner, where a mapped grid and the rows along a side end; above the second limit it is a reversal. The
+/// limits lie half way between the angles that fit one and two quads (90°, 180°), and two and three (180°,
+/// 270°).
 inline constexpr double kCornerBelow = 135, kReversalAbove = 225;
 
-/// Two edges belong to one curve if they turn by less than 20°, of which this is the cosine: imprints split
-/// circles into edges of single chords, and coarse circles have some twenty chords.
+/// Cosine of 20°. Two edges belong to one curve if they turn by less: imprints split circles into edges of
+/// single chords, and even coarse circles have some twenty chords.
 inline constexpr double kOneCurve = 0.94;
 
 /// An edge continues a line beyond a vertex if they turn by less than 45°, half way between straight and a
@@ -54,12 +55,12 @@ inline constexpr double kBendBelow = 75;
 
 // Flat
 
-/// Sine of the largest angle (about one degree) between directions that count as parallel, and of the largest
-/// turn of a line that counts as straight. Facets in files deviate by tenths of that.
+/// Sine of about one degree. Directions count as parallel, and a line as straight, if they turn by less.
+/// Facets in files deviate by tenths of a degree.
 inline constexpr double kParallel = 0.02;
 
-/// A face is flat if the length of its summed area vector is below its area by less than this share; normals
-/// agree if their cosine is below 1 by less. It corresponds to kParallel.
+/// A face is flat if the length of its summed area vector falls short of its area by less than this share.
+/// Two normals agree if their cosine falls short of 1 by less. The value corresponds to kParallel.
 inline constexpr double kFlatShare = kParallel * kParallel / 2;
 
 // Poor: limits of the least scaled Jacobian; for a plane quad, of the least sine of its corners
@@ -90,12 +91,12 @@ inline constexpr double kVolumeNoted = 2 * kSameVolume;
 
 // Same size, same number
 
-/// Lengths, sizes and numbers of sides that differ by less than this share are treated as drawn equal, and
-/// get the same number of sides.
+/// Lengths, sizes and numbers of sides count as equal if they differ by less than this share. They then get
+/// the same number of sides.
 inline constexpr double kAlikeSizes = 0.01;
 
-/// A number of sides is rounded down if it exceeds a whole number by less: far above the rounding errors of
-/// sizes and lengths, far below one side.
+/// A number of sides that exceeds a whole number by less than this is rounded down. The value is far above
+/// the rounding errors of sizes and lengths, and far below one side.
 inline constexpr double kCountSlack = 1e-6;
 
 /// Growth of the size per length away from a place with short sides, in paving and in estimates of quads [-].

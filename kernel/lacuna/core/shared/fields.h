@@ -12,7 +12,8 @@ struct AnyValue {
     operator T() const; // NOLINT(google-explicit-constructor)
 };
 
-/// Number of members of a struct without base classes, as the most values that initialise it.
+/// Number of members of a struct without base classes, which is the largest number of values that can
+/// initialise it.
 template <class T, class... Values>
 consteval std::size_t field_count()
 {

@@ -11,8 +11,8 @@ namespace lacuna {
 /// faults instead of 25,000. A hint only: results do not depend on it.
 void use_large_pages(void* memory, std::size_t bytes);
 
-/// Let the system clear the pages of memory not written yet, until all are cleared or `enough` is set: the
-/// first writer then has no page faults to wait for. The contents of the memory are lost.
+/// Have the system clear pages that were not written yet, until all are cleared or `enough` is set. The first
+/// writer then does not wait for page faults. The contents of the memory are lost.
 void clear_pages(void* memory, std::size_t bytes, const std::atomic<bool>& enough);
 
 /// A vector of `count` values, in large pages if it is large.

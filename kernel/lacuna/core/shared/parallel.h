@@ -29,7 +29,7 @@ void parallel_each(const RunContext& context, std::size_t count, std::size_t gra
 
 /// The smallest value of `least_of(begin, end)` over the ranges of [0, count), `grain` indices each, in
 /// parallel. Returns `none` if there are no ranges or no value is smaller.
-/// @throw as `parallel_for()`
+/// @throw  as `parallel_for()`
 double parallel_min(const RunContext& context, std::size_t count, std::size_t grain, double none,
                     const std::function<double(std::size_t, std::size_t)>& least_of);
 

@@ -26,7 +26,7 @@ public:
         return number;
     }
     Index operator()(Index item) { return (*this)(index(item)); }
-    /// The new number of an item; -1: it has not been used so far.
+    /// The new number of an item; -1 if it has not been used so far.
     [[nodiscard]] Index known(Index item) const { return number_[index(item)]; }
 
     std::vector<Item> used; ///< in their new order

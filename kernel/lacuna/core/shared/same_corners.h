@@ -28,15 +28,16 @@ inline Quad face_key(Quad face)
     return rising(face);
 }
 
-/// A cell in a group with the same lowest corner.
+/// A cell, within a group of cells that have the same lowest corner.
 struct NumberedCell {
     std::array<Index, 3> others; ///< the other corners, rising; -1 for missing ones
     std::uint64_t number;
     friend auto operator<=>(const NumberedCell&, const NumberedCell&) = default;
 };
 
-/// Group cells by their corners in any order: call `take(cells)` for each group, with rising numbers. Groups
-/// come in the order of their lowest corners. Linear in the cells, apart from sorting those at a corner.
+/// Group cells that have the same corners in any order: call `take(cells)` for each group, with increasing
+/// numbers. Groups are visited in the order of their lowest corners. The cost is linear in the cells, apart
+/// from sorting the cells that share a lowest corner.
 /// @param points  corners are in [0, points).
 /// @param each    `each(visit)` calls `visit(corners, number)` for every cell, where -1 stands for a missing
 ///                corner. It is called twice and must visit the same cells both times.

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-/// Work shared by several processes. The host provides the communication; this folder knows
-/// neither processes nor networks.
+/// Work shared by several processes. The host provides the communication: this folder depends neither on
+/// processes nor on networks.
 namespace lacuna {
 
 /// A file to which all processes of a team write, each at its own offsets.
@@ -44,8 +44,8 @@ struct Team {
 /// Processes that wait for tasks.
 struct Crew {
     int size = 1; ///< including the caller
-    /// Start a task on all processes, with its name and its input. The caller is rank 0 of the team that is
-    /// returned. The team exists until the task ends.
+    /// Start a task on all processes, given its name and its input. Returns the team of the task, in which
+    /// the caller has rank 0. The team exists until the task ends.
     std::function<const Team&(std::string_view task, const std::string& bytes)> call;
 };
 
@@ -56,7 +56,8 @@ public:
 };
 
 /// The strings of all processes, by rank. Only valid inside `do_together()`. Null: this process works alone.
-/// @throw TeamFailed  a process failed; has its code, and its message with the number of the process.
+/// @throw TeamFailed  another process failed. The error has the code of that failure, and its message with
+///        the number of the process.
 std::vector<std::string> gather(const Team* team, const std::string& own);
 
 /// Run `work` on all processes of a team. If it fails on one process it fails on all, at the next `gather()`

@@ -13,8 +13,8 @@ namespace lacuna::geometry::flat {
 /// The shape of a triangle in the plane, with derived quantities.
 struct Shape {
     double area = 0;              ///< limited from below, against rounding
-    std::array<Vec2, 3> gradient; ///< of the hat function of each corner
-    bool thin = false;            ///< degenerate: its area is zero to half the digits of a double
+    std::array<Vec2, 3> gradient; ///< gradient of the hat function of each corner
+    bool thin = false;            ///< degenerate: the height is at most √ε times the longest side
 };
 
 /// Facets with consecutive point numbers.
@@ -31,27 +31,28 @@ using Positions = std::vector<Vec2>;
 /// The points of a loop; the first is repeated at the end.
 std::vector<Vec3> closed_places(const Facets& facets, const std::vector<Index>& loop);
 
-/// Compute `shapes` and `area`.
+/// Compute `shapes` and `area` of the facets.
 void measure_shapes(Facets& facets);
 
 /// Gradient of the map from a triangle to the plane.
 Eigen::Matrix2d jacobian(const Facets& facets, std::size_t triangle, const Positions& positions);
-/// Largest and smallest singular value; the smallest has the sign of the determinant.
+/// The largest and the smallest singular value. The smallest has the sign of the determinant.
 std::array<double, 2> stretches(const Eigen::Matrix2d& jacobian);
 
 /// Least squares conformal map, scaled to the area of the facets.
 Positions conformal(const Facets& facets);
 /// As-rigid-as-possible map, starting from `positions`.
 Positions as_rigid_as_possible(const Facets& facets, Positions positions, double settled);
-/// Map of least symmetric Dirichlet energy, starting from `positions`; these are
-/// returned if they flip a triangle.
+/// Map of least symmetric Dirichlet energy, starting from `positions`. If these flip a triangle, they are
+/// returned unchanged.
 Positions injective(const Facets& facets, Positions positions, double settled);
 /// Harmonic map to a disc with the area of the facets; holes are filled temporarily.
 Positions convex(const Facets& facets);
 
-/// Map facets with two loops to a plane ring with the longer loop outside. The logarithm of the radius is
-/// proportional to a harmonic height, scaled to keep small circles round on average. The angle is harmonic,
-/// and proportional to arc length on both loops. Empty if the ratio of the radii would be too large.
+/// Map facets with two loops to a plane ring, with the longer loop outside. The logarithm of the radius is
+/// proportional to a harmonic height, scaled so that small circles stay round on average. The angle is
+/// harmonic, and proportional to arc length on both loops. Returns nothing if the ratio of the radii would be
+/// too large.
 /// @pre  two loops
 Positions ring(const Facets& facets);
 

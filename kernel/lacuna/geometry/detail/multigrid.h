@@ -11,7 +11,7 @@
 
 namespace lacuna::geometry {
 
-/// Solver for sparse matrices from diffusion problems, linear in their size.
+/// Solver for sparse matrices from diffusion problems, in time linear in the size of the matrix.
 ///
 /// Algorithm: smoothed aggregation (Vaněk, Mandel and Brezina 1996) with one Gauss-Seidel sweep in each
 /// direction, as preconditioner of BiCGStab (van der Vorst 1992), since mean value weights are not symmetric.

@@ -16,7 +16,7 @@ struct AffineFit {
     Vec3 to_centre{0, 0, 0};
     double rms = 0;          ///< root mean square distance of images from targets [model length]
     double max_residual = 0; ///< largest such distance [model length]
-    int rank = 3; ///< number of directions determined by the data, 0…3; the others were completed
+    int rank = 3; ///< directions that the data determine, 0…3; images of the others are completed
 
     [[nodiscard]] Vec3 operator()(const Vec3& p) const { return to_centre + linear * (p - from_centre); }
 };
@@ -24,15 +24,15 @@ struct AffineFit {
 /// Least-squares affine fits from one set of points to several others; the factorisation is reused.
 ///
 /// Minimises the mean of |y − (L x + c)|², plus |n′ − L n|² for a pair of pseudo-normals if area vectors are
-/// given @cite roca_2010_sweep. A pseudo-normal is n·√|area|: its length is the width of the rim, so that a
-/// rotation with a uniform scale maps one onto the other. It determines the direction that a planar rim
-/// leaves open: the map has full rank, preserves orientation, and does not flatten or
-/// flip points outside the plane.
+/// given @cite roca_2010_sweep. A pseudo-normal is n·√|area|. Its length scales with the width of the rim, so
+/// a rotation with a uniform scale maps one pseudo-normal onto the other. It determines the direction normal
+/// to a planar rim, which the points alone leave open. The map then has full rank, preserves orientation, and
+/// does not flatten or flip points outside the plane.
 ///
-/// A direction whose spread is below √ε of the largest is not determined by the data. It is completed: the
-/// third by the normal to the images of the other two, with a length that keeps the shape; the last two by
-/// the smallest rotation. Only orthogonal factorisations are used (no normal equations), so the error is ε
-/// times the condition number of the spread.
+/// A direction whose spread is below √ε of the largest is not determined by the data. If one direction is
+/// missing, its image is normal to the images of the other two, with a length that keeps the shape. If two
+/// are missing, the smallest rotation completes them. Only orthogonal factorisations are used (no normal
+/// equations), so the error is ε times the condition number of the spread.
 class AffineFitter {
 public:
     /// @param from       kept by reference: must outlive the fitter.
@@ -42,8 +42,8 @@ public:
     /// @pre to.size() equals from.size()
     [[nodiscard]] AffineFit fit(std::span<const Vec3> to, const Vec3& to_area = Vec3::Zero()) const;
 
-    /// Distance of p from the centre relative to the spread in that direction (Mahalanobis); infinite in
-    /// directions that are not in the data.
+    /// Distance of p from the centre, measured in units of the spread in each direction (Mahalanobis
+    /// distance). Infinite for directions in which the data have no spread.
     [[nodiscard]] double reach(const Vec3& p) const;
     /// Number of directions determined by the data, 0…3.
     [[nodiscard]] int rank() const { return rank_; }
@@ -53,13 +53,13 @@ private:
     Vec3 centre_{0, 0, 0};
     bool has_normal_ = false;
     int rank_ = 0;
-    /// Root mean square spread along the axes, largest first, with the pseudo-normal [model length].
+    /// Root mean square spread along the axes, pseudo-normal included, largest first [model length].
     Vec3 spread_{0, 0, 0};
     Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity(); ///< principal directions as columns, right-handed
     Eigen::Matrix<double, Eigen::Dynamic, 3> basis_; ///< orthonormal columns: (row − centre) · axes / spread
 };
 
-/// A single affine fit. Area vectors of zero: no pseudo-normal.
+/// Fit one affine map. Zero area vectors: no pseudo-normals are used.
 AffineFit fit_affine(std::span<const Vec3> from, std::span<const Vec3> to,
                      const Vec3& from_area = Vec3::Zero(), const Vec3& to_area = Vec3::Zero());
 

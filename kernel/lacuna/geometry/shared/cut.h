@@ -9,19 +9,19 @@
 #include <span>
 #include <vector>
 
-/// Cuts through a closed strip of facets, from one of its two rims to the other.
+/// Cuts through a strip of facets that is closed to a ring, from one of its two rims to the other.
 namespace lacuna::geometry {
 
-/// Shortest path along sides of facets from a point to one of `ends`, avoiding the points of `off` except the
-/// start. Empty if there is none. O(facets log).
+/// Shortest path along sides of facets from a point to one of `ends`. Except at its start, the path avoids
+/// the points in `off`. Empty if there is none. O(facets log).
 /// @throw Cancelled
 std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                 Index start, const std::set<Index>& off, const std::set<Index>& ends,
                                 const RunContext& context = {});
 
-/// The branch of each triangle corner at a cut, for `HarmonicProblem::corner_turns`. Seen with
-/// counter-clockwise triangles and the cut pointing upwards, corners on the cut get one turn in the triangles
-/// to its right. O(triangles).
+/// The branch of each triangle corner at a cut, for `HarmonicProblem::corner_turns`. With triangles drawn
+/// counter-clockwise and the cut drawn upwards, the triangles to the right of the cut get one turn at their
+/// corners on the cut. O(triangles).
 /// @param cut  points; consecutive ones are joined by a side.
 std::vector<std::array<int, 3>> turns_along(std::span<const Triangle> triangles, std::span<const Index> cut);
 

@@ -30,8 +30,9 @@ struct DelaunayTriangle {
 
 /// The incremental constrained Delaunay triangulation used by `triangulate()`.
 ///
-/// It starts from one huge triangle, whose corners have the numbers after the given points. The result is the
-/// part inside closed constraints, which separate it from those corners, so they have no influence on it.
+/// The triangulation starts from one huge triangle, whose corners are numbered after the given points. The
+/// result is the part inside closed constraints. These separate the result from the huge triangle's corners,
+/// which therefore do not affect it.
 class DelaunayMesh {
 public:
     /// The Delaunay triangulation of the points in `used`, inserted along a space-filling curve.
@@ -61,8 +62,8 @@ public:
 
     /// Walk from `start` to the triangle that contains p; -1 if constraints block the walk.
     [[nodiscard]] Index locate(const Vec2& p, Index start) const;
-    /// Find the triangles whose circumcircle contains p, starting at the one that contains p, without
-    /// crossing constraints. @return false if p is on a constraint or on a point.
+    /// Find the triangles whose circumcircle contains p. The search starts at the triangle that contains p
+    /// and does not cross constraints. @return false if p is on a constraint or on a point.
     bool find_cavity(const Vec2& p, Index holder, Cavity& cavity);
     /// Replace the cavity by triangles around a new point; `fresh` lists them.
     Index fill_cavity(const Vec2& p, const Cavity& cavity, std::vector<Index>& fresh);
@@ -87,8 +88,9 @@ private:
 
     std::vector<Vec2> points_;
     std::vector<DelaunayTriangle> triangles_;
-    std::vector<Index> triangle_of_; ///< a triangle at each point; -1: not inserted yet
-    std::vector<Index> stamp_;       ///< the last cavity that contained each triangle
+    std::vector<Index> triangle_of_; ///< one of the triangles at each point; -1: the point is not inserted
+                                     ///< yet
+    std::vector<Index> stamp_;       ///< for each triangle, the last cavity that contained it
     Index stamp_now_ = 0;
     Index given_ = 0;
 };

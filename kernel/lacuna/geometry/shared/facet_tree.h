@@ -36,15 +36,15 @@ public:
     /// Only facets within the squared distance, inclusive, are considered.
     [[nodiscard]] Hit closest(const Vec3& p, double max_distance2 = kInfinity) const;
 
-    /// Call `visit` for every pair (own triangle, triangle of other) whose boxes are within `margin`, until
-    /// it returns false. For a tree and itself, each pair of different triangles is
-    /// visited once, lower index first.
+    /// Call `visit` for every pair (own triangle, triangle of `other`) whose boxes are within `margin`, until
+    /// it returns false. If `other` is this tree, each pair of different triangles is visited once, lower
+    /// index first.
     /// @return false if `visit` stopped it.
     /// @throw Cancelled
     bool overlaps(const FacetTree& other, const std::function<bool(Index, Index)>& visit, double margin = 0,
                   const RunContext& context = {}) const;
 
-    /// Whether a facet may meet the box; false only if no facet's box does.
+    /// Whether the box of a facet meets the given box. If not, no facet meets it.
     [[nodiscard]] bool may_meet(const Eigen::AlignedBox3d& box) const;
 
     /// Intersection of a ray with a facet.
@@ -53,17 +53,17 @@ public:
         double t = kInfinity; ///< the point is origin + t direction, t >= 0
         Vec3 barycentric = Vec3::Zero();
     };
-    /// The first intersection; `triangle` is -1 if there is none. A ray in the plane of
-    /// a facet does not intersect it.
+    /// The first intersection; `triangle` is -1 if there is none. A ray that lies in the plane of a facet
+    /// does not intersect it.
     [[nodiscard]] RayHit first_along(const Vec3& origin, const Vec3& direction) const;
     /// Visit all intersections in any order, until `visit` returns false. A ray through a shared edge
     /// intersects both facets. @return false if `visit` stopped it.
     bool all_along(const Vec3& origin, const Vec3& direction,
                    const std::function<bool(const RayHit&)>& visit) const;
 
-    /// Generalised winding number: 1 inside a closed surface oriented outward, 0 outside, in between near
-    /// gaps (Jacobson et al. 2013). O(triangles), as it sums over all facets; more robust than counting
-    /// intersections of a ray.
+    /// Generalised winding number: 1 inside a closed surface oriented outward, 0 outside, and values between
+    /// near gaps (Jacobson et al. 2013). More robust than counting the intersections of a ray. O(triangles),
+    /// since it sums over all facets.
     [[nodiscard]] double winding_number(const Vec3& p) const;
 
     [[nodiscard]] std::size_t size() const { return id_.size(); }
@@ -73,7 +73,8 @@ private:
     struct Node {
         Eigen::AlignedBox3d box;
         std::uint32_t begin = 0, end = 0; ///< range of its triangles, in tree order
-        std::uint32_t right = 0;          ///< its second child; the first is the next node; 0: a leaf
+        std::uint32_t right = 0;          ///< index of its second child, 0: a leaf; the first child is the
+                                          ///< next node
     };
     struct Parts;
     std::uint32_t build(const Parts& parts, std::uint32_t self, std::uint32_t begin, std::uint32_t end,
@@ -93,13 +94,13 @@ private:
     Eigen::AlignedBox3d bounds_;
 };
 
-/// Closest point of one triangle; `triangle` stays -1. Degenerate triangles are allowed.
+/// Closest point of one triangle. The result has no triangle index (-1). Degenerate triangles are allowed.
 FacetTree::Hit closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corners);
 
-/// Whether two triangles intersect: each extends more than `tolerance` to both sides of the other's plane,
-/// and they overlap by more than `tolerance` along the line in which the two planes meet. Coplanar triangles
-/// intersect if they overlap by more than `tolerance`. Mere contact (a shared point or edge, a point on the
-/// other triangle) does not count.
+/// Whether two triangles intersect. Each must extend more than `tolerance` to both sides of the other's
+/// plane, and they must overlap by more than `tolerance` along the line in which the two planes meet.
+/// Coplanar triangles must overlap by more than `tolerance`. Contact (a shared point or edge, a point on the
+/// other triangle) is no intersection.
 /// @param tolerance  [model length], >= 0.
 bool triangles_cross(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, double tolerance);
 

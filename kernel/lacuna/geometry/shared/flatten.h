@@ -31,7 +31,7 @@ struct Flattened {
     std::vector<Vec2> position;      ///< plane coordinates of each point in `used` [model length]
     std::vector<Triangle> triangles; ///< the given triangles in the given order, as indices into `used`
     FlatMap map = FlatMap::plane;
-    double max_stretch = 1; ///< largest length ratio, or inverse, of all triangles, >= 1
+    double max_stretch = 1; ///< largest factor by which a length grows or shrinks, >= 1
     Index flips = 0;        ///< number of triangles flipped or collapsed
     bool overlaps = false;  ///< the boundary intersects itself
     bool folded = false;    ///< has flips or overlaps: the map is not one-to-one
@@ -39,14 +39,14 @@ struct Flattened {
 
 /// Map connected facets, which may have holes, to the plane; triangles stay counter-clockwise.
 ///
-/// Planar facets are mapped isometrically. A tube (a strip closed between two loops) becomes a ring: it has
-/// no nearly rigid map, and minimising its distortion would take a hundred times as long. Other facets start
-/// from the least squares conformal map (Lévy et al. 2002) and are relaxed to as rigid as possible by local
-/// and global steps (Liu et al. 2008). If that flips a triangle or makes the boundary intersect, maps without
-/// flips are tried: least symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017), then the
-/// harmonic map to a disc. The first one-to-one map is returned; if there is none, the map with the fewest
-/// flips, and `folded` is set. The result has the area of the facets in space, and is rotated to agree best
-/// with their Newell plane.
+/// Planar facets are mapped isometrically. A tube (a strip closed between two loops) becomes a ring: a tube
+/// has no nearly rigid map, and minimising its distortion would take a hundred times as long. For other
+/// facets, the least squares conformal map (Lévy et al. 2002) is made as rigid as possible by local and
+/// global steps (Liu et al. 2008). If that map flips a triangle or its boundary crosses itself, two maps
+/// without flips are tried: least symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017),
+/// then the harmonic map to a disc. The first one-to-one map is returned. If there is none, the map with the
+/// fewest flips is returned, and `folded` is set. The result has the area of the facets in space, and is
+/// rotated to agree best with their Newell plane.
 ///
 /// @param points     may be all points of a model.
 /// @param triangles  consistently oriented.
@@ -68,7 +68,8 @@ public:
     struct FacetPosition {
         Index triangle = -1;             ///< -1 only if there are no triangles
         Vec3 barycentric = Vec3::Zero(); ///< in [0, 1], sum 1
-        double distance = 0;             ///< from the triangle; zero up to rounding inside the facets
+        double distance = 0;             ///< distance of the point from the triangle; zero up to rounding
+                                         ///< inside the facets
     };
     /// The triangle at a point; outside all triangles, the closest point of the closest triangle.
     [[nodiscard]] FacetPosition locate(const Vec2& place) const;
@@ -81,7 +82,7 @@ private:
     [[nodiscard]] FacetPosition in_bins(const Vec2& place) const;
 
     FacetTree tree_;
-    // Square bins over all triangles, with the triangles that each may intersect.
+    // Square bins that cover all triangles. Each bin lists the triangles that it may intersect.
     Vec2 low_ = Vec2::Zero();
     double bin_ = 1;
     Index across_ = 0, up_ = 0;

@@ -13,10 +13,10 @@ namespace lacuna::geometry {
 
 /// Harmonic interpolation on a triangulation, from points with known values.
 ///
-/// Each free point is a weighted mean of its neighbours, with the mean value weights of Floater (2003), which
-/// are positive for all triangle shapes. So values stay in the range of the fixed ones, and a disc whose rim
-/// is mapped to a convex outline in order is mapped one-to-one (Tutte). On planar triangles,
-/// linear functions are reproduced.
+/// Each free point is a weighted mean of its neighbours, with the mean value weights of Floater (2003). These
+/// are positive for all triangle shapes, so values stay in the range of the fixed ones. A disc whose rim is
+/// mapped in order to a convex outline is mapped one-to-one (Tutte). On planar triangles, linear functions
+/// are reproduced.
 ///
 /// Free points on a border have cotangent weights, limited to >= 0. They approximate the natural (Neumann)
 /// condition, independent of the directions of the diagonals.
@@ -37,19 +37,21 @@ struct HarmonicProblem {
         }
     }
 
-    /// For values known up to a period only, such as the angle around a cylinder: for each triangle corner,
-    /// the multiple of `period` to add to the value of its point to be on the branch of the triangle. Corners
-    /// of a triangle across the cut have different turns; all others may be 0. Empty: all zero.
+    /// For values that are known up to a period only, such as the angle around a cylinder. For each triangle
+    /// corner: the number of periods to add to the value of its point to get its value on the branch of the
+    /// triangle. The corners of a triangle across the cut have different numbers; all other triangles may
+    /// have 0. Empty: all are 0.
     std::vector<std::array<int, 3>> corner_turns;
     Eigen::RowVectorXd period; ///< k numbers; only used with corner_turns
 
-    /// Use cotangent weights of either sign everywhere: least Dirichlet energy. Unlike mean value weights,
-    /// they are not biased by diagonals that all have the same direction, but values may leave the range of
-    /// the fixed ones.
+    /// Use cotangent weights of either sign everywhere, which minimises the Dirichlet energy. They are not
+    /// biased where all diagonals have the same direction, as mean value weights are. But values may leave
+    /// the range of the fixed ones.
     bool least_energy = false;
 
-    /// Nine digits suffice: use multigrid from 2,000 free points, where it takes a third of the time, and
-    /// solve nothing if an affine function of position has the fixed values and satisfies the means.
+    /// Nine digits suffice. Multigrid is then used from 2,000 free points on, where it takes a third of the
+    /// time. No system is solved if an affine function of position has the fixed values and satisfies the
+    /// means.
     bool nine_digits = false;
 };
 
@@ -61,9 +63,8 @@ struct HarmonicProblem {
 /// @throw  BackendError "geometry.singular"  a free point is not connected to a fixed point; names it.
 /// @throw  Cancelled  between the steps; not during the factorisation.
 /// @note   Degenerate triangles are allowed: weights are limited against rounding. Up to 20,000 free points
-///         (2,000 if nine digits suffice) one sparse factorisation and k solves; beyond that multigrid,
-///         linear in the number of points, and the factorisation if multigrid does not converge.
-///         Deterministic.
+///         (2,000 if nine digits suffice): one sparse factorisation and k solves. Beyond that: multigrid,
+///         linear in the number of points; if it does not converge, the factorisation. Deterministic.
 Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context = {});
 
 } // namespace lacuna::geometry

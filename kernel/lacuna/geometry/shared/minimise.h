@@ -21,8 +21,8 @@ struct MinimiseOptions {
 /// Value of a function; sets its gradient at `x`.
 using Function = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient)>;
 
-/// Limited-memory BFGS with backtracking (Nocedal and Wright, Algorithm 7.5). Steps stay in the span of the
-/// gradients: if the gradients lie in a subspace, the function is minimised in it.
+/// Limited-memory BFGS with backtracking (Nocedal and Wright, Algorithm 7.5). Steps are combinations of the
+/// gradients, so if the gradients lie in a subspace, the function is minimised in it.
 /// @return  the last point.
 Eigen::VectorXd minimise(const Function& function, Eigen::VectorXd x, const MinimiseOptions& options = {});
 

@@ -11,7 +11,8 @@
 
 namespace lacuna::geometry {
 
-/// The motion that sweeps a source to its target: where each point of the source is at heights from 0 to 1.
+/// The motion that sweeps a source to its target. It gives the place of each source point at heights from 0
+/// (source) to 1 (target).
 ///
 /// A motion is affine (`at`), or each point moves straight by a vector of its own (`reach`).
 struct Motion {
@@ -19,9 +20,9 @@ struct Motion {
     std::function<Eigen::Affine3d(double height)> at;
     /// Null, or the vector from a point of the source to its place on the target.
     std::function<Vec3(const Vec3& point)> reach;
-    std::vector<double> levels{0, 1}; ///< where the path has corners: increasing, from 0 to 1
-    /// Where the walls get rows of facets: increasing, from 0 to 1, the levels included. Between two levels
-    /// without a row of facets all points move straight.
+    std::vector<double> levels{0, 1}; ///< heights of the corners of the path: increasing, from 0 to 1
+    /// Heights at which walls get rows of facets: increasing, from 0 to 1, with all `levels`. If there is no
+    /// row between two levels, all points move straight from one to the other.
     std::vector<double> rows{0, 1};
 
     /// The place of a point of the source at a height.
@@ -38,14 +39,14 @@ struct Motion {
 
 using MotionPointer = std::shared_ptr<const Motion>;
 
-/// The part of an affine motion between two heights, as a motion of the source moved to the first one. With
-/// `from` above `to` it runs backwards. Null for a motion with `reach`, which places points of the source
-/// alone.
+/// The part of an affine motion between two heights, as a motion of the source moved to height `from`. If
+/// `from` is above `to`, it runs backwards. Null if the motion has a `reach`, which is defined at source
+/// points only.
 MotionPointer part_of_motion(const MotionPointer& whole, double from, double to);
 
 /// The motion along a vector.
 Motion translation(const Vec3& vector);
-/// The motion round an axis by an angle [radian], and along it by a pitch for each full turn.
+/// The motion that turns round an axis by an angle [radian] and moves along it by `pitch` for each full turn.
 /// @param direction  of length 1.
 Motion screw(const Vec3& point, const Vec3& direction, double angle, double pitch);
 
@@ -56,15 +57,18 @@ struct Distortion {
     bool even = true;                                  ///< both change evenly with the height
 };
 
-/// A motion of the distorted section: it is twisted about a line and scaled from its point, and then moved.
-/// @param direction  of the line, where the motion starts; of length 1.
+/// A motion of a distorted section: the section is twisted about a line, scaled from a point of the line, and
+/// then moved.
+/// @param centre     the point of the line. @param direction  direction of the line at the start; of length
+///                   1.
 Motion distorted(Motion motion, const Vec3& centre, const Vec3& direction, const Distortion& by);
 
-/// Add rows of facets until a turn of the motion between two levels is divided into `kRowTurn` or less.
-/// @param turn  between each two levels [radian].
+/// Add rows of facets until, between two neighbouring rows, the motion turns by at most a full turn divided
+/// by `kRowsPerTurn`.
+/// @param turn  turn between each two levels [radian].
 void divide_turns(Motion& motion, const std::vector<double>& turn);
 
-/// Rows of facets per full turn are those of finely faceted CAD: chords sag by 0.1 % of the radius.
+/// Rows of facets per full turn, as in finely faceted CAD models: chords sag by 0.1 % of the radius.
 inline constexpr double kRowsPerTurn = 72;
 
 } // namespace lacuna::geometry

@@ -28,15 +28,17 @@ inline std::span<const Vec2> all_around()
 /// Move a point to increase a value by pattern search: try steps in some directions, and
 /// halve the step if none succeeds.
 /// @param best   the value at `x`.
-/// @param value  called as value(const Vec2&, double floor); if the value is not above the floor, it may
-///               return any number up to the floor.
-/// @param directions  unit vectors along which the value varies; along others it would increase by rounding.
+/// @param value  called as value(const Vec2&, double floor). If the value does not exceed the floor, any
+///               number up to the floor may be returned instead.
+/// @param directions  unit vectors along which the value varies. Along others it could increase by rounding
+///                    only.
 /// @return the value at the new `x`, at least `best`.
 template <class Value>
 double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value,
                       std::span<const Vec2> directions = all_around())
 {
-    // Bounds the steps of each length, as values may increase by rounding alone; far above what is needed.
+    // Limits the number of steps of each length, because values may increase by rounding alone. Far more than
+    // a search needs.
     constexpr int kRounds = 10000;
     for (double step = steps.first * steps.scale; step > steps.last * steps.scale; step /= 2) {
         bool better = true;

@@ -18,9 +18,9 @@ std::vector<double> arc_lengths(std::span<const Vec3> points);
 /// Length of a polyline; 0 for fewer than two points [model length].
 double length(std::span<const Vec3> points);
 
-/// Estimated sag: the distance of a smooth curve through the points from the polyline [model length], as the
-/// largest product of a segment and its angle to the next, divided by 8. Angles
-/// above 90° are corners and ignored.
+/// Estimated sag: the largest distance between the polyline and a smooth curve through its points [model
+/// length]. It is the largest value of length × angle / 8 over all pairs of neighbouring segments, with the
+/// longer length and the angle between them. Angles above 90° are corners and ignored.
 double sag(std::span<const Vec3> points);
 
 /// A position on a polyline: `fraction` of the segment from point `segment` to point `segment + 1`.
@@ -31,7 +31,7 @@ struct PolylinePlace {
 
 /// The position at arc length `s`, clamped to the ends.
 ///
-/// A point of the polyline is returned as fraction 0 of the segment that it starts, the last point as
+/// A point of the polyline is returned as fraction 0 of the segment that starts there; the last point as
 /// fraction 1 of the last segment. Segments of zero length are skipped.
 /// @param arc_lengths  as returned by `arc_lengths()`.
 /// @pre   arc_lengths is not empty; a polyline of one point gives segment 0, fraction 0.

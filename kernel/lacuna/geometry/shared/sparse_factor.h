@@ -10,10 +10,10 @@
 
 namespace lacuna::geometry {
 
-/// A = Pᵀ L D Lᵀ P of a symmetric matrix, with cancelling during the factorisation.
+/// Factorisation A = Pᵀ L D Lᵀ P of a symmetric matrix, which can be cancelled.
 ///
-/// Row by row (Davis, Algorithm 849, as in Eigen::SimplicialLDLT), ordered by approximate minimum degree.
-/// Results are bit-identical to Eigen's on patches of 12,000 and 50,000 facets, at the same speed; but
+/// Algorithm: row by row (Davis, Algorithm 849, as in Eigen::SimplicialLDLT), ordered by approximate minimum
+/// degree. On patches of 12,000 and 50,000 facets, results are bit-identical to Eigen's, at the same speed.
 /// Eigen's factorisation cannot be cancelled.
 class SparseFactor {
 public:

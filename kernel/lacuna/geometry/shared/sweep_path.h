@@ -8,8 +8,8 @@
 
 namespace lacuna::geometry {
 
-/// A smooth part of a path: two points of a line, or closely spaced points of a curve, which a cubic through
-/// them replaces.
+/// A smooth part of a path. Two points are a line. More points are closely spaced points of a curve, which is
+/// replaced by a cubic through them.
 using PathPart = std::vector<Vec3>;
 
 /// Orientation of the section along a path.
@@ -20,10 +20,10 @@ enum class SectionFrame {
 
 /// The motion along a path of parts that meet in corners. Heights are shares of the path's length.
 ///
-/// With minimal frames, the section at a corner lies in the plane that halves the angle between both parts,
-/// as in a mitre joint; on a curved part, this shear of the section fades out along the part.
-/// @throw InvalidInput "geometry.path_short"  a part without length; says where. "geometry.path_corner": a
-///                     corner of more than 90° with minimal frames; says where.
+/// With minimal frames, the section at a corner lies in the plane that halves the angle between the two
+/// parts, as in a mitre joint. If a part is curved, this shear of the section fades out along the part.
+/// @throw InvalidInput "geometry.path_short"  a part has no length. "geometry.path_corner"  a corner turns by
+///        more than 90° with minimal frames. Both messages give the place.
 Motion motion_along_path(std::span<const PathPart> parts, SectionFrame frame);
 
 /// Direction in which a path starts, of length 1. @pre the first part has a length

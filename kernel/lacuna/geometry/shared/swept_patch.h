@@ -12,16 +12,16 @@ namespace lacuna::geometry {
 
 /// Transfinite interpolation of four sides with a frame that rotates along them: for walls along a bend.
 ///
-/// A Coons patch adds displacements in fixed axes, so half a tube along a bent path is squeezed where the
-/// path has turned away from both ends. Here the deviations of bottom and top from their chords are expressed
-/// in a frame that follows the chord between left and right and the direction of these sides: x(s, t) = (1−s)
+/// A Coons patch adds displacements in fixed axes. It squeezes half a tube along a bent path where the path
+/// has turned away from both ends. Here the deviations of bottom and top from their chords are expressed in a
+/// frame that follows the sides left and right: their direction, and the chord between them. x(s, t) = (1−s)
 /// left(t) + s right(t) + size(t) F(t) [(1−t) b(s) + t e(s)], where b and e are the deviations of bottom and
-/// top in the frames F(0) and F(1), divided by their lengths. All four sides are interpolated. If the frame
-/// does not rotate and the lengths agree, it is the Coons patch.
+/// top in the frames F(0) and F(1), divided by the lengths of the chords. All four sides are interpolated. If
+/// the frame does not rotate and the lengths agree, the result is the Coons patch.
 ///
 /// Around a bent seam (left and right coincide, bottom and top are closed) there is no chord. The frame then
-/// moves along the seam with minimal rotation, plus a uniform twist that brings the deviations of the bottom
-/// closest to those of the top: a circle swept along an arc gives the torus.
+/// moves along the seam with minimal rotation, plus a uniform twist for which the deviations of top and
+/// bottom agree best. A circle swept along an arc gives the torus.
 class SweptPatch {
 public:
     /// Sides as polylines: bottom and top from left to right, left and right from
@@ -36,8 +36,8 @@ public:
     /// is then a Coons patch.
     [[nodiscard]] bool turns() const { return turns_; }
 
-    /// Difference of the deviations of bottom and top from their chords, in their frames and relative to
-    /// their lengths: 0 if the patch is the bottom moved, rotated and scaled.
+    /// Difference between the deviations of bottom and top from their chords, each in its own frame and
+    /// relative to its length. It is 0 if the top is the bottom moved, rotated and scaled.
     [[nodiscard]] double unlike() const;
 
 private:
@@ -54,7 +54,7 @@ private:
     SideCurve bottom_, right_, top_, left_;
     Eigen::Matrix3d first_, last_;
     std::vector<Eigen::Quaterniond> carried_; ///< frames at equidistant points of a bent seam; else empty
-    double twist_ = 0;                        ///< twist of the top's frame about the seam [radians]
+    double twist_ = 0;                        ///< twist of the frame about the seam, at the top [radians]
     bool turns_ = true;
 };
 

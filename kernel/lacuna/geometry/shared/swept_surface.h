@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// Exact geometry of what a motion makes of a source: edges of its vertices, walls of its edges, its target.
+/// Exact geometry that a motion makes of a source: edges from its vertices, walls from its edges, and the
+/// target.
 namespace lacuna::geometry {
 
 /// The path of a point; its parameter is the height.
@@ -55,14 +56,16 @@ private:
     std::shared_ptr<const ExactSurface> surface_;
 };
 
-/// An edge of a source as a curve: its exact curve, or its polyline with the number of a point as parameter.
+/// An edge of a source: its exact curve if it has one, otherwise its polyline, whose parameter is the number
+/// of the point.
 struct SweptEdge {
     std::shared_ptr<const ExactCurve> curve; ///< null: the polyline
     std::vector<Vec3> points;
-    std::vector<double> params; ///< of each point
+    std::vector<double> params; ///< parameter of each point
 };
 
-/// The surface that an edge runs through between two heights. Parameters are that of the edge and the height.
+/// The surface that an edge sweeps between two heights. Its parameters are the parameter of the edge and the
+/// height.
 class SweptSurface final : public ExactSurface {
 public:
     SweptSurface(MotionPointer motion, SweptEdge edge, double from, double to)

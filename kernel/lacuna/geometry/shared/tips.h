@@ -11,9 +11,9 @@ namespace lacuna::geometry {
 /// Sum of the angles of the facets at each point [radians].
 std::vector<double> angles_at_points(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
-/// Inner points whose angles sum to less than 90 % of a full turn: tips of cones. Empty if there are more
-/// than 64, as on coarse facets.
-/// @param triangles  consistently oriented; sides of one triangle only are the border.
+/// Tips of cones: inner points at which the angles of the facets sum to less than 90 % of a full turn. Empty
+/// if there are more than 64, as there may be on coarse facets.
+/// @param triangles  consistently oriented; a side of only one triangle belongs to the border.
 std::vector<Index> find_tips(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 } // namespace lacuna::geometry

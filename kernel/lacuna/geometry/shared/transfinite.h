@@ -10,8 +10,8 @@ namespace lacuna::geometry {
 
 /// Options of `transfinite()`.
 struct TransfiniteOptions {
-    /// Position of a grid line between its two ends: by the arc length of the sides (true), so that graded
-    /// sides give a graded grid, or by point number (false).
+    /// How a point on a side is located: by its relative arc length (true), so that graded sides give a
+    /// graded grid, or by its number (false).
     bool by_arc_length = true;
 };
 
@@ -59,8 +59,8 @@ private:
 /// of the lines from S_bottom(i) to S_top(i) and from S_left(j) to S_right(j); then
 ///   x = (1−t) bottom_i + t top_i + (1−s) left_j + s right_j
 ///       − (1−s)(1−t) c0 − s(1−t) c1 − s t c2 − (1−s) t c3.
-/// So each side has more weight at the nodes near it, and sides with equal spacing keep it. On a side of zero
-/// length (the tip of a triangle), positions are counted by points.
+/// So each side has more weight at the nodes near it, and a grid between sides with equal spacing has the
+/// same spacing. On a side of zero length (the tip of a triangle), S is counted by points.
 ///
 /// @return (m + 1) × (n + 1) points, row by row from the bottom: node (i, j) at j * (n + 1) + i.
 /// @post   the points of the sides are returned bit for bit; straight sides with equal spacing give the

@@ -22,27 +22,28 @@ struct Triangulation {
 struct TriangulateOptions {
     bool interior_points = true; ///< false: use the given points only
     std::function<double(const Vec2&)>
-        size{}; ///< target edge length, > 0; the smaller of this and the rim's is used
-    /// Growth of edges with the distance from the rim [length per length, >= 0]: the target length at x is
-    /// the minimum of (spacing at p) + grading × |x − p| over the rim points p. 0: the smallest spacing
-    /// everywhere; infinity: only `size` counts.
+        size{}; ///< target edge length, > 0; the smaller of it and the length graded from the rim is used
+    /// Growth of edges with the distance from the rim [length per length, >= 0]. The target length at x is
+    /// the minimum of (spacing at p) + grading × |x − p| over all rim points p. With 0 it is the smallest
+    /// spacing everywhere; with infinity only `size` counts.
     double grading = 0.2;
     std::size_t max_points = 1'000'000; ///< refinement stops at this many added points
 };
 
 /// Constrained Delaunay triangulation of the region inside closed loops.
 ///
-/// Loops may have any order and direction: a loop inside no other is an outer loop, a loop inside an outer
-/// loop is an island, and so on alternately. The segments of the loops are kept: each is a triangle side, and
-/// no point is added on them. Inside, points are added frontally by Delaunay refinement with size-bound
-/// off-centres (Rebay 1993; Üngör 2004), where a triangle is too large or has a circumradius above √2 × its
-/// shortest side, unless the point would be inside the diametral circle of a rim segment (which only
-/// splitting the segment could cure). Added points keep a minimum distance from visible
-/// points, so the refinement terminates.
+/// Loops may have any order and direction. A loop inside no other is an outer loop, a loop inside an outer
+/// loop bounds a hole, a loop inside a hole is an outer loop again, and so on. The segments of the loops are
+/// kept: each is a triangle side, and no point is added on them.
 ///
+/// Inside, points are added by frontal Delaunay refinement with size-bound off-centres (Rebay 1993; Üngör
+/// 2004). A triangle is refined if it is too large, or if its circumradius exceeds √2 × its shortest side. It
+/// is left alone if the new point would lie inside the diametral circle of a rim segment, because only
+/// splitting the segment could improve it. Added points keep a minimum distance from visible points, so the
+/// refinement terminates.
 ///
-/// @param loops  point numbers in order, the first not repeated; at least 3 in each, no point twice. Points
-///               in no loop are returned but not used.
+/// @param loops  point numbers in order, at least 3 for each loop; the first is not repeated, and no point
+///               occurs twice. Points in no loop are returned but not used.
 /// @throw InvalidInput  a loop has fewer than 3 points or only collinear ones, a point does not exist or is
 ///                      not finite, loops cross or touch; names the loops, counted from 1. Cancelled.
 /// @note  Deterministic; orientation and circle tests are exact. O(n log n) in practice.
@@ -54,8 +55,8 @@ struct LoopCrossing {
     std::size_t loop_a, segment_a, loop_b, segment_b;
 };
 
-/// The first pair of segments (by loop, then segment) that cross, overlap, or touch without being neighbours,
-/// decided exactly; empty if there is none.
+/// The first pair of segments (by loop, then segment) that cross, overlap, or touch without being neighbours.
+/// Decided exactly. Empty if there is none.
 /// @note  O(n log n) if few segments are close to each other.
 std::optional<LoopCrossing> find_crossing(std::span<const Vec2> points,
                                           std::span<const std::vector<Index>> loops);

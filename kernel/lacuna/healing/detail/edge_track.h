@@ -9,7 +9,7 @@
 
 namespace lacuna::healing {
 
-/// An edge to measure distances to: its exact curve where it has one, else its polyline.
+/// Measures distances to an edge: to its exact curve if it has one, else to its polyline.
 class EdgeTrack {
 public:
     /// Copies the geometry it needs, so the model may change afterwards.

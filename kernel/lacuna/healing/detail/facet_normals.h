@@ -7,38 +7,39 @@
 
 #include <vector>
 
-/// The normals by which facets are told apart, of clean and of noisy surfaces. Each function is linear in the
-/// facets.
+/// Normals of facets, by which split_facets() decides where faces end; for clean and for noisy surfaces. Each
+/// function is linear in the facets.
 namespace lacuna::healing {
 
-/// Facets of a patch of `patch_normals()`. With noise of 40 % of the sides, 32 join sides of a square tube;
-/// 64 turn too far from the surface of a round one of 40 sides.
+/// Number of facets in a patch of `patch_normals()`. With noise of 40 % of the facets' sides, patches of 32
+/// merge adjacent sides of a square tube; patches of 64 deviate too much from the surface of a round tube
+/// with 40 sides.
 inline constexpr std::size_t kPatch = 40;
 
-/// The only other side of the same label on the side's segment; -1 if there is none, there are several, or a
-/// facet of another label branches off.
+/// The other side with the same label on this side's segment. -1 if there is none, if there are several, or
+/// if a facet of another label also has the segment.
 Index partner(const Facets& facets, const FacetSides& sides, Index side);
 
-/// Unit normals. A facet so thin that moving its points by the tolerance could turn it by the feature angle
-/// [radians] takes the normal of its neighbour across its longest side.
+/// Unit normals of the facets. If moving the points of a thin facet by the tolerance could turn it by the
+/// feature angle [radians], it gets the normal of the neighbour across its longest side.
 std::vector<Vec3> own_normals(const Facets& facets, const FacetSides& sides, double feature,
                               const RunContext& context);
 
-/// Give facets without a normal that of the neighbour across their longest side that has one; the normal
-/// stays zero where no neighbour has one.
+/// Give each facet without a normal the normal of a neighbour, preferably the one across its longest side. A
+/// facet without any such neighbour keeps a zero normal.
 void borrow_normals(const Facets& facets, const FacetSides& sides, std::vector<Index> without,
                     std::vector<Vec3>& normal, const RunContext& context);
 
-/// Is the surface rough beside many of its creases, as the noise of a scan makes it? Clean surfaces are
-/// smooth on both sides of a crease.
-/// @param flipped  facets oriented against their face. @param feature  least turn of a crease [radians].
+/// Whether the surface is rough next to many of its creases, as in a noisy scan. Clean surfaces are smooth on
+/// both sides of a crease.
+/// @param flipped  facets oriented against their face. @param feature  smallest turn of a crease [radians].
 bool is_noisy(const Facets& facets, const FacetSides& sides, const std::vector<Vec3>& normal,
               const std::vector<bool>& flipped, double feature, const RunContext& context);
 
-/// For each facet the mean normal of the flattest patch that contains it: the mean over its neighbourhood,
-/// beside a crease over that of one side. The area vectors of a patch add up to a sum that its border alone
-/// determines, so noise inside it has no effect. To choose the flattest patch is the filter of Kuwahara
-/// @cite kuwahara_1976_smoothing for images.
+/// For each facet, the mean normal of the flattest patch that contains it. Inside a face this is the mean
+/// over the facet's neighbourhood; next to a crease it is the mean over one side of the crease. Only the
+/// border of a patch determines the sum of its area vectors, so noise inside the patch has no effect.
+/// Choosing the flattest patch is Kuwahara's filter for images @cite kuwahara_1976_smoothing.
 std::vector<Vec3> patch_normals(const Facets& facets, const FacetSides& sides, const RunContext& context);
 
 } // namespace lacuna::healing

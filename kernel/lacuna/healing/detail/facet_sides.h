@@ -29,7 +29,7 @@ public:
 
 private:
     std::span<const Triangle> facets_;
-    std::vector<Index> segment_; ///< for each side
+    std::vector<Index> segment_; ///< segment of each side
     std::vector<Index> sides_;   ///< grouped by segment
     std::vector<Index> first_;   ///< start of each segment in sides_
 };

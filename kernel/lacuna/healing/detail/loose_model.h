@@ -11,7 +11,7 @@
 namespace lacuna::healing {
 
 /// A model during stitching: entities are removed, points merge, and facet sides get points. Edges, their
-/// faces and facets are consistent at any time; loops only after `settled()`.
+/// faces and the facets are consistent at any time; loops are rebuilt by `settled()`.
 class LooseModel {
 public:
     /// @pre the model's loops are set.
@@ -24,20 +24,20 @@ public:
     /// The faces at an edge; a face that uses it twice is listed twice.
     [[nodiscard]] const std::vector<FaceId>& users(EdgeId e) const { return users_[e.index()]; }
     [[nodiscard]] bool is_free(EdgeId e) const { return !is_gone(e) && users_[e.index()].size() == 1; }
-    /// Is the edge used twice by the same face?
+    /// Whether the same face uses the edge twice.
     [[nodiscard]] bool is_seam(EdgeId e) const
     {
         return users(e).size() == 2 && users(e).front() == users(e).back();
     }
-    /// Has a face at the edge a mesh that must be kept?
+    /// Whether a face at the edge has a mesh that must be kept.
     [[nodiscard]] bool keeps_mesh(EdgeId e) const;
     /// Edges of each face in loop order, one entry per use.
     [[nodiscard]] std::vector<std::vector<EdgeId>> edges_of_faces() const;
 
     /// Merge point `gone` into `stays` at the next `settle_points()`. Nodes of kept meshes do not move: if
-    /// only `gone` is such a node, `stays` moves to it.
+    /// only `gone` is one, `stays` moves to it.
     void join(Index gone, Index stays);
-    /// Merge vertex `gone` into `stays`, with their points. @pre `stays` is not merged into another.
+    /// Merge vertex `gone` and its point into `stays`. @pre `stays` is not merged into another vertex.
     void join(VertexId gone, VertexId stays);
     void move(Index p, const Vec3& to)
     {
@@ -46,7 +46,8 @@ public:
     }
     struct Shrunk {
         std::vector<FaceId> faces;  ///< faces that collapsed
-        std::vector<FaceId> meshes; ///< faces that lost their given quads, because some collapsed
+        std::vector<FaceId> meshes; ///< faces that lost their given quads, because some of the quads
+                                    ///< collapsed
         int edges = 0;              ///< number of edges that collapsed
     };
     /// Apply the point merges and remove facets, edges and faces that collapsed.
@@ -75,8 +76,9 @@ private:
     topology::ModelBuilder model_;
     std::vector<bool> edge_gone_, face_gone_;
     std::vector<std::vector<FaceId>> users_;
-    std::vector<VertexId> vertex_joined_; ///< the vertex that each one merges into
-    geometry::UnionFind joined_;          ///< points, by the one that each merges into
+    std::vector<VertexId> vertex_joined_; ///< the vertex that each vertex merges into
+    geometry::UnionFind joined_;          ///< points; the root of a set is the point that the others merge
+                                          ///< into
     std::vector<bool> kept_;              ///< points that are nodes of given quads
     std::vector<bool> touched_;           ///< points whose surface parameters must be recomputed
     std::vector<bool> inside_;            ///< points inserted inside faces, which may be moved onto the

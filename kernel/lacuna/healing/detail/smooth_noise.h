@@ -11,10 +11,10 @@ struct NoiseSmoothed {
     double most = 0, mean = 0;
 };
 
-/// Smooth the noise of facets within faces and along edges, whose corners stay, without shrinking them
-/// @cite taubin_1995_signal: each pass moves the points towards the mean of their neighbours, and then back
-/// by a little more. Nodes that are kept do not move. Linear in the facets.
-/// @throw InvalidInput  cancelled.
+/// Smooth the noise of facets within faces and along edges without shrinking them @cite taubin_1995_signal:
+/// each pass moves the points towards the mean of their neighbours, and then a little further back. Corners
+/// of edges and nodes that must be kept do not move. Linear in the facets.
+/// @throw Cancelled
 NoiseSmoothed smooth_noise(topology::ModelBuilder& model, const RunContext& context);
 
 } // namespace lacuna::healing

@@ -9,12 +9,12 @@
 
 namespace lacuna::healing {
 
-/// A soup after welding and cutting, with each quad as two facets.
+/// A facet soup after welding and cutting. Each quad is stored as two facets.
 struct Facets {
     std::vector<Vec3> points;
     std::vector<Triangle> corner;
     std::vector<int> label;
-    std::vector<Index> quad; ///< number in `quads` of the quad that the facet is half of; -1: none
+    std::vector<Index> quad; ///< number in `quads` of the quad that contains the facet; -1: none
     std::vector<Quad> quads;
     double tolerance = 0, diagonal = 0;
     std::size_t repeated = 0; ///< facets dropped as duplicates of an earlier one
@@ -26,11 +26,11 @@ struct Facets {
 /// Area times unit normal of a facet.
 Vec3 area_vector(const std::vector<Vec3>& points, const Triangle& facet);
 
-/// Weld the points of a soup, drop collapsed facets and duplicates within a label, and cut facets at
-/// T-junctions on their free sides. Halves of quads are not cut.
+/// Weld the points of a soup, drop collapsed facets and duplicates within a label, and cut facets where a
+/// point of one free side lies on another (T-junction). Halves of quads are not cut.
 /// @param tolerance  points closer than this are merged [model length]; 0: 1e-6 × the diagonal.
-/// @throw InvalidInput  no facets; a facet uses a missing or non-finite point; with a tolerance of 0, more
-///         facets collapsed than are left. Cancelled.
+/// @throw InvalidInput  there are no facets; a facet uses a point that is missing or not finite; with a
+///        tolerance of 0, more facets collapse than remain. Cancelled.
 Facets facets_of(const FacetSoup& soup, double tolerance, const RunContext& context);
 
 } // namespace lacuna::healing

@@ -6,12 +6,12 @@
 
 namespace lacuna::healing {
 
-// Clean-up after edges have merged; every removal is counted and noted in the report.
+// Clean-up after edges have merged. The report counts and notes every removal.
 
-/// Remove sliver faces: their border folds onto itself everywhere and their area is next to none.
+/// Remove sliver faces: faces whose border folds onto itself everywhere, so that they have almost no area.
 void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& report);
 
-/// Of coincident faces remove all but one, or all but two if other faces are connected to both.
+/// Remove all but one of coincident faces. Keep two if other faces are connected to both.
 void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport& report,
                               const RunContext& context);
 

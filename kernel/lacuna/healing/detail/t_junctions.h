@@ -9,17 +9,17 @@
 
 namespace lacuna::healing {
 
-/// A facet and the input facet that it is, or is part of.
+/// A facet or a piece of a facet, with the index of the input facet.
 struct FacetPiece {
     Triangle corner;
     Index of = -1;
 };
 
-/// Cut facets at T-junctions: where a point of a free side lies within the tolerance of the inside of another
-/// free side. A side is free if it has one facet.
+/// Cut facets at T-junctions: where a point of a free side lies within the tolerance of another free side,
+/// away from its ends. A side is free if only one facet has it.
 ///
 /// @param whole  facets that must not be cut, such as halves of kept quads.
-/// @return the facets in their order, each cut facet replaced by its pieces; empty if none was cut.
+/// @return the facets in their order, with the pieces of a cut facet in its place; empty if none was cut.
 /// @throw Cancelled
 /// @note O(n), plus O(n log n) in the free sides.
 std::vector<FacetPiece> cut_at_t_junctions(std::span<const Vec3> points, std::span<const Triangle> facets,

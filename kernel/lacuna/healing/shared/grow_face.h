@@ -10,24 +10,25 @@
 namespace lacuna::healing {
 
 struct GrowOptions {
-    double angle = 20;         ///< neighbouring facets at a sharper dihedral turn are not taken [degrees]
+    double angle = 20;         ///< growth does not cross sides that turn by more than this [degrees]
     double feature_angle = 40; ///< the new edges get vertices where they turn by more than this [degrees]
 };
 
 struct GrownFace {
     topology::Model model;
     FaceId face;             ///< the grown face, in `model`
-    std::vector<FaceId> now; ///< by old face: its number in `model`; invalid if the whole face was grown over
+    std::vector<FaceId> now; ///< for each old face, its index in `model`; invalid if the face was grown over
+                             ///< entirely
 };
 
 /// Make one face of the facets connected to the facet closest to `near`. Growth crosses sides that have two
 /// facets or fewer and turn by no more than `angle`; a given quad counts as one facet.
 ///
-/// Growth may take facets of other faces. The rest of such a face keeps its tag and its place among the
-/// faces; if the rest is in several parts, the part of most facets keeps them. The other parts and the grown
-/// face get new tags above all others and come last. A face grown over entirely is removed. The grown face
-/// takes name, groups and regions from the face of the first facet. If the grown facets are exactly one
-/// existing face, the model is unchanged and that face is returned. Otherwise edges and vertices are
+/// Growth may take facets from other faces. The rest of such a face keeps its tag and its place among the
+/// faces. If the rest is in several parts, the part with the most facets keeps them; the other parts and the
+/// grown face come last, with new tags above all others. A face that is grown over entirely is removed. The
+/// grown face takes its name, groups and regions from the face of the first facet. If growth takes exactly
+/// one existing face, the model is unchanged and that face is returned. Otherwise edges and vertices are
 /// renumbered.
 /// @param among  faces that may be grown over.
 /// @throw InvalidInput "topology.bad_angle"   an angle outside (0, 180]. "healing.exact_faces"  a face has

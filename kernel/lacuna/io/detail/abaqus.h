@@ -28,7 +28,7 @@ Keyword parse_keyword(std::string_view words);
 struct AbaqusCard {
     Keyword keyword{};
     std::string_view text{}; ///< all its lines, with comments
-    std::string_view data{}; ///< from its first data line to its last, with comments between
+    std::string_view data{}; ///< from the first data line to the last, with comments between them
 };
 /// The cards of a text. They view the text.
 std::vector<AbaqusCard> abaqus_cards(std::string_view text);
@@ -41,13 +41,13 @@ void each_data_line(const AbaqusCard& card, const Take& take)
     });
 }
 
-/// Whether an element type in capitals is a hexahedron of a thin layer, whose nodes 5 to 8 lie on 1 to 4 in
-/// the direction of its thickness: a cohesive one, a gasket, a continuum shell.
+/// Whether an element type (in capitals) is a hexahedron of a thin layer: a cohesive element, a gasket or a
+/// continuum shell. Its nodes 5 to 8 lie above nodes 1 to 4 in the direction of the thickness.
 bool is_layer(std::string_view type);
-/// The type of the wedges beside such hexahedra; empty: there is none.
+/// The type of wedges in a layer of such hexahedra; empty: there is none.
 std::string layer_wedge(std::string_view type);
 
-/// Whether it assigns a section to a set of elements.
+/// Whether a keyword assigns a section to a set of elements.
 bool is_section(const Keyword& keyword);
 
 } // namespace lacuna::io

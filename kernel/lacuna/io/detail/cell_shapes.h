@@ -12,8 +12,9 @@
 /// Shapes of cells in the formats, and of swept meshes. Internal to this folder.
 namespace lacuna::io {
 
-/// A shape in the formats: the words of Abaqus, Nastran and Exodus for elements from another format, and the
-/// numbers of UNV (for a face: a thin shell), Gmsh and VTK; empty and 0 if there is none.
+/// Names of a shape in the formats. Abaqus, Nastran and Exodus: the type word for elements that come from
+/// another format; empty: there is none. UNV (a face is a thin shell), Gmsh and VTK: the number; 0: there is
+/// none.
 struct ShapeWords {
     const char *abaqus, *nastran, *exodus;
     int unv, gmsh, vtk;
@@ -30,7 +31,7 @@ inline constexpr ShapeWords kShapeWords[kDeckShapes] = {
     // tetrahedra, pyramids, wedges, hexahedra
     {"C3D4", "CTETRA", "TETRA", 111, 4, 10},
     {"C3D10", "CTETRA", "TETRA10", 118, 11, 24},
-    {"C3D8", "CPYRAM", "PYRAMID", 115, 7, 14}, // see `is_merged_brick()`
+    {"C3D8", "CPYRAM", "PYRAMID", 115, 7, 14}, // see `merged_brick()`
     {"C3D20", "CPYRAM", "PYRAMID13", 116, 19, 27},
     {"", "", "PYRAMID14", 0, 14, 0}, // see `vtk_view()`
     {"C3D6", "CPENTA", "WEDGE", 112, 6, 13},
@@ -41,20 +42,21 @@ inline constexpr ShapeWords kShapeWords[kDeckShapes] = {
     {"", "", "HEX27", 0, 12, 29},
 };
 inline const ShapeWords& words_of(DeckShape shape) { return kShapeWords[static_cast<std::size_t>(shape)]; }
-/// The shape with a number above 0 in a format; empty: no shape has it.
+/// The shape with a given number (above 0) in a format; empty: no shape has it.
 inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int64_t number)
 {
-    for (std::size_t s = kDeckShapes; s-- > 0;) // a brick before the pyramid that is written as one
+    for (std::size_t s = kDeckShapes; s-- > 0;) // backwards: a brick comes before the pyramid that is written
+                                                // as one
         if (number > 0 && kShapeWords[s].*format == number) return static_cast<DeckShape>(s);
     return {};
 }
 
-/// Pyramids are written as bricks whose upper nodes are the apex where a format has none: UNV, and Abaqus,
-/// whose pyramid CalculiX lacks and which has none of order 2. The brick of eight nodes is a pyramid exactly:
-/// its sides are linear, so that it fits tetrahedra, and CalculiX's result of a patch test has one stress to
-/// 1e-12. The sides of a brick of twenty nodes fit those of tetrahedra if the displacement is linear along
-/// the sides of the base, which equations in the deck see to (`abaqus_writer.cpp`): the stress is one to 1e-7
-/// then, and 22 % off without.
+/// Formats without a pyramid get a brick whose upper nodes are the apex: UNV and Abaqus. (CalculiX does not
+/// have the pyramid of Abaqus, and Abaqus has none of order 2.) The brick of eight nodes is exactly a
+/// pyramid. Its sides are linear, so it fits tetrahedra; in a patch test with CalculiX the stress is uniform
+/// to 1e-12. The sides of a brick of twenty nodes fit those of tetrahedra if the displacement is linear along
+/// the sides of the base. Equations in the deck enforce this (`abaqus_writer.cpp`): the stress is then
+/// uniform to 1e-7, and without them 22 % off.
 ///
 /// @return  the brick of a pyramid; empty for other shapes
 inline std::optional<DeckShape> merged_brick(DeckShape shape)
@@ -63,26 +65,28 @@ inline std::optional<DeckShape> merged_brick(DeckShape shape)
     if (shape == DeckShape::pyramid13) return DeckShape::hex20;
     return {};
 }
-/// The node of the pyramid at each node of its brick, of which the first eight or all twenty are used.
+/// For each node of the brick, the node of the pyramid. Order 1 uses the first eight entries, order 2 all
+/// twenty.
 inline constexpr std::array<std::uint8_t, 20> kMergedBrick{0, 1, 2, 3, 4, 4, 4, 4,  5,  6,
                                                            7, 8, 4, 4, 4, 4, 9, 10, 11, 12};
 
-/// Orders of a cell's nodes other than that of DeckShape.
+/// Formats whose cell nodes are ordered differently from DeckShape.
 enum class NodeOrder { exodus, gmsh, unv };
-/// Positions of a shape's nodes in the order of DeckShape. In Exodus, and in Nastran, middles of upright
-/// sides precede those above, and the centre of a hexahedron those of its faces. In UNV corners and middles
-/// alternate around the cell in each layer, with the middles of upright sides between the layers.
+/// Position in the format of each node in the order of DeckShape. In Exodus and Nastran, middle nodes of
+/// upright sides come before those of the top, and the centre of a hexahedron comes before those of its
+/// faces. In UNV, corners and middle nodes alternate around the cell in each layer, with the middle nodes of
+/// upright sides between the layers.
 std::span<const std::uint8_t> node_places(NodeOrder order, DeckShape shape);
 
-/// The name given to a physical group of Gmsh without one.
+/// The name given to a physical group of Gmsh that has none.
 std::string unnamed_group(int tag);
 
-/// Shape of the hexahedra of a swept mesh, by its order and nodes.
+/// Shape of the hexahedra of a swept mesh.
 inline DeckShape cell_shape(const mesh::HexMesh& mesh)
 {
     return mesh.order() == 1 ? DeckShape::hex8 : mesh.middles.full ? DeckShape::hex27 : DeckShape::hex20;
 }
-/// Shape of the quads of its skin.
+/// Shape of the quads of the skin of a swept mesh.
 inline DeckShape skin_shape(const mesh::HexMesh& mesh)
 {
     return mesh.order() == 1 ? DeckShape::quad4 : mesh.middles.full ? DeckShape::quad9 : DeckShape::quad8;

@@ -24,10 +24,11 @@ enum class Coding { text, little, big };
 /// Whether `1.5D+3` and `1.5+3` are numbers too.
 enum class Exponents { plain, fortran };
 
-/// The finite number that `text` consists of, the same in every locale; a number too small for a double is 0.
+/// The text as a finite number; empty: it is none. Does not depend on the locale. A number too small for a
+/// double gives 0.
 std::optional<double> parse_real(std::string_view text, Exponents exponents = Exponents::plain);
 
-/// The whole number that `text` consists of, if it fits.
+/// The text as a whole number; empty: it is none, or does not fit.
 template <class Int>
 std::optional<Int> parse_integer(std::string_view text)
 {
@@ -50,13 +51,14 @@ Value from_bytes(const char* bytes, bool big)
     return value;
 }
 
-/// Whether it is a blank, tab or carriage return.
+/// Whether a character is a blank, tab or carriage return.
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 /// The text without blanks and line ends on either side.
 std::string_view trimmed(std::string_view text);
 /// Whether two words are equal, ignoring case.
 bool same_word(std::string_view a, std::string_view b);
-/// The entry of a list with this word, or with it as the member `of`, ignoring case; its end: none.
+/// Find the entry of a list that equals a word, ignoring case. With `of`, this member of the entries is
+/// compared. Returns the end of the list if there is none.
 template <class Entries, class Of = std::identity>
 auto find_word(Entries& entries, std::string_view word, Of of = {})
 {
@@ -65,11 +67,11 @@ auto find_word(Entries& entries, std::string_view word, Of of = {})
 }
 /// The text in capitals.
 std::string upper(std::string_view text);
-/// Take the next word off a text; empty at its end.
+/// Remove the first word from a text and return it; empty at the end of the text.
 std::string_view next_word(std::string_view& text, std::string_view separators = " \t\r\n");
-/// Take the next field off a line, up to a comma; without blanks on either side.
+/// Remove the first field, up to a comma, from a line and return it without blanks on either side.
 std::string_view next_field(std::string_view& line);
-/// Whether this many entities can be numbered.
+/// Whether this number of entities can be numbered by an Index.
 constexpr bool is_index(std::uint64_t count)
 {
     return count <= static_cast<std::uint64_t>(std::numeric_limits<Index>::max());
@@ -80,8 +82,8 @@ std::string shown(std::string_view text);
 /// The code of all errors in the text or the bytes of a file.
 inline constexpr const char* kUnreadable = "io.unreadable";
 
-/// Reads lines, words and values, never beyond the end. Messages name the file and the line, or in binary
-/// parts the byte, of the last item read.
+/// Reads lines, words and values, never beyond the end. Messages name the file and the position of the last
+/// item read: the line, or the byte in binary parts.
 class Cursor {
 public:
     Cursor(std::string path, std::string_view data);
@@ -95,7 +97,7 @@ public:
     [[nodiscard]] std::size_t position() const { return at_; }
     [[nodiscard]] std::size_t last() const { return last_; }
     [[nodiscard]] std::string_view rest() const { return data_.substr(at_); }
-    /// A cursor over a part of the same file that ends where the part does.
+    /// A cursor over a part of the same file. It ends where the part ends.
     [[nodiscard]] Cursor part(std::string_view part) const;
 
     /// The rest of the line, unchanged.
@@ -108,11 +110,11 @@ public:
     std::string_view word(const char* expected = "a word");
     /// The next word of this line; empty at its end.
     std::string_view word_in_line();
-    /// Like `line()`, but messages still name the item read before.
+    /// Like `line()`, but messages still refer to the item read before.
     std::string_view line_end();
     /// Whether another word follows.
     bool more();
-    /// Read the next word, which must be this one, ignoring case.
+    /// Read the next word and check that it is this one, ignoring case.
     void expect(std::string_view wanted);
     /// The last item read.
     [[nodiscard]] std::string_view last_word() const { return data_.substr(last_, at_ - last_); }
@@ -124,7 +126,7 @@ public:
     int integer();        ///< 4 bytes, or text
     std::uint64_t size(); ///< 8 bytes, or text
     double real();        ///< 8 bytes, or text; finite
-    Vec3 point();         ///< three of them
+    Vec3 point();         ///< three reals
     /// A number in text, also in otherwise binary files.
     std::int64_t text_integer() { return integer_of(word("a number")); }
     double text_real() { return real_of(word("a number")); }
@@ -136,8 +138,9 @@ public:
     /// The next `count` bytes.
     std::string_view bytes(std::uint64_t count);
 
-    /// A count of records; refused if the rest of the file cannot hold them, so that a wrong count costs no
-    /// memory. @param bytes  of a record in a binary file. @param values  of a record in a text file.
+    /// Check a count of records: it is refused if the rest of the file cannot hold so many, so that a wrong
+    /// count costs no memory. @param bytes  size of a record in a binary file. @param values  number of
+    /// values of a record in a text file.
     std::uint64_t plausible(std::uint64_t count, std::uint64_t bytes, std::uint64_t values) const;
 
     /// @throw InvalidInput "io.unreadable" with the file and the line or byte

@@ -15,7 +15,7 @@ namespace lacuna::io {
 /// Indices of nodes or elements by their tags in the file, which need not be dense.
 class TagPlaces {
 public:
-    /// Calls `twice(a, b)` for indices with the same tag, of which the first is used.
+    /// @param twice  called as twice(a, b) for two indices with the same tag; the first of them is used.
     template <class Twice>
     TagPlaces(std::span<const DeckTag> tags, const Twice& twice);
     explicit TagPlaces(std::span<const DeckTag> tags) : TagPlaces(tags, [](Index, Index) {}) {}
@@ -47,7 +47,7 @@ inline void tidy(DeckSet& set)
     tidy(set.sides);
 }
 
-/// The highest tag of the regions or sets and of another one.
+/// The highest of the tags of all regions or sets and a given tag.
 template <class Entity>
 int highest_tag(const std::vector<Entity>& entities, int tag = 0)
 {
@@ -62,10 +62,11 @@ void each_element(const Deck& deck, const Visit& visit)
     for (const DeckBlock& block : deck.blocks)
         for (std::size_t e = 0; e < block.count(); ++e) visit(block, e, i++);
 }
-/// The corners of a shell as those of a face; -1 for the fourth of a triangle.
+/// The corners of a shell as those of a face; the fourth is -1 for a triangle.
 inline Quad shell_corners(DeckShape shape) { return {0, 1, 2, shape_info(shape).corners == 4 ? 3 : -1}; }
-/// Group the faces of solids and the shells of a deck by their corners: call `take(faces)`, where the number
-/// of a face is 8 × that of its element, counted as by each_element(), + its side from 1, for a shell + 0.
+/// Group the faces of solids and the shells of a deck by their corners: call `take(faces)` for each group.
+/// The number of a face is 8 × the number of its element, as each_element() counts, plus its side (from 1),
+/// or plus 0 for a shell.
 template <class Take>
 void each_with_same_nodes(const Deck& deck, const Take& take)
 {
@@ -88,7 +89,7 @@ std::vector<char> used_regions(const Deck& deck);
 std::vector<DeckTag> element_tags(const Deck& deck);
 /// The block of a shape and type word, created on first use.
 std::size_t block_of(std::vector<DeckBlock>& blocks, DeckShape shape, std::string_view type);
-/// The block without the elements for which `gone(e)` holds.
+/// A copy of a block without the elements for which `gone(e)` holds.
 template <class Gone>
 DeckBlock without_elements(const DeckBlock& block, const Gone& gone)
 {
@@ -106,8 +107,8 @@ DeckBlock without_elements(const DeckBlock& block, const Gone& gone)
     return kept;
 }
 /// Append the elements of a block to another, without the card fields after their nodes (`DeckBlock::more`).
-/// @param first_point   added to their point indices; `first_region` to their region indices.
-/// @param raise  added to their tags.
+/// @param first_point   added to the point indices; `first_region` is added to the region indices.
+/// @param raise  added to the tags.
 void append_block(const DeckBlock& from, Index first_point, Index first_region, DeckTag raise, DeckBlock& to);
 /// Add an offset to the node and element numbers in a set.
 void raise_numbers(DeckSet& set, DeckTag nodes, DeckTag elements);
@@ -124,41 +125,42 @@ public:
 
     /// Add a new region.
     Index add_region(int tag, std::string_view name);
-    /// The region with this tag, created on first use. @param group  identifies one of several numberings in
-    /// a file.
+    /// The region with this tag, created on first use. @param group  which numbering the tag belongs to, if a
+    /// file has several.
     Index region_of(int tag, std::string_view name = {}, int group = 0);
 
     /// As `io::block_of()`.
     std::size_t block_of(DeckShape shape, std::string_view type);
-    /// Add an element. @param nodes  indices of points or, with `resolve()`, tags, in the order of DeckShape;
-    /// -1: omitted. @param tag  -1: numbered in order. @param place  for messages, see `resolve()`.
+    /// Add an element. @param nodes  in the order of DeckShape: indices of points or, with `resolve()`, tags;
+    /// -1: omitted. @param tag  -1: numbered in order. @param place  position in the file for messages of
+    /// `resolve()`.
     void add_element(std::size_t block, DeckTag tag, Index region, std::span<const Index> nodes,
                      std::uint64_t place = 0);
-    /// Destination for elements that are added in bulk, one after the other.
+    /// Memory for elements that are added in bulk, one after the other.
     struct Room {
         Index* nodes;  ///< indices of points, in the order of DeckShape
-        DeckTag* tags; ///< initially numbered in order
+        DeckTag* tags; ///< filled with consecutive numbers at first
     };
-    /// Add elements of one region, whose nodes and tags must be filled in before the next are added.
+    /// Add elements of one region. The caller must fill in their nodes and tags before it adds others.
     Room add_elements(std::size_t block, std::size_t count, Index region);
     /// Add a shell with three or more corners; more than four are split into triangles.
     /// @throw InvalidInput  fewer corners, an unknown point, a polygon that intersects itself.
     void add_face(std::span<const Index> corners, Index region, const Cursor& cursor, DeckTag tag = -1);
-    /// Replace tags of nodes by indices in all elements so far, which must all have been added with tags.
-    /// @param fail  is called with the element's place and the error.
+    /// Replace tags of nodes by indices in all elements so far. All of them must have been added with tags.
+    /// @param fail  called with the element's place and the error.
     template <class Fail>
     void resolve(const TagPlaces& nodes, const Fail& fail);
 
-    /// Count ignored content.
+    /// Count content that is ignored.
     void pass_over(const std::string& what, std::size_t count = 1);
 
-    /// Count nodes that elements list beyond those of their type, and ignore them.
+    /// Ignore the nodes that elements list beyond those of their type, and count them.
     void pass_over_nodes(const std::string& type, std::size_t count)
     {
         further_nodes_[type] = std::max(further_nodes_[type], count);
     }
-    /// Add a warning about content that was read differently from the file: a sentence without the file's
-    /// name.
+    /// Add a warning about content that was read differently from the file: a sentence that does not name the
+    /// file.
     void warn(const std::string& text) { deck_.warnings.push_back(text); }
 
     /// The collected deck. @throw InvalidInput "io.unreadable" (a point too far away)
@@ -170,9 +172,10 @@ private:
 
     Deck deck_;
     std::map<std::pair<int, int>, Index> regions_;
-    std::vector<std::vector<std::uint64_t>> places_; ///< for each element of each block
+    std::vector<std::vector<std::uint64_t>> places_; ///< place in the file of each element of each block
     std::map<std::string, std::size_t> passed_over_;
-    std::map<std::string, std::size_t> further_nodes_; ///< maximum for each element type
+    std::map<std::string, std::size_t> further_nodes_; ///< for each element type, the largest number of
+                                                       ///< surplus nodes
     DeckTag elements_ = 0;                             ///< number of elements
 };
 
@@ -194,7 +197,7 @@ TagPlaces::TagPlaces(std::span<const DeckTag> tags, const Twice& twice)
 {
     DeckTag highest = 0;
     for (const DeckTag tag : tags) highest = std::max(highest, tag);
-    // Use a table up to the highest tag if that is at most 4 × the number of tags: a higher factor makes more
+    // Use a table up to the highest tag if that is at most 4 × the number of tags. A higher factor makes more
     // lookups direct, but wastes memory for sparse tags. Not measured.
     if (static_cast<std::uint64_t>(highest) / 4 <= tags.size()) {
         dense_.assign(static_cast<std::size_t>(highest) + 1, -1);
@@ -226,7 +229,7 @@ void DeckBuilder::resolve(const TagPlaces& nodes, const Fail& fail)
             const Index place = nodes.find(node);
             if (place < 0)
                 fail(places_[b][i / per],
-                     Message(kUnreadable, "{} of type {} names {}, which is not there",
+                     Message(kUnreadable, "{} of type {} names {}, which does not exist",
                              numbered("element", block.tags[i / per]), block.type, numbered("node", node)));
             node = place;
         }

@@ -12,7 +12,7 @@
 /// Decks of several files. Internal to this folder.
 namespace lacuna::io {
 
-/// A position in a deck of several files.
+/// A position in a deck that may consist of several files.
 struct DeckPlace {
     const Cursor* cursor = nullptr;
     std::size_t position = 0;
@@ -25,7 +25,7 @@ struct DeckPlace {
         cursor->fail_at(position, format, arguments...);
     }
     [[noreturn]] void fail(const Message& why) const { cursor->fail_at(position, why); }
-    /// The position as a number above 0.
+    /// The position as one number above 0.
     [[nodiscard]] std::uint64_t number() const { return (file << kPositionBits | position) + 1; }
     static constexpr int kPositionBits = 44; // for files of up to 16 TB
 };
@@ -35,7 +35,7 @@ class DeckFiles {
 public:
     explicit DeckFiles(Cursor& main);
 
-    /// The cursor of a file named in an INCLUDE at `place`. @param depth  current depth of nested files.
+    /// The cursor of a file that an INCLUDE at `place` names. @param depth  depth of nesting at that place.
     /// @throw InvalidInput  the file does not exist, lies elsewhere, or includes itself.
     Cursor& include(const std::string& name, const DeckPlace& place, int depth);
     /// Number of the file included last.
@@ -48,7 +48,8 @@ private:
     struct File;
     Cursor& main_;
     std::filesystem::path folder_;
-    std::vector<std::shared_ptr<File>> files_; ///< kept for messages, and for words that point into them
+    std::vector<std::shared_ptr<File>> files_; ///< kept open for messages, and because words point into their
+                                               ///< text
 };
 
 } // namespace lacuna::io

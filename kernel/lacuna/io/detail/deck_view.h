@@ -31,13 +31,14 @@ private:
 struct BulkPart {
     const mesh::HexMesh& mesh;
     std::unique_ptr<const NodeReader> nodes;
-    const mesh::NodeNumbers* numbers; ///< of its nodes, from 0; null: its nodes are those of the whole
+    const mesh::NodeNumbers* numbers; ///< numbers of its nodes in the whole mesh, from 0; null: the mesh is
+                                      ///< the whole
     SweptCells cells{mesh};
     BulkPlace place{};
 };
-/// Convert swept meshes with shared nodes to a deck of a format, with regions and sets as in `write_mesh()`,
-/// that lacks their nodes and cells; see `AddedMesh::bulk`.
-/// @param parts       get their places
+/// Convert swept meshes with shared nodes to a deck of a format. The deck has regions and sets as in
+/// `write_mesh()`, but lacks the nodes and cells of the meshes; see `AddedMesh::bulk`.
+/// @param parts       their `place` is set
 /// @param interfaces  as `MeshFileOptions::interfaces`
 /// @throw  as `write_parts()`
 /// @note   O(nodes and cells of the skin)
@@ -46,18 +47,18 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
 
 /// View a deck for the writer of a format. The view has the regions and sets of the deck.
 ///
-/// For formats that are no decks, an entity is the elements of one dimension and region that are in the same
-/// sets; its groups are these sets and the region. The named lists of the view are those of the groups, where
-/// the faces of a group that also has solids form a list of their own with ":faces" appended to its name,
-/// followed by the node sets, with "nodes:" before their names.
+/// For formats that are not decks, elements of one dimension and region that are in the same sets form an
+/// entity. Its groups are these sets and the region. The view gets a named list for each group. If a group
+/// has both solids and faces, its faces form a list of their own, with ":faces" appended to the name. Lists
+/// of the node sets follow, with "nodes:" before their names.
 /// @param deck   must outlive the view, as must `parts`.
-/// @param parts  meshes that `deck_without_bulk()` omitted; empty: the deck has all.
+/// @param parts  meshes that `deck_without_bulk()` left out of the deck; empty: the deck has all.
 /// @note  O(n) in the elements and the members of sets; O(n log n) if tags have large gaps.
 std::shared_ptr<mesh::MeshView> view_of(const Deck& deck, const Format& format,
                                         std::span<const BulkPart> parts = {});
 
 /// Divide the view of several swept meshes into parts, as `write_parts()` says.
-/// @param parts  of the view, whose skin elements are numbered after the cells of their mesh.
+/// @param parts  meshes of the view. The view numbers all cells of a mesh before its skin elements.
 /// @throw InvalidInput "io.too_many_parts"  there are fewer layers than parts.
 /// @note  O(nodes of all cells) for each row of ghosts.
 mesh::ViewParts parts_of(const mesh::MeshView& view, std::span<const BulkPart> parts,

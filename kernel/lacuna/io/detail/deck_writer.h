@@ -37,12 +37,12 @@ void each_cell(const mesh::MeshView::Block& block, std::size_t begin, std::size_
     }
 }
 
-/// Append text and all points, each written by `put(index, tag, point, out)` in at most this many bytes.
+/// Append text and all points. `put(index, tag, point, out)` writes each point in at most `bytes` bytes.
 template <class Put>
 Section section_of_points(std::string text, const View& view, std::size_t bytes, Put put)
 {
     return {std::move(text), view->points, bytes, [view, put](std::size_t begin, std::size_t end, char* out) {
-                Put own = put; // it may have a state
+                Put own = put; // a copy, because it may have a state
                 view->each_point(begin, end, [&](std::span<const Vec3> points) {
                     for (const Vec3& point : points) {
                         out = own(begin, view->point_tags[begin], point, out);
@@ -52,7 +52,8 @@ Section section_of_points(std::string text, const View& view, std::size_t bytes,
                 return out;
             }};
 }
-/// The same for the cells of a block. @param put  `put(index in the block, tag, region, nodes, out)`
+/// The same for the cells of a block. @param put  called as `put(index in the block, tag, region, nodes,
+/// out)`
 template <class Put>
 Section section_of_cells(const View& view, std::size_t block, std::size_t bytes, Put put)
 {
@@ -71,7 +72,7 @@ Section section_of_cells(const View& view, std::size_t block, std::size_t bytes,
             return out;
         }};
 }
-/// Append text and all members of a set, each written by `put(index, tag, out)`.
+/// Append text and all members of a set. `put(index, tag, out)` writes each of them.
 template <class Put>
 Section section_of_members(std::string text, const View& view, std::size_t set, std::size_t bytes, Put put)
 {
@@ -83,29 +84,29 @@ Section section_of_members(std::string text, const View& view, std::size_t set, 
             }};
 }
 
-/// Content of a file to be written: its sections refer to the view.
+/// Content of a file to be written. Its sections refer to the view.
 struct DeckFile {
     std::vector<Section> sections;
-    std::vector<std::string> notes; ///< content that the format cannot hold, a sentence each
+    std::vector<std::string> notes; ///< content that the format cannot hold; one sentence each
     std::string changed{};          ///< sets of the deck that differ in the file; empty: none
     Sizes sizes = Sizes::varying;
 
     void add(std::string text) { sections.push_back({std::move(text), 0, 0, {}}); }
 };
 
-/// The text at one place, of all parts.
+/// All texts of a deck at one place, one after the other.
 std::string text_at(const Deck& deck, DeckText::Place place);
 
-/// A name that is valid in Abaqus: letters, digits, - and _ , starting with a letter.
+/// Convert a name to one that is valid in Abaqus: letters, digits, - and _ , starting with a letter.
 std::string abaqus_name(std::string_view name);
-/// A name that is valid in a format, with a number appended if it is in use.
+/// Convert a name to one that is valid in a format, and append a number if that is in use.
 std::string free_name(std::string_view name, DeckFormat format,
                       const std::function<bool(const std::string&)>& is_taken);
-/// Whether sets of two kinds must not have the same name. CalculiX takes a load on a surface for one on the
-/// element set of that name, and applies none; a universal file has groups of both nodes and elements.
+/// Whether sets of two kinds must not have the same name. CalculiX mistakes a load on a surface for one on
+/// the element set of that name, and applies none. A group of a universal file holds both nodes and elements.
 bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b);
 
-/// Whether an Abaqus type word in capitals is an element of this shape.
+/// Whether an Abaqus type word (in capitals) is an element of this shape.
 bool is_abaqus_element(std::string_view type, DeckShape shape);
 
 /// Fields of a Nastran line, separated by commas or, if it has none, by tabs or columns; the first is the
@@ -116,20 +117,21 @@ std::vector<std::string_view> nastran_fields(std::string_view line);
 struct TextNumbers {
     std::set<DeckTag> nodes, cells;
     DeckTag set = 0, property = 0;       ///< the highest ones
-    std::vector<std::string> surfaces{}; ///< names in Abaqus
+    std::vector<std::string> surfaces{}; ///< names of surfaces in Abaqus
 };
 TextNumbers numbers_in_text(const Deck& deck);
 
-/// Materials defined in the text of a Nastran or Abaqus deck, by their names there, each once.
+/// Materials that the text of a Nastran or Abaqus deck defines, each once, by their names in the text.
 std::vector<std::string> materials_in_text(const Deck& deck);
-/// The section material of an element set in the text of an Abaqus deck; empty: it has no section.
+/// The material that a section in the text of an Abaqus deck gives to an element set; empty: there is no
+/// section.
 std::optional<std::string> section_material(const Deck& deck, std::string_view set);
-/// Cards of an Abaqus deck before its first step, and from there on.
+/// The cards of an Abaqus deck in two parts: before its first step, and from there on.
 std::pair<std::string, std::string> model_and_steps(const std::string& cards);
 /// Insert model cards before the first step of an Abaqus deck.
 void add_model_cards(Deck& deck, const std::string& cards);
 
-/// Start of the exponent of a real number: an E, or only its sign, as in 1.5-3.
+/// How the exponent of a real number starts: with an E, or only with its sign, as in 1.5-3.
 enum class RealForm { plain, nastran };
 
 /// The nearest real number of at most `width` characters, with a point. @pre width >= 10
@@ -137,14 +139,14 @@ char* put_real(char* out, double value, std::size_t width, RealForm form = RealF
 
 inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
 
-/// A comment line with the unit of the lengths, after a sign; empty if none is declared or the kept text says
-/// it.
+/// A comment line that states the unit of the lengths; `sign` begins a comment. Empty if no unit is declared,
+/// or if the kept text states it already.
 std::string unit_comment(const mesh::MeshView& view, std::string_view sign, const std::string& unit);
 
 /// Check that all node and element numbers fit into a format. @throw InvalidInput "io.number_taken"
 void check_numbers(const mesh::MeshView& view, DeckTag most, const std::string& format,
                    const std::string& remedy);
-/// Refuse elements that a format does not have. @throw InvalidInput always
+/// Refuse elements that a format does not have. @throw InvalidInput  always
 [[noreturn]] void refuse_element(const mesh::MeshView::Block& block, std::string_view format,
                                  std::string_view why);
 

@@ -5,20 +5,21 @@
 
 /// Elements of Exodus and their sides. Internal to this folder.
 ///
-/// Exodus II: dimensions and arrays with agreed names in a netCDF file of the classic format
+/// Exodus II is a netCDF file of the classic format in which dimensions and arrays have agreed names
 /// (https://docs.unidata.ucar.edu/nug/current/file_format_specifications.html). Reader and writer are our
-/// own: the library of Debian 12 (exodusii 6.02) depends on fifty others, including HDF5 and curl, and
-/// accepts only paths.
+/// own: the library of Debian 12 (exodusii 6.02) accepts only paths, and depends on fifty others, including
+/// HDF5 and curl.
 namespace lacuna::io {
 
-/// The property of blocks that holds the id of the first block of their region: a block has one shape, a
-/// region may have several. It is written if one has.
+/// Exodus property that gives, for each block, the id of the first block of its region. A block has one
+/// shape, but a region may have several shapes and so several blocks. The property is written if a region has
+/// several.
 inline constexpr const char* kRegionProperty = "REGION";
 
-/// Number of a side in Exodus, from that in Abaqus, which has the bottom and top faces first; Exodus has them
+/// Convert the number of a side from Abaqus to Exodus. Abaqus numbers the bottom and top faces first, Exodus
 /// last. Tetrahedra and pyramids have only a bottom face.
 int exodus_side(DeckShape shape, int side);
-/// The inverse. @return  false: there is no such side
+/// The inverse. @return  false if the element has no such side
 bool abaqus_side(DeckShape shape, int exodus, int& side);
 
 } // namespace lacuna::io

@@ -16,8 +16,8 @@ namespace lacuna::io {
 class Cursor;
 class DeckBuilder;
 
-/// The writer of a file, one for each format: swept meshes, decks and meshes that are created while they are
-/// written are all views. @param parts  of .msh 4.1; null: the mesh is not divided
+/// The writer of a file, one for each format. It writes a view, which may show a swept mesh, a deck, or a
+/// mesh that is created during writing. @param parts  for .msh 4.1; null: the mesh is not divided
 using WriteView = DeckFile(const View& view, const MeshFileOptions& options, const mesh::ViewParts* parts);
 WriteView abaqus_file, dyna_file, exodus_file, febio_file, med_file, msh_file, nastran_file, unv_file,
     vtk_file, vtu_file;
@@ -33,13 +33,13 @@ std::span<const FormatRow> format_table();
 inline const FormatRow& row_of(const Format& format) { return static_cast<const FormatRow&>(format); }
 
 /// The format for reading a file.
-/// @param others  file extensions that other readers handle, for the message.
+/// @param others  file extensions of other readers, for the message.
 /// @throw InvalidInput "io.unknown_ending"
 const FormatRow& needed_reader(const std::string& path, std::string_view others);
 
-/// Write the parts as pieces "mesh_0.vtu", "mesh_1.vtu" … and "mesh.pvtu", which refers to them. The view of
-/// a piece is made when that piece is written.
-/// @param ghosts  rows of ghosts round each piece; 0: no ghosts are marked.
+/// Write the parts as pieces "mesh_0.vtu", "mesh_1.vtu" …, and the file "mesh.pvtu", which refers to them.
+/// The view of a piece is made when that piece is written.
+/// @param ghosts  number of rows of ghosts around each piece; 0: no ghosts are marked.
 void write_pieces(const View& view, const mesh::ViewParts& parts, int ghosts, const OutputPath& path,
                   const RunContext& context, const Team* team = nullptr);
 

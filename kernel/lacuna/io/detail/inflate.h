@@ -10,7 +10,7 @@
 namespace lacuna::io {
 
 /// Decompress zlib data. @param size  the exact size of the result; no more is decompressed.
-/// @return  empty: the data are damaged, or have another size.
+/// @return  empty if the data are damaged or have another size.
 std::optional<std::string> inflate(std::string_view bytes, std::uint64_t size);
 
 } // namespace lacuna::io

@@ -15,17 +15,18 @@
 /// Sets of a deck that a mesh joins. Internal to this folder.
 namespace lacuna::io {
 
-/// A mesh that was added to a deck, but not to its sets.
+/// A mesh whose nodes and cells were added to a deck, but not yet to its sets.
 struct NewCells {
-    const std::string& volume;    ///< its name
+    const std::string& volume;    ///< name of the volume
     std::vector<DeckTag> nodes{}; ///< number of each node of the mesh
     std::vector<DeckTag> cells{}; ///< number of each cell, increasing
     /// A quad or triangle of the skin.
     struct Side {
         std::array<Vec3, 4> corners;    ///< in the deck's coordinates; a triangle repeats the last
         std::vector<DeckTag> nodes{};   ///< numbers of its nodes
-        std::optional<DeckSide> side{}; ///< none: the format has none
-        std::optional<DeckTag> cell{};  ///< element there; none: the skin has none
+        std::optional<DeckSide> side{}; ///< the cell of the mesh at the quad, and its side; none: the format
+                                        ///< has no sets of sides
+        std::optional<DeckTag> cell{};  ///< element of the skin at the quad; none: the skin has no elements
     };
     std::vector<Side> skin{};
 };
@@ -42,19 +43,19 @@ struct CornerHash {
     }
 };
 
-/// Indices of the sets that hold all nodes or all solids of a deck, limited to sets named "all" or "eall" and
-/// to those that duplicate regions. Sets for which this was true before decks were merged are included.
+/// Indices of the sets that are meant to hold all nodes or all solids of a deck: sets named "all" or "eall",
+/// and those that duplicate regions. After a merge, also sets that held all of one of the merged decks.
 std::vector<std::size_t> sets_of_all(const Deck& deck);
 
-/// Add the data of a mesh to the sets of a deck that should contain it: the sets of all nodes or elements,
-/// and those that lost members when parts were left out. Of the latter
-/// - a set of all nodes or elements of the part with the volume's name (if there is no such part, of
-///   everything left out) gets all new ones;
-/// - a surface, or a set of elements on the skin, gets the quads of the skin in place of its old sides or
-///   elements; a set of nodes gets their nodes.
+/// Add the data of a mesh to those sets of a deck that should contain it. These are the sets of all nodes or
+/// elements, and the sets that lost members when parts were left out. For the latter:
+/// - A set of all nodes or elements of the part with the volume's name gets all new ones. If there is no such
+///   part, a set of everything left out does.
+/// - A surface, or a set of elements on the skin, gets the quads of the skin in place of its old sides or
+///   elements. A set of nodes gets the nodes of these quads.
 /// `Deck::gap` records the extended sets.
 /// @param of_all  result of `sets_of_all()` before the mesh was added.
-/// @param fits    whether a set of elements may get the cells.
+/// @param fits    returns whether a set of elements may get the cells.
 void join_sets(Deck& deck, const NewCells& added, const std::vector<std::size_t>& of_all,
                const std::function<bool(const DeckSet&)>& fits);
 

@@ -16,7 +16,7 @@
 /// Adding a swept mesh to a deck. Internal to this folder.
 namespace lacuna::io {
 
-/// Position in a deck of the cells of a mesh that it does not store.
+/// Place in a deck of a mesh whose nodes and cells the deck does not store.
 struct BulkPlace {
     DeckTag first_node = 1;          ///< number of the first node of the whole mesh; the others follow
     DeckTag first_cell = 1;          ///< number of the first cell; the others follow
@@ -26,23 +26,25 @@ struct BulkPlace {
 };
 
 struct AddedMesh {
-    std::span<const Index> points; ///< the deck's point for each node of the mesh; -1: a new one
+    std::span<const Index> points; ///< the deck's point for each node of the mesh; -1: the node is new
     double scale = 1;              ///< factor from the mesh's coordinates to the deck's
-    bool skin_cells = false;       ///< sets of the skin are quads that become elements
-    /// Quads of the skin that the deck already has as elements, by their sorted nodes; new ones are added.
-    /// Null: quads are not shared.
+    bool skin_cells = false;       ///< quads of the skin become elements; groups of the skin become sets of
+                                   ///< these elements
+    /// Quads of the skin that are elements of the deck already, by their sorted nodes; new quads are added.
+    /// Null: meshes do not share quads.
     std::map<Quad, DeckTag>* skin_tags = nullptr;
-    /// Sets and regions of the meshes added before, which this one's extend; updated. Null: there are none.
+    /// Sets and regions of meshes that were added before; this mesh extends them. Updated. Null: there are
+    /// none.
     JoinedBefore* before = nullptr;
-    /// Null: the deck was read from a file, and its sets are extended.
-    /// If not null, nodes and cells are not stored in the deck, only regions, sets and empty blocks of the
-    /// cells' shapes; this gets their position.
-    /// @pre  the deck contains only such meshes, of which later ones have the first node of the whole
+    /// Null: the deck stores the nodes and cells of the mesh. Not null: the deck gets only regions, sets and
+    /// empty blocks of the cells' shapes, and `*bulk` gets the place of the mesh.
+    /// @pre  if not null: the deck contains only such meshes; all but the first have the first node of the
+    ///       whole
     BulkPlace* bulk = nullptr;
-    /// In that case, the number of each node in the whole mesh, from 0; null: its own number.
+    /// With `bulk`: the number of each node in the whole mesh, from 0; null: its own number.
     const mesh::NodeNumbers* numbers = nullptr;
-    bool is_new = false; ///< without `bulk`: the deck was read from no file and has the points already
-    /// Whether each quad of the skin is left out of the elements; empty: none is.
+    bool is_new = false; ///< without `bulk`: no file was read, and the deck has the points already
+    /// For each quad of the skin, whether it is left out of the elements; empty: none is.
     std::vector<char> inner{};
     /// Material of the elements next to the mesh, and the name of their region; empty: unknown.
     std::string neighbour_material{}, neighbour{};

@@ -20,7 +20,7 @@ struct Card {
     DeckPlace place;
 
     [[nodiscard]] std::string_view field(std::size_t number) const;
-    /// A number of a node, property or frame, >= 0; `otherwise` if the field is blank.
+    /// The number of a node, property or frame, >= 0; `otherwise` if the field is blank.
     [[nodiscard]] Index whole(std::size_t number, Index otherwise) const;
     /// The same for a field that must not be blank.
     [[nodiscard]] Index needed(std::size_t number) const;
@@ -43,21 +43,21 @@ enum class CardUse { read, keep, both };
 
 /// The cards of a deck and of its included files, which lie in its folder or below.
 ///
-/// A deck without BEGIN BULK is bulk data from its first line; the parts of superelements are merged.
-/// Supports free, small and large fields, tabs, any case, and continuations that follow their card or, if
-/// named (+A1), are anywhere. A card is passed on when its continuations are complete; if one never appears,
-/// at the end of the deck. Replicated cards are passed on as if written out.
+/// A deck without BEGIN BULK is bulk data from its first line. The parts of superelements are merged.
+/// Supported are free, small and large fields, tabs, any case, and continuations. A continuation follows its
+/// card or, if it is named (+A1), may be anywhere. A card is passed on when all its continuations are read;
+/// if one never appears, at the end of the deck. Replicated cards are passed on as if they were written out.
 class BulkData {
 public:
     explicit BulkData(Cursor& cursor);
-    /// Pass on every card; cards that are only kept have no fields.
+    /// Pass on every card. Cards that are kept as text only have no fields.
     void read(const std::function<CardUse(std::string_view name)>& use,
               const std::function<void(const Card&)>& take);
 
     /// The kept text: before, inside and after the bulk data.
     [[nodiscard]] std::vector<DeckText> texts() const;
     [[nodiscard]] const DeckFiles& files() const { return files_; }
-    /// Number of superelements so far, besides the main bulk data, and the start of the first.
+    /// Number of superelements read so far (the main bulk data is none), and the start of the first.
     [[nodiscard]] int superelements() const { return superelements_; }
     [[nodiscard]] const DeckPlace& first_superelement() const { return first_superelement_; }
 
@@ -83,7 +83,7 @@ private:
         CardUse use = CardUse::keep;
         std::string_view marker; ///< name of the expected continuation
         bool large = false;
-        std::string raw; ///< lines of a continuation without its card
+        std::string raw; ///< lines of a continuation that has not found its card
     };
     bool is_awaited(std::string_view name);
     void own_fields(Card& card);
@@ -105,18 +105,21 @@ private:
     bool open_ = false, bulk_ = false, ended_ = false;
     bool text_ = false;                 ///< the card holds text instead of fields
     std::size_t kept_begin_ = 0;        ///< start of the card's lines in `kept_`
-    std::vector<std::string> pattern_;  ///< fields of the card to be replicated
+    std::vector<std::string> pattern_;  ///< fields of the card that is replicated
     std::deque<std::string> generated_; ///< fields of the replica
     std::vector<std::string> steps_;    ///< increment of each field from replica to replica
     bool replica_ = false;
     std::size_t room_; ///< number of replicas still allowed
     int superelements_ = 0;
     DeckPlace first_superelement_;
-    std::map<std::string, std::pair<int, std::string>> known_;  ///< superelement and fields of kept cards
-    std::multimap<std::string, Waiting> cards_, continuations_; ///< by the names of continuations
-    std::deque<std::string> owned_;                             ///< fields of these
-    std::optional<std::vector<std::string>> awaited_; ///< names that lines give their continuations, sorted
-    std::string unasked_; ///< first continuation accepted although no card names it
+    std::map<std::string, std::pair<int, std::string>> known_;  ///< superelement and fields of cards that are
+                                                                ///< read and kept, by card
+    std::multimap<std::string, Waiting> cards_, continuations_; ///< waiting cards and continuations, by the
+                                                                ///< name of the continuation
+    std::deque<std::string> owned_;                             ///< fields of the waiting cards
+    std::optional<std::vector<std::string>> awaited_; ///< names that lines of the deck give to their
+                                                      ///< continuations, sorted
+    std::string unasked_; ///< first named continuation that was accepted although no card names one
 };
 
 /// Coordinate frames, each defined by three points in another frame or by three nodes.
@@ -127,10 +130,10 @@ public:
         Index base = 0;           ///< frame of the three points; 0: the basic frame
         std::array<Vec3, 3> at{}; ///< origin, a point on the z axis, a point in the xz plane
         bool by_nodes = false;
-        std::array<Index, 3> node{}; ///< tags of nodes at these points instead
+        std::array<Index, 3> node{}; ///< tags of nodes at these points, if it is defined by nodes
         DeckPlace place;
     };
-    /// @param node_at  a node in basic coordinates, by its tag; may call `to_basic()` again.
+    /// @param node_at  returns a node in basic coordinates, by its tag; may call `to_basic()` again.
     explicit Frames(std::function<Vec3(Index tag, const DeckPlace& place)> node_at)
         : node_at_(std::move(node_at))
     {
@@ -138,8 +141,8 @@ public:
 
     void add(Index tag, const Definition& definition);
     /// Convert a point of a frame to basic coordinates.
-    /// @throw InvalidInput  no such frame, three collinear points, frames defined by each other; names
-    /// `place`.
+    /// @throw InvalidInput  the frame does not exist, its three points are collinear, or frames are defined
+    ///        by each other. The message names `place`.
     Vec3 to_basic(Index frame, const Vec3& point, const DeckPlace& place);
 
 private:

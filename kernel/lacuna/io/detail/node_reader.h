@@ -19,15 +19,15 @@
 #include <utility>
 #include <vector>
 
-/// Nodes and fields for the writers, stored in a mesh or generated. Internal to this folder.
+/// Nodes and fields for the writers: stored in a mesh, or generated when needed. Internal to this folder.
 namespace lacuna::io {
 
-/// Values that are generated for some layers at a time; the last few parts are kept.
+/// Values that are generated in parts, some layers at a time. The last few parts are kept.
 template <class Value>
 class LayerCache {
 public:
     using Values = std::shared_ptr<const std::vector<Value>>;
-    /// @param make  generates part `i`; may be called by any thread, one at a time.
+    /// @param make  generates part `i`; any thread may call it, but only one at a time.
     explicit LayerCache(std::function<std::vector<Value>(std::size_t i)> make) : make_(std::move(make)) {}
 
     [[nodiscard]] Values part(std::size_t i) const
@@ -44,7 +44,8 @@ public:
 private:
     std::function<std::vector<Value>(std::size_t)> make_;
     mutable std::mutex lock_;
-    mutable std::array<std::pair<std::size_t, Values>, 3> kept_; ///< two threads' parts, and one more
+    mutable std::array<std::pair<std::size_t, Values>, 3> kept_; ///< one part for each of two threads, and
+                                                                 ///< one more
     mutable std::size_t next_ = 0;
 };
 
@@ -85,11 +86,11 @@ public:
     }
 
 private:
-    /// Consecutive nodes that are generated in parts of equal size, except for the last.
+    /// Consecutive nodes that are generated in parts of equal size; the last part may be smaller.
     struct Made {
         std::size_t begin = 0; ///< number of the first node
         std::size_t step = 1, parts = 1;
-        std::shared_ptr<LayerCache<Vec3>> made{}; ///< null: they are stored
+        std::shared_ptr<LayerCache<Vec3>> made{}; ///< null: the nodes are stored
     };
 
     const mesh::HexMesh& mesh_;
@@ -97,7 +98,7 @@ private:
     Made corners_, middles_;
 };
 
-/// A value for every cell, stored or generated, and for the cells behind the skin.
+/// A value for every cell, stored or generated; and for every skin quad, the value of the cell behind it.
 class FieldReader {
 public:
     explicit FieldReader(const CellField& field);
@@ -107,7 +108,8 @@ public:
 
     [[nodiscard]] const std::string& name() const { return name_; }
 
-    /// Call `visit(i, value)` for each i in [begin, end), with the value of cell `cell_of(i)`. Thread-safe.
+    /// Call `visit(i, value)` for each i in [begin, end), where `value` is that of cell `cell_of(i)`.
+    /// Thread-safe.
     template <class CellOf, class Visit>
     void each_cell(std::size_t begin, std::size_t end, const CellOf& cell_of, const Visit& visit) const
     {
@@ -123,7 +125,7 @@ public:
         }
     }
 
-    /// The same for the cells behind quads `quad_of(i)` of the skin.
+    /// The same, with the cell behind quad `quad_of(i)` of the skin.
     /// @param cells  result of `cells_of_skin()`
     template <class QuadOf, class Visit>
     void each_behind_skin(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& cells,
@@ -138,7 +140,8 @@ public:
 private:
     std::string name_;
     std::function<void(std::span<const std::uint32_t> cells, double* out)> make_; ///< as `CellField::make`
-    std::vector<double> skin_; ///< for each quad of the skin, if the values are generated
+    std::vector<double> skin_; ///< for each quad of the skin, the value of its cell; only if values are
+                               ///< generated
 };
 
 /// @throw InvalidInput  the name cannot be written or is in use; `names` holds the earlier ones.

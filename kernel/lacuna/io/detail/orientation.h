@@ -7,8 +7,9 @@
 
 namespace lacuna::io {
 
-/// Add the directions of cells to a view of swept meshes that store their nodes: as `MeshView::frames`, and
-/// with `fields` as fields "column", "axis", "radial" and "tangential" of three values.
+/// Add the directions of cells to a view of swept meshes that store their nodes. They become
+/// `MeshView::frames` and, with `fields`, the fields "column", "axis", "radial" and "tangential" with three
+/// components each.
 /// @param parts  in the order of the view's cells.
 void add_orientation(std::span<const BulkPart> parts, bool fields, mesh::MeshView& view);
 

@@ -10,33 +10,35 @@
 /// Nodes of periodic faces in files. Internal to this folder.
 namespace lacuna::io {
 
-/// Add pairs of nodes to a view, with a set for each side: "periodic_1_a", "periodic_1_b" …, whose members
-/// are in the order of the pairs.
-/// @param sets  whether the format has sets of nodes; otherwise lists are added
+/// Add pairs of periodic nodes to a view, with a set of nodes for each side: "periodic_1_a", "periodic_1_b"
+/// …. The members of a set are in the order of the pairs.
+/// @param sets  whether the format has sets of nodes; otherwise the view gets lists instead
 void add_periodic(std::span<const mesh::PeriodicNodes> pairs, bool sets, mesh::MeshView& view);
 
-/// A displacement in an equation.
+/// A term of an equation: a displacement times a factor.
 struct PeriodicTerm {
-    std::size_t node = 0; ///< index of a point; from the number of points on, of a reference
+    std::size_t node = 0; ///< index of a point; beyond the number of points, a reference node
     int direction = 0;    ///< 0, 1, 2
     double factor = 0;
 };
-/// Linear equations between displacements: in each, the terms sum up to zero. The first term of each depends
-/// on the others, and no other equation has it first.
+/// Linear equations between displacements: the terms of each sum up to zero. The first term of an equation
+/// depends on the others, and is the first term of no other equation.
 struct PeriodicEquations {
-    /// For each translation a reference node, whose displacement is the difference of those on its two
-    /// sides; here the vector of the translation. Zero for rotations, which have none.
+    /// For each translation, the vector of the translation. A reference node stands for it in equations: its
+    /// displacement is the difference between those on the two sides. Rotations have no reference.
     std::vector<Vec3> references;
     std::vector<std::size_t>
-        number; ///< of each reference among all that equations have; `kNoIndex`: it has none
+        number; ///< number of the reference of each periodic pair; `kNoIndex`: it has none
     std::vector<std::vector<PeriodicTerm>> equations;
 };
-/// The equations of all pairs: each node depends once, on the first node of those that motions take to it.
+/// The equations of all pairs. Motions take nodes to each other and so form chains of nodes; each node of a
+/// chain depends on the first one.
 PeriodicEquations periodic_equations(const mesh::MeshView& view);
 
-/// A sector of a whole: its only pair is a rotation by a whole fraction of a turn, without nodes on the axis.
+/// A sector of a rotationally symmetric whole: its only pair is a rotation by a whole fraction of a turn, and
+/// no node is on the axis.
 struct CyclicSector {
-    int sectors = 0; ///< of a full turn; 0: it is none
+    int sectors = 0; ///< number of sectors in a full turn; 0: the mesh is no such sector
     Vec3 point = Vec3::Zero(), axis = Vec3::UnitZ();
 };
 CyclicSector cyclic_sector(const mesh::MeshView& view);

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-/// Files as a list of sections, filled in parallel. Internal to this folder.
+/// Files as a list of sections, which are filled in parallel. Internal to this folder.
 namespace lacuna::io {
 
 /// Writes the records [begin, end) to `out` and returns their end.
@@ -34,18 +34,19 @@ Fill each(PutOne put_one)
 struct Section {
     std::string text;
     std::size_t records = 0;
-    std::size_t record_bytes = 0; ///< for every record; with `Sizes::varying` the maximum
+    std::size_t record_bytes = 0; ///< size of each record; with `Sizes::varying` the maximum
     Fill fill;
 };
 
 enum class Sizes { exact, varying };
 
-/// Write the sections of a file in order: the complete file or none. Memory is limited to a few buffers,
-/// whatever the file's size; the bytes are the same for any thread count. Progress is reported as a fraction.
+/// Write the sections of a file in order; the file is complete or does not appear. Memory is limited to a few
+/// buffers, whatever the file's size. The bytes do not depend on the number of threads. Progress is reported
+/// as a fraction.
 ///
-/// Each process of a team fills and writes a share of each section, to the path of rank 0. Files with records
-/// of varying size are written in rounds of one share per process, because the position of a share is known
-/// only after the preceding ones are filled.
+/// Each process of a team fills and writes a share of each section, to the path of rank 0. If records vary in
+/// size, the file is written in rounds in which each process writes one share, because the position of a
+/// share is known only after the shares before it are filled.
 /// @throw  as `WholeFile`; TeamFailed
 void write_file(const OutputPath& path, const std::vector<Section>& sections, Sizes sizes,
                 const RunContext& context, const Team* team = nullptr);
@@ -56,8 +57,8 @@ struct FileOfSet {
     std::function<std::vector<Section>()> sections;
 };
 
-/// Write files and a file that names them: all of them, or none. A team distributes the files.
-/// @param head  text of the last file
+/// Write files and a head file that names them: all of them or none. A team distributes the files.
+/// @param head  text of the head file
 /// @throw  as `write_file()`
 void write_files(const std::vector<FileOfSet>& files, const OutputPath& head_path, const std::string& head,
                  const RunContext& context, const Team* team = nullptr);
@@ -95,7 +96,7 @@ char* put_text(char* out, Whole value)
 }
 std::string text_of(double value);
 
-/// Maximum length of a number as text, with a separator.
+/// Maximum length of a number as text, including a separator.
 inline constexpr std::size_t kNumberBytes = 26;
 
 } // namespace lacuna::io

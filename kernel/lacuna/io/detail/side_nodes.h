@@ -10,15 +10,17 @@
 /// Sides of cells as lists of nodes. Internal to this folder.
 namespace lacuna::io {
 
-/// The nodes of the sides that the sets of a view name, for formats that list these instead of cells.
+/// The nodes of the sides that are members of the view's sets, for formats whose sets list nodes instead of
+/// cells.
 class SideNodes {
 public:
     /// @note  O(n log n) in the sides, O(n) in the cells
     explicit SideNodes(const mesh::MeshView& view);
 
-    /// The nodes of a side, as indices: its corners, counter-clockwise seen from outside (of a shell: from
-    /// that side), the middles of its edges, and its centre. Empty for an edge of a shell.
-    /// @pre  a set of the view names the side
+    /// The nodes of a side, as indices: its corners, the middles of its edges, and its centre. The corners
+    /// are counter-clockwise seen from outside; for a shell, seen from that side. Empty for an edge of a
+    /// shell.
+    /// @pre  the side is a member of a set of the view
     [[nodiscard]] std::span<const Index> operator[](const mesh::CellSide& side) const;
 
 private:
@@ -29,7 +31,7 @@ private:
     static Nodes nodes_of(mesh::CellShape shape, std::span<const Index> cell, int side);
 
     std::vector<mesh::CellSide> sides_; ///< rising
-    std::vector<Nodes> nodes_;          ///< for each of them
+    std::vector<Nodes> nodes_;          ///< nodes of each of these sides
 };
 
 } // namespace lacuna::io

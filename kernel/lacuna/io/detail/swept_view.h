@@ -31,7 +31,7 @@ public:
     {
         return kinds.cell(kind == 0 ? i : kinds.hexes() + i);
     }
-    /// The index in the skin of the `i`-th quad, or triangle.
+    /// The index in the skin of the `i`-th quad (kind 2) or triangle (kind 3).
     [[nodiscard]] std::size_t skin(std::size_t kind, std::size_t i) const
     {
         return kinds.skin(kind == 3 ? kinds.skin_quads() + i : i);
@@ -47,18 +47,18 @@ public:
 
     const mesh::HexMesh& mesh;
     mesh::CellKinds kinds;
-    std::size_t triangles, quads; ///< of the source
+    std::size_t triangles, quads; ///< numbers of triangles and quads of the source
     std::array<std::size_t, 4> count;
 
 private:
     Index* put_hexes(std::size_t begin, std::size_t end, Index* out) const;
 };
 
-/// @throw InvalidInput  a skin quad belongs to no patch, or two patches share a tag.
+/// @throw InvalidInput  a skin quad belongs to no patch, or two patches have the same tag.
 void check_skin(const mesh::HexMesh& mesh);
 
 /// View a mesh as blocks of hexahedra, wedges, skin quads and skin triangles. It has one entity for each
-/// patch, in their order, followed by that of the volume. The arguments must outlive the view.
+/// patch, in the order of the patches, and then one for the volume. The arguments must outlive the view.
 /// @throw InvalidInput  as `check_skin()`.
 std::shared_ptr<mesh::MeshView> view_of(const mesh::HexMesh& mesh, const NodeReader& nodes,
                                         const std::vector<FieldReader>& fields);

@@ -8,7 +8,7 @@ namespace lacuna::io {
 
 inline constexpr int kUnvNode = 7, kUnvElement = 8; ///< types of group entities; others are ignored
 
-/// Elements whose second record is the orientation of a beam.
+/// Whether an element has a second record, with the orientation of a beam.
 inline bool unv_has_orientation(std::int64_t descriptor, int dataset)
 {
     return dataset != 71 && (descriptor == 11 || (descriptor >= 21 && descriptor <= 24));

@@ -16,33 +16,34 @@ struct VtkType {
     void (*wholes)(const char* bytes, bool big, std::size_t count,
                    std::int64_t* out); ///< null for floating-point numbers
 };
-/// Append whole numbers as indices. @return  the first one that is not an `Index`, which ends the list; 0:
-/// all are
+/// Append whole numbers as indices. @return  0; or the first number that is not an `Index`, at which
+/// appending stops
 std::int64_t append_places(const VtkType& type, std::string_view bytes, bool big, std::vector<Index>& places);
-/// Null: the name is unknown.
+/// The type of this name; null: the name is unknown.
 const VtkType* vtk_type(std::string_view name);
 
-/// Cells with one list of points.
+/// Cells that share one list of points.
 struct VtkCells {
     std::vector<std::int64_t> ends;        ///< end of each cell's points in `points`
     std::vector<Index> points;             ///< numbers from `first_point` on
     std::vector<std::int64_t> types;       ///< one per cell; empty: all are polygons
     bool strips = false;                   ///< all cells are triangle strips
-    Index first_point = 0, last_point = 0; ///< range of the collector's points to which they refer
+    Index first_point = 0, last_point = 0; ///< range of points in the `DeckBuilder` that `points` refers to
     DeckTag first_cell = 0;                ///< first tag; only with `types`
 };
 
-/// Pass the shells and solids among the cells to the builder, one region for each dimension; count the
-/// others.
-/// @throw InvalidInput  an unknown point or type, ends that do not increase; `cursor` gives the position.
+/// Pass the shells and solids among the cells to the builder, with one region for each dimension. Count the
+/// other cells.
+/// @throw InvalidInput  a point or type is unknown, or ends do not increase; `cursor` gives the position.
 void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor);
 
-/// Warn that groups are not read. The writers store them as lists of entities, for the cells' array `entity`.
+/// Warn that groups are not read. The writers store groups as lists of the numbers in the cell array
+/// `entity`.
 void note_groups(const std::vector<std::string_view>& names, DeckBuilder& into);
 
-/// Convert wedges to the order of `mesh::Wedge`. In VTK's own order the triangle 0-1-2 faces away from 3-4-5,
-/// and VTK computes negative volumes otherwise, but Gmsh and meshio write the opposite order. The sum of the
-/// volumes shows which one a file uses.
+/// Convert wedges to the order of `mesh::Wedge`. In VTK's own order the triangle 0-1-2 faces away from 3-4-5;
+/// in any other order VTK computes negative volumes. But Gmsh and meshio write the opposite order. The sum of
+/// the volumes shows which order a file uses.
 void turn_vtk_wedges(Deck& deck);
 
 } // namespace lacuna::io

@@ -10,14 +10,15 @@
 
 namespace lacuna::io {
 
-/// A folder that is written completely or not at all. Its files are written to a hidden folder next to the
-/// final path, which is renamed on commit; the destructor removes it if that did not happen. An existing
-/// folder is exchanged with it in one system call, if the file system supports that, and removed. A killed
-/// process leaves the hidden folder.
+/// A folder that appears completely or not at all. Its files are written to a hidden folder next to the final
+/// path. Committing renames the hidden folder; without a commit, the destructor removes it. If a folder
+/// exists at the path, it is exchanged with the hidden one in one system call, if the file system supports
+/// that, and then removed. A killed process leaves the hidden folder.
 class WholeFolder {
 public:
-    /// @param is_own  whether a file of this name may be deleted with an existing folder.
-    /// @throw InvalidInput "io.not_replaced"  the path is no folder, or holds other files; names one.
+    /// @param is_own  returns whether a file of this name may be deleted together with an existing folder.
+    /// @throw InvalidInput "io.not_replaced"  the path is not a folder, or the folder holds other files;
+    ///        names one.
     ///                     "io.no_folder"     the parent folder does not exist.
     /// @throw BackendError  the folder cannot be written to.
     WholeFolder(const OutputPath& path, const std::function<bool(std::string_view name)>& is_own);

@@ -9,14 +9,15 @@
 
 namespace lacuna::io {
 
-/// For each pair of positions: the point of the middle node that elements of the deck have between them
-/// [the deck's length × scale]; NaN if there is none. Several nodes of the deck may lie at one position.
+/// For each pair of positions: the middle node that elements of the deck have between them, as a point [the
+/// deck's length × scale]; NaN if there is none. Several nodes of the deck may lie at one position.
 /// O(elements + pairs).
 /// @param tolerance  as in `nodes_at()`
 std::vector<Vec3> middles_between(const Deck& deck, std::span<const Vec3> from, std::span<const Vec3> to,
                                   double tolerance, double scale = 1);
 
-/// The node that elements of the deck have in the middle of each quad, for any order of its corners.
+/// For each quad: the centre node that elements of the deck have there, likewise. The order of the corners
+/// does not matter.
 std::vector<Vec3> centres_of(const Deck& deck, std::span<const std::array<Vec3, 4>> quads, double tolerance,
                              double scale = 1);
 

@@ -11,11 +11,12 @@ namespace lacuna::io {
 
 /// The skin of a swept mesh as faces with given quads, one for each patch.
 struct MeshSkin {
-    topology::OpenVolume volume; ///< closed; all faces are walls; they have the patches' tags and names
-    std::vector<FaceId> face;    ///< for each patch
+    topology::OpenVolume volume; ///< closed; all its faces are walls, and have the tags and names of the
+                                 ///< patches
+    std::vector<FaceId> face;    ///< the face of each patch
 };
 
-/// @throw InvalidInput "io.skin_in_pieces"  a patch whose quads are not connected, or that has none.
+/// @throw InvalidInput "io.skin_in_pieces"  a patch has no quads, or its quads are not connected.
 /// @note  O(skin log).
 MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context = {});
 

@@ -15,7 +15,7 @@ namespace lacuna::io {
 /// Tetrahedra and pyramids among several meshes with shared nodes. Holds references only.
 struct NumberedTets {
     const mesh::TetPart& mesh;
-    std::span<const Index> numbers; ///< of each of its nodes in the whole mesh, from 0
+    std::span<const Index> numbers; ///< number of each of its nodes in the whole mesh, from 0
 };
 
 /// Convert swept meshes and tetrahedra with shared nodes to a deck, with regions and sets as in
@@ -28,13 +28,14 @@ struct NumberedTets {
 Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedTets> tets, std::size_t nodes,
              MeshDeckOptions options, bool interfaces, const RunContext& context = {});
 
-/// Append cells between existing nodes of a deck, in a new region and a new set (Nastran: region only).
+/// Append cells to a deck, between existing nodes. They form a new region and a new set (in Nastran a region
+/// only).
 /// @param cells    hexahedra and wedges (`mesh::is_wedge()`), as indices in `Deck::points`
-/// @param element  Abaqus name of the hexahedra: "COH3D8"
+/// @param element  Abaqus type of the hexahedra, such as "COH3D8"
 void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region, const std::string& element);
 
-/// As `join_deck()` of `deck_file.h`, with tetrahedra and pyramids. If other parts of their mesh joined the
-/// deck before, nodes in the same place are shared with these.
+/// As `join_deck()` of `deck_file.h`, for tetrahedra and pyramids. If other parts of their mesh joined the
+/// deck before, nodes at the same place are shared with these parts.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::TetPart& mesh,
                const MeshDeckOptions& options, const RunContext& context = {}, const Deck* gone = nullptr,
                JoinedBefore* before = nullptr);

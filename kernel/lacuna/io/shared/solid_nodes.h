@@ -6,7 +6,7 @@
 
 namespace lacuna::io {
 
-/// The nodes of a solid of a deck as `mesh::merged_nodes()`.
+/// The nodes of a solid of a deck, in the form of `mesh::merged_nodes()`.
 mesh::CellNodes solid_nodes(const DeckBlock& block, std::size_t element);
 
 } // namespace lacuna::io

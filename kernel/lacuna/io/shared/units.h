@@ -13,7 +13,7 @@ double metres_of(std::string_view unit);
 /// Whether `metres_of()` knows a unit.
 bool is_unit(std::string_view unit);
 
-/// The unit of two things that are joined; one without a declared unit takes the other's.
+/// The unit of two things that are joined. If only one of them has a declared unit, the other gets it.
 /// @throw InvalidInput "io.units_differ"  both have one, and they differ; names both.
 std::string common_unit(const std::string& a, const std::string& what_a, const std::string& b,
                         const std::string& what_b);

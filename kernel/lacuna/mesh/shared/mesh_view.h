@@ -48,7 +48,7 @@ public:
         }
     }
 
-    /// The list position of a value. @pre the values ascend, and it is one of them
+    /// The list position of a value. @pre the values ascend and include it
     [[nodiscard]] std::size_t position(std::size_t value) const
     {
         const Range& range = ranges_[range_with(value)];
@@ -157,7 +157,8 @@ struct MeshView {
         int number = 0;                    ///< number among the entities of all dimensions, >= 0
         int region = 0;                    ///< number of the region; 0: none
         std::vector<std::string> groups{}; ///< names
-        std::size_t main = 0;              ///< index in `groups` of the one to use where a cell has only one
+        std::size_t main = 0;              ///< index in `groups` of the one to use in formats with one group
+                                           ///< per cell
         std::vector<int> bounds{};         ///< tags of the entities that bound it, if known
     };
     /// Cells of one shape.
@@ -234,14 +235,14 @@ struct MeshView {
     using TextByIndex = std::span<const std::pair<std::size_t, std::string>>;
     /// Content of a source file besides the mesh, which is copied verbatim.
     struct KeptText {
-        std::string head, cards, tail;  ///< before, with and after the mesh
-        std::string instance;           ///< the only instance, whose name precedes names in `cards`
+        std::string head, cards, tail;  ///< text before the mesh, with it, and after it
+        std::string instance;           ///< name of the only instance; names in `cards` start with it
         int highest_set = 0;            ///< highest number of a set in `cards`
         TextByIndex points;             ///< fields of a node's card after its coordinates
         std::vector<TextByIndex> cells; ///< by block: fields of a cell's card after its nodes
     };
 
-    /// Nodes that motions move onto each other, and the tags of both sides.
+    /// Pairs of periodic nodes, and the tags of the nodes on both sides.
     struct Periodic {
         PeriodicNodes nodes;
         std::array<std::vector<std::int64_t>, 2> tags;
@@ -258,12 +259,12 @@ struct MeshView {
     /// Named lists of entity numbers or of point indices.
     std::vector<std::pair<std::string, std::vector<int>>> lists;
     std::vector<Periodic> periodic;
-    /// For each block the directions of its cells, empty for blocks of other cells; null: not requested.
+    /// For each block, the directions of its cells; empty for blocks without solids. Null: not requested.
     std::shared_ptr<const std::vector<std::vector<CellFrame>>> frames;
     std::vector<GroupTag> group_tags; ///< group tags to keep from the source file
-    std::vector<Region> regions;      ///< of a deck
-    std::vector<Set> sets;            ///< of a deck
-    std::optional<KeptText> kept;     ///< if the source file is of the format to be written
+    std::vector<Region> regions;      ///< regions of a deck
+    std::vector<Set> sets;            ///< sets of a deck
+    std::optional<KeptText> kept;     ///< kept text, if the source file has the format to be written
     bool is_deck = false; ///< cells have regions, and entities of all dimensions are numbered together
     std::string unnamed;  ///< name for entities without groups; may be empty
     std::string source;   ///< path of the file that some of the mesh was read from; empty: none
@@ -274,7 +275,7 @@ struct MeshView {
 /// The part that each cell of a view belongs to, for partitioned files.
 struct ViewParts {
     int parts = 1;
-    std::vector<Runs> of;                         ///< for each block: part of its cells, from 0
+    std::vector<Runs> of;                         ///< for each block: the part of each of its cells, from 0
     std::vector<std::pair<Index, Ranges>> points; ///< part, and indices of the points that it owns
     std::vector<Ranges> used; ///< for each part: points of its cells and ghosts, ascending
     /// Cells of one block that are ghosts of the same parts.

@@ -13,18 +13,19 @@ namespace lacuna::mesh {
 struct CellFrame {
     Vec3 column = Vec3::Zero(); ///< along the column of cells, from source to target
     Vec3 axis = Vec3::Zero();   ///< along the sweep, at the centroid of the section
-    /// From the centroid of the section to the cell, normal to the axis; of a cell at the centroid any.
+    /// From the centroid of the section to the cell, normal to the axis. For a cell at the centroid, any
+    /// direction normal to the axis.
     Vec3 radial = Vec3::Zero();
     Vec3 tangential = Vec3::Zero(); ///< axis × radial
 
-    /// The axes of a material: along the column, radially normal to it, and normal to both.
+    /// The axes of a material: along the column, radial but normal to the column, and normal to both.
     [[nodiscard]] std::array<Vec3, 3> material() const;
 };
 
 /// The directions of all cells, by their numbers.
 ///
-/// Where a fit shows that a rigid motion takes a layer to the next, directions are tangents of the screw
-/// between them: exact after straight sweeps, turns and helices. Elsewhere they are chords.
+/// If a fit shows that a rigid motion takes a layer to the next, directions are tangents of the screw between
+/// them. They are then exact for straight sweeps, turns and helices. For other layers they are chords.
 /// @pre  the mesh stores its nodes. O(nodes).
 std::vector<CellFrame> cell_frames(const HexMesh& mesh);
 

@@ -14,37 +14,38 @@
 #include <string_view>
 #include <vector>
 
-/// Tasks of a process group: each process works on its own layers. Messages do not grow with the mesh.
+/// Tasks of a process group: each process works on its own layers. The size of messages does not depend on
+/// the mesh.
 namespace lacuna::team {
 
 /// Options of writing a layered mesh.
 struct LayeredFile {
     bool binary = true;
-    double version = 4.1;                   ///< of the MSH format
+    double version = 4.1;                   ///< version of the MSH format
     std::vector<quality::Metric> quality{}; ///< written as cell fields; not for decks
     std::string material{};                 ///< material name, for decks
     io::PartitionOptions partition{};       ///< for .msh and .pvtu
-    bool all_groups = false;                ///< for .msh, as `io::MeshFileOptions::all_groups`
-    std::string unit{};                     ///< as `io::MeshFileOptions::unit`
+    bool all_groups = false;                ///< for .msh, see `io::MeshFileOptions::all_groups`
+    std::string unit{};                     ///< see `io::MeshFileOptions::unit`
 };
 
-/// Write a mesh whose nodes are computed while they are written, in the format given by the ending of the
-/// path. A process group, if there is one, shares the work.
+/// Write a mesh whose nodes are computed during writing. The ending of the path determines the format. A
+/// process group, if there is one, shares the work.
 /// @param plan  computes the nodes of each layer.
 /// @pre  the format is streamed
 /// @throw  as `io::write_mesh()`; TeamFailed
 void write_layered(const mesh::LayeredMesh& layered, const sweep::LayerPlan& plan, const io::OutputPath& path,
                    const LayeredFile& file, const Crew* crew, const RunContext& context);
 
-/// Write the mesh of an assembly. A process group, if there is one, shares the work unless a part stores its
-/// nodes.
-/// @pre  parts of the format are streamed; `file` has no parts, fields or material
+/// Write the mesh of an assembly. A process group, if there is one, shares the work; if a part stores its
+/// nodes, this process works alone.
+/// @pre  the format can stream parts; `file` has no partition, fields or material
 /// @throw  as `write_layered()`
 void write_parts(const sweep::SweptAssembly& assembly, const io::OutputPath& path, const LayeredFile& file,
                  const Crew* crew, const RunContext& context);
 
 /// Do this process's share of a task that rank 0 started.
-/// @throw  the error that stopped the task; all processes of the team are told.
+/// @throw  the error that stopped the task; all processes of the team receive it.
 void help(std::string_view task, const std::string& bytes, const Team& team, const RunContext& context);
 
 } // namespace lacuna::team
