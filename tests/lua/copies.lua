@@ -72,6 +72,30 @@ do
   same_quality(mesh, lacuna.assembly { mesh, both }:sweep(), 2)
 end
 
+-- The skin of a copy faces outward, mirrored or not.
+do
+  local function enclosed(mesh)
+    local base = params.scratch .. "/outward.msh"
+    mesh:write(base, { version = 2.2, binary = false })
+    local file <close> = assert(io.open(base))
+    local text, at, sum = file:read "a", {}, 0
+    for n, x, y, z in text:match "%$Nodes\n%d+\n(.-)%$EndNodes":gmatch "(%d+) (%S+) (%S+) (%S+)" do
+      at[n] = { tonumber(x), tonumber(y), tonumber(z) }
+    end
+    local function det(p, q, r)
+      return p[1] * (q[2] * r[3] - q[3] * r[2]) - p[2] * (q[1] * r[3] - q[3] * r[1]) +
+          p[3] * (q[1] * r[2] - q[2] * r[1])
+    end
+    for a, b, c, d in text:gmatch "\n%d+ 3 2 %d+ %d+ (%d+) (%d+) (%d+) (%d+)%f[\n]" do
+      sum = sum + (det(at[a], at[b], at[c]) + det(at[a], at[c], at[d])) / 6
+    end
+    return sum
+  end
+  local mesh = swept(ell, { vector = { 0.3, 0.2, 1 } }, { size = 0.6, layers = 3 })
+  check.near(enclosed(mesh), 3, 1e-12)
+  for _, move in ipairs(moves) do check.near(enclosed(mesh:copy(move)), 3, 1e-12) end
+end
+
 -- --- patterns --------------------------------------------------------------------------------------------
 
 -- Translated boxes have the nodes and groups of one long box.

@@ -481,6 +481,23 @@ do
   check.fails(function()
     void:sweep { size = 0.5, fallback = "mixed", periodic = { { "wall_1", "wall_3" } } }
   end, "mixed")
+  -- Faces that are nearly equal: the equations would hold between nodes that do not fit.
+  for off, fits in pairs { [1e-9] = true, [1e-3] = false, [0.01] = false } do
+    local corners = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, off, 1 },
+      { 1, 1, 1 }, { 0, 1, 1 } }
+    local cube = lacuna.model()
+    for name, face in pairs { low = { 1, 4, 3, 2 }, top = { 5, 6, 7, 8 }, front = { 1, 2, 6, 5 },
+      back = { 4, 8, 7, 3 }, left = { 1, 5, 8, 4 }, right = { 2, 3, 7, 6 } } do
+      local points = {}
+      for i, k in ipairs(face) do points[i] = corners[k] end
+      cube:add_face { name = name, points = points, cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+    end
+    local function run()
+      return cube:open_volume { source = "low", target = "top", walls = "auto" }:sweep { size = 0.5,
+        periodic = { { "left", "right" } } }
+    end
+    if fits then run() else check.fails(run, "not equal under a translation or rotation") end
+  end
 end
 
 check.done()
