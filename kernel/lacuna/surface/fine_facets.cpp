@@ -251,7 +251,7 @@ private:
     std::vector<FacetSide> sides_;
     std::vector<std::array<std::size_t, 3>> side_of_;       ///< for each facet, by the corner it runs from
     std::unordered_map<std::uint64_t, std::size_t> number_; ///< for each side
-    std::unordered_map<std::uint64_t, Vec3> settled_;       ///< midpoints of accurate sides
+    std::unordered_map<std::uint64_t, Vec3> settled_;       ///< midpoints of sides that need no bisection
 };
 
 } // namespace

@@ -237,8 +237,8 @@ private:
         return at.barycentric[0] * uv[0] + at.barycentric[1] * uv[1] + at.barycentric[2] * uv[2];
     }
 
-    /// Shift parameters by the period of a seam if needed, so that they are on the same side of it as those
-    /// of a nearby place.
+    /// Shift parameters by the period of a seam if needed, so that they are on the same side of the seam as
+    /// `near`.
     Vec2 unwrapped(FaceId face, Vec2 uv, const Vec2& near)
     {
         const Vec2 range = seam_jump(face);
@@ -415,7 +415,7 @@ private:
                                "a part of the other end has no counterpart on this one");
             FaceId face = source[r];
             if (!begun.insert(face).second) {
-                if (!split_.contains(face)) // its loops bound one region, or the plane map is torn
+                if (!split_.contains(face)) // an unsplit face is one region
                     refuse_imprint(builder(), inner_.front(), "the edges of both ends cross inconsistently");
                 face = FaceId(builder().faces.size());
                 builder().faces.push_back(base_.model[source[r]]);

@@ -20,8 +20,8 @@ using namespace topology;
 
 namespace {
 
-/// Quads with a smaller scaled Jacobian are improved: the minimum to reach even with few quads, if the
-/// corners allow it.
+/// Quads with a smaller scaled Jacobian are improved. Even coarse meshes reach this value if their corners
+/// allow it.
 constexpr double kGoodEnough = 0.6;
 /// Maximum number of passes over the nodes; the first pass without a gain is the last.
 constexpr int kRounds = 20;

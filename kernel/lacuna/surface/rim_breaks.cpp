@@ -138,7 +138,7 @@ BreakPairs with_starts(BreakPairs pairs, const LinkingSurface& link)
     return pairs;
 }
 
-/// BreakPairs of close vertices of both rims, and the opposite positions of the other vertices.
+/// BreakPairs of close vertices of both rims, and of each other vertex with the position opposite to it.
 template <class Vertices>
 BreakPairs paired_near(const LinkingSurface& link, const Vertices& low, const Vertices& high)
 {

@@ -36,7 +36,8 @@ constexpr double kQuadsForRows = 20;
 
 /// Weight of an edge that is changed last, relative to others, if the present counts are repaired. Heuristic.
 constexpr double kLastWeight = 10;
-/// Weight of half the total of a face. The wish is where the search starts and hardly counts.
+/// Weight of the wish for half the total of a face. The wish only sets where the search starts; its weight is
+/// too small to affect the counts.
 constexpr double kHalfWeight = 1e-6;
 
 /// A grid of a face, as the variables along its sides in either direction.
@@ -50,7 +51,7 @@ struct Program {
     std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
     std::vector<FaceGrid> grids;         ///< grids that fill a face together
     double asked = 0;                    ///< quads wanted on those faces
-    /// If the present counts are wanted: the edges to be changed last; else null.
+    /// Set if the present counts are to be repaired: the edges to be changed last; else null.
     const std::set<EdgeId>* last = nullptr;
 };
 

@@ -38,8 +38,8 @@ constexpr double kPointsPerSide = 4;
 constexpr double kApart = 2;
 /// Maximum number of rim points per edge. Heuristic.
 constexpr std::size_t kMostPoints = 4096;
-/// Two rim points face each other if the line between them is this close to the rim's normal [cosine]: closer
-/// than for any two sides of a right angle.
+/// Minimum cosine of the angle between the line that joins two rim points and the rim's normal, if the points
+/// face each other. The two sides of a right angle never face each other by this bound.
 constexpr double kFacing = 0.8;
 /// Two points of one edge face each other if the path along the edge is longer than the chord by this factor:
 /// nearly a half circle, 1.57 [-].
@@ -179,8 +179,8 @@ private:
                 sizes.push_back({at.point, share});
                 sizes.push_back({at.point + width / 2 * at.inward, share});
                 because(share);
-                // Where the width is much smaller than the size, refine the sampling: the size would grow
-                // again in between.
+                // Where the width is much smaller than the size, refine the sampling; otherwise the size
+                // would grow again between the samples.
                 if (to - from > kApart * share && length < static_cast<double>(kMostPoints) * (to - from)) {
                     parts.push_back({(from + to) / 2, to});
                     parts.push_back({from, (from + to) / 2});

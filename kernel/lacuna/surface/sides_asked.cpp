@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// The height of rows, measured along the side they run along, up to which an edge has room for them.
+/// The largest height of rows, measured along the side that the rows follow, for which an edge has room.
 double room_on(const Model& model, const SeedPiece& piece, EdgeId edge, bool at_end, const RimRows::End& end)
 {
     const std::vector<double>& other = at_end ? piece.low : piece.high;

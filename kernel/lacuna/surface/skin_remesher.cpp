@@ -22,17 +22,18 @@ constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
 /// Rounds of splitting, collapsing, flipping and smoothing. On the tests' bodies the smallest angle no longer
 /// changes after five.
 constexpr int kRounds = 6;
-/// Tangent of the smallest angle that a collapse or a move may cause: 15°, as flips and moves that follow
-/// double it.
+/// Tangent of the smallest angle that a collapse or a move may cause: 15°. Later flips and moves about double
+/// such an angle.
 constexpr double kPoorAngle = 0.27;
 /// Tangent of the smallest angle below which triangles are improved one by one: 30°.
 constexpr double kGoodAngle = 0.577;
-/// Rounds of these improvements; the last ones hardly find any.
+/// Rounds of these improvements. The last rounds find hardly anything to improve.
 constexpr int kImprovements = 6;
 /// Tangent of an angle that counts as zero.
 constexpr double kFlat = 1e-4;
-/// Triangles of a round of splitting, as a multiple of the number by area and size. Badly shaped ones need
-/// more than that number, but at most twice as many; the bound ends splits next to facets that fold.
+/// Maximum number of triangles after a round of splitting, as a multiple of the estimate from area and size.
+/// Badly shaped triangles need at most twice the estimate. The bound stops endless splits next to facets that
+/// fold.
 constexpr double kMostOfEstimate = 4;
 /// More triangles than this are refused, as the volume behind them would have more than 1e7 tetrahedra.
 constexpr double kMostTriangles = 1e7;

@@ -28,8 +28,8 @@ namespace {
 constexpr int kLeastPerTurn = 12;
 /// Maximum number: with it, a sphere loses 0.06 % of its volume.
 constexpr int kMostPerTurn = 160;
-/// Minimum size in narrow places, as a share of the requested one. The triangles along a rim are inversely
-/// proportional to it; narrower faces have flatter triangles.
+/// Minimum size in narrow places, as a share of the requested one. The number of triangles along a rim is
+/// inversely proportional to it; in still narrower faces the triangles are flat.
 constexpr double kLeastShare = 0.1;
 /// Maximum sag of a side over the distance of the opposite skin [-]: each may use a quarter.
 constexpr double kSagOfGap = 0.25;

@@ -24,8 +24,8 @@ namespace {
 
 /// Samples per side of quads on an edge: enough for cubic interpolation. Heuristic.
 constexpr int kPerSide = 4;
-/// Maximum number of Gauss-Newton steps, and of increases of the evenness weight. Heuristic: a solution that
-/// needs more is far from even.
+/// Maximum number of Gauss-Newton steps, and of increases of the evenness weight. A problem that needs more
+/// steps would end far from even. Heuristic.
 constexpr int kSteps = 12, kRounds = 5;
 /// Bounds of a side's length relative to its original length: half of the accepted range of sizes.
 constexpr double kShortest = 0.75, kLongest = 1.35;
@@ -340,7 +340,7 @@ private:
             visit(i, (line.above[i] - line.at[i]) * line.steep[i]);
     }
 
-    /// Derivative of a node's column in a section, by its variables.
+    /// Derivative of the position of a node's column in a section, by the node's variables.
     void add_slopes(const Node& node, std::size_t section, double slope, std::vector<Slope>& slopes) const
     {
         const Line& line = lines_[node.line];

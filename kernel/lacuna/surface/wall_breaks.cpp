@@ -38,8 +38,8 @@ bool has_net(const Model& model, const LinkingSurface& link)
     return false;
 }
 
-/// Minimum number of layers for edges around the walls that end on side lines only: one more than the most
-/// vertices on one line where such edges start.
+/// Minimum number of layers for edges around the walls that end on side lines only: one more than the largest
+/// number of vertices on one side line where such edges start.
 int layers_between_rings(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> along;

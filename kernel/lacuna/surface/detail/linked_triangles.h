@@ -75,7 +75,7 @@ public:
     /// Quality of a triangle: the tangent of its smallest angle; negative if it is turned away from the
     /// normals at its corners by more than 60°.
     [[nodiscard]] double quality(Index side) const;
-    /// The same with its node `moved` at another place.
+    /// The quality that the triangle would have with node `moved` at `place`.
     [[nodiscard]] double quality(Index side, Index moved, const Vec3& place) const;
 
     /// Insert a node on a side. @param normals  of the faces left and right of the side.

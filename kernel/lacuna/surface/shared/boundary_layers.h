@@ -51,7 +51,7 @@ struct RimRows {
     struct Part {
         double from = 0, to = 1; ///< fractions of its length
         int table = -1;
-        FaceId wall; ///< whose table it is
+        FaceId wall; ///< the wall that the table belongs to
     };
     std::map<EdgeId, std::vector<Part>> parts;
     /// The end of an edge in a face's loop, for rows along the next edge of the loop.
@@ -62,7 +62,7 @@ struct RimRows {
         Vec3 inward;  ///< perpendicular to it, in the face
         VertexId corner;
     };
-    /// Rows that end on an edge: at its start, and at its end.
+    /// Rows that end on an edge, by the edge and whether they end at its end (true) or its start.
     std::map<std::pair<EdgeId, bool>, End> ends;
 
     [[nodiscard]] bool empty() const { return heights.empty(); }

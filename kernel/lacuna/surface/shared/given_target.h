@@ -12,7 +12,8 @@ namespace lacuna::surface {
 
 /// The given mesh of the target, in the numbering of the source's.
 struct GivenTarget {
-    /// The difference if it is not kept although the target has given quads; the lists are then empty.
+    /// Why the target's given quads are not kept; the lists are then empty. Empty if they are kept, or if
+    /// there are none.
     std::string why{};
     std::vector<Vec3> nodes{};  ///< position of each source node: bit for bit the target's own
     std::vector<FaceId> face{}; ///< target face of each source quad

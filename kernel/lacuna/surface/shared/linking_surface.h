@@ -20,7 +20,8 @@ struct RimSegment {
     double target_from = 0, target_to = 0; ///< may exceed the target chain's length: modulo it
     std::size_t use = 0;                   ///< index of the use in the source chain
     bool given = false;                    ///< one side of a quad: it lies between given nodes
-    /// Its ends are vertices of the rim's facets, which bend no more between them than a straight side may.
+    /// Whether both ends of the segment are vertices of the rim's facets, and the rim bends no more between
+    /// them than a straight side may; on the source, and on the target.
     bool follows = false, target_follows = false;
     bool on_crease = false; ///< without side lines: the column at its start runs along a crease of the walls
 };
