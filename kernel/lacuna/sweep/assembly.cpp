@@ -65,8 +65,8 @@ double shortest_side(const FaceMesh& mesh)
     return least;
 }
 
-/// Nodes of faces whose quads are connected alike are nearer to each other's images than this share of the
-/// shortest side; then no other node is as near.
+/// If two faces have the same quad connectivity, corresponding nodes are nearer to each other's images than
+/// this share of the shortest side. No other node is then as near.
 constexpr double kNearImage = 0.25;
 
 /// Relative difference between a face's area and the sum of its facets' areas below which the face is flat.
@@ -98,16 +98,17 @@ struct MemberFailed : NotSweepable {
     std::size_t member;
 };
 
-/// Everything that decides a part.
+/// All inputs that determine a part: equal inputs give equal parts.
 struct Ingredients {
     std::string region;
-    std::vector<Vec3> points; ///< of its volume, as those of the next two
+    std::vector<Vec3> points; ///< points of the member's volume; the next two vectors are its edges and faces
     std::size_t edges = 0, faces = 0;
     std::vector<EdgeNodes> nodes; ///< as planned
     int layers = 0;
     bool wedges = false;
     std::set<FaceId> between; ///< faces shared with other members
-    /// Of neighbours that were meshed before: the common face in both members, and the number of their part.
+    /// For each neighbour meshed before: the common face in this member, the same face in the neighbour, and
+    /// the number of the neighbour's part.
     std::vector<std::tuple<FaceId, FaceId, std::size_t>> beside;
 
     bool operator==(const Ingredients& other) const
@@ -130,11 +131,11 @@ struct MadePart {
     std::optional<Message> why;
 };
 
-/// Parts that were made in other orders of the members, or while more of them were swept: a part is made
-/// again only of something else.
+/// Parts made in earlier attempts, with another order of the members or with more members swept. A part is
+/// made again only if its inputs differ.
 struct PartsBefore {
     std::vector<MadePart> parts;
-    std::size_t count = 0; ///< of all parts made
+    std::size_t count = 0; ///< number of parts made so far
 
     /// Take a part, or the reason for its failure, if it is there.
     std::optional<MadePart> take(const Ingredients& of)
@@ -312,7 +313,7 @@ private:
             if (faces_of_fixed() != before) return false; // their quads stay as they are
         } catch (const Cancelled&) {
             throw;
-        } catch (const Error& error) { // the first error is more informative
+        } catch (const Error& error) { // report the first error: it is more informative
             log_line(context_, error.message().text());
         }
         notes_.insert(notes_.end(), lines.begin(), lines.end());
@@ -349,7 +350,7 @@ private:
     {
         std::vector<std::size_t> first;
         std::optional<MemberFailed> reason;
-        std::vector<SharedFace> faces = result_.shared; // a periodic face takes the quads of its image
+        std::vector<SharedFace> faces = result_.shared; // a periodic face takes its image's quads
         for (const PeriodicFaces& pair : periodic_)
             if (pair.a != pair.b)
                 faces.push_back(pair.a < pair.b ? SharedFace{pair.a, pair.b, pair.face_a, pair.face_b}
@@ -449,13 +450,13 @@ private:
         return of;
     }
 
-    /// Make a part, or take one that was made of the same before.
+    /// Make a part, or reuse one that was made from the same inputs.
     void make_or_take(std::size_t m, const std::vector<Neighbour>& neighbours,
                       const std::vector<Neighbour>& images)
     {
         Ingredients of = ingredients(m, neighbours);
-        // A part of order 2 also depends on those that it touches along an edge, and any part on the images
-        // of its periodic faces.
+        // At order 2 a part also depends on the parts that it touches along an edge. A part with periodic
+        // faces depends on their images.
         const bool again = members_[m].options.order > 1 || !periodic_.empty();
         if (!again && made_of_[m] && made_of_[m]->first == of) return;
         if (again)
@@ -508,12 +509,12 @@ private:
         }
         SweepOptions options = member.options;
         options.fallback = Fallback::none;                      // the whole assembly is computed again
-        options.layered = options.layered && periodic_.empty(); // pairs of nodes are written with the whole
+        options.layered = options.layered && periodic_.empty(); // periodic pairs need stored nodes
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         if (!plan_.heights[m].empty()) {
             std::vector<double> heights{0};
             heights.insert(heights.end(), plan_.heights[m].begin(), plan_.heights[m].end());
-            if (member.volume->turned_round) reverse_heights(heights); // these run from the named source
+            if (member.volume->turned_round) reverse_heights(heights); // given from the named source
             options.layers.heights.assign(heights.begin() + 1, heights.end());
         }
         std::vector<Neighbour> alike, handed = images;
@@ -541,7 +542,7 @@ private:
             fixed = options.beside.handed;
             for (const Neighbour& n : handed) fixed.insert(n.own);
             if (keeps) give_to_images(m, volume, fixed);
-            // The shape is compared with the volume as sealed, not with the neighbours' quads on its rim.
+            // The reference shape is the volume as sealed, without the neighbours' quads on its rim.
             if (!plan_.nodes[m].empty() || !fixed.empty()) options.beside.shape = &sealed;
             result_.parts[m] = sweep(volume, options, context_);
         };
@@ -649,7 +650,8 @@ private:
             for (const Index n : from) moved.push_back(pair.onto * part_a.skin()[n]);
             for (const Index n : to) places.push_back(part_b.skin()[n]);
             const FaceMesh corners = face_mesh(part_a.skin(), quads_of(pair.a, pair.face_a));
-            // Given nodes of both faces may differ by the tolerance; middle nodes by the facets' sag.
+            // Given nodes of two faces may differ by the tolerance, and their middle nodes by the facets'
+            // sag.
             const std::vector<Index> twin = same_places(moved, places,
                                                         kNearImage / 4 * shortest_side(corners));
             if (twin.empty()) refuse_images(pair, false);
@@ -844,11 +846,12 @@ private:
     std::vector<AssemblyMember> members_;
     std::vector<OpenVolume> imprinted_;                  ///< the members' volumes, if faces had to be split
     std::vector<std::pair<std::size_t, FaceId>> beside_; ///< faces shared with members that are not swept
-    std::vector<std::vector<double>> sag_; ///< for each member: of its faces before ends were split
+    std::vector<std::vector<double>> sag_; ///< for each member: sag of each of its faces, measured before
+                                           ///< ends were split
     std::vector<std::string> notes_;       ///< lines of the report: imprints and near misses
     const RunContext& context_;
     std::vector<PeriodicFaces> periodic_;
-    double grid_ = 0; ///< of the nodes on periodic faces
+    double grid_ = 0; ///< spacing of the grid that nodes of periodic faces are rounded to
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
@@ -873,8 +876,8 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
     }
     std::vector<std::size_t> place(left.size());
     std::iota(place.begin(), place.end(), std::size_t{0});
-    std::map<std::string, MemberFailed> without_wedges; // by region
-    std::map<std::size_t, Message> failures;            // of members that are then not swept, by index
+    std::map<std::string, MemberFailed> without_wedges; // first errors, by region
+    std::map<std::size_t, Message> failures;            // of members not swept, by index
     std::vector<LeftOut> left_out;
     PartsBefore before;
     for (;;) {
