@@ -83,7 +83,7 @@ Message why_failed(const AssemblyMember& member, const Error& error)
     Message why = error.message().about(member.region);
     if (came_with_mesh(member) || std::ranges::find(kGivenMesh, error.code()) == kGivenMesh.end()) return why;
     return std::move(why).remedy(
-        "its neighbours made these quads and nodes: give all of them the same 'size' "
+        "these quads and nodes come from its neighbours: give all of them the same 'size' "
         "and 'layers'");
 }
 
@@ -833,13 +833,13 @@ private:
                                                    a.size() == 1 ? "quad" : "quads"));
                 continue;
             }
-            throw NotSweepable("assembly.not_shared",
-                               "{} of {} and {} of {} are one face, round {}, but their meshes on it differ: "
-                               "{} quads and {}{}",
-                               face_a, region_a, face_b, region_b,
-                               place_with_digits(face_centroid(members_[m].volume->model, own), 4),
-                               found(a.size()), needed(b.size()),
-                               part.not_kept.empty() ? "" : "; " + part.not_kept.front());
+            throw NotSweepable(
+                "assembly.not_shared",
+                "{} of {} and {} of {} are one face, centred at {}, but their meshes on it differ: "
+                "{} quads and {}{}",
+                face_a, region_a, face_b, region_b,
+                place_with_digits(face_centroid(members_[m].volume->model, own), 4), found(a.size()),
+                needed(b.size()), part.not_kept.empty() ? "" : "; " + part.not_kept.front());
         }
     }
 

@@ -317,8 +317,8 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
                     side->fixed ? "is a face of a mesh that stays as it is"
                                 : "came with quads, which stay as they are")
                 .remedy("{}", side->fixed
-                                  ? "put the volume it was made of in its place, or split the face there "
-                                    "before that is meshed"
+                                  ? "use the unmeshed volume instead, or split the face before the volume "
+                                    "is meshed"
                                   : "mesh the two faces alike, or, of a mesh from a file, load it with "
                                     "keep_mesh = false"));
     }

@@ -45,8 +45,8 @@ void check_heights(const LayerSpec& spec)
         const bool last = i + 1 == layers;
         if (!(height > below && height <= 1 + slack) || (!last && height >= 1)) {
             throw InvalidInput(code,
-                               "sweep: option 'layers' needs a height that rises from the last one, in "
-                               "(0, 1], the last alone being 1: height {} is {} after {}",
+                               "sweep: option 'layers' needs increasing heights in (0, 1], of which only "
+                               "the last is 1: height {} is {} after {}",
                                i + 1, found(height), below);
         }
         below = height;

@@ -113,7 +113,7 @@ public:
                                                  faces.second, pair_.tolerance);
             if (hinged)
                 throw InvalidInput(message_of(miss, "assembly.crack",
-                                              ". They have an edge in common, which would open as a crack"));
+                                              ". They share an edge, along which the mesh would crack"));
             if (miss.reach_in && overlap.depth > limit_of(faces))
                 throw InvalidInput(
                     message_of(miss, "assembly.overlap", ". Volumes of an assembly may touch, not overlap"));

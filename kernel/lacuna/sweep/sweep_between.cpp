@@ -203,8 +203,8 @@ void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, 
             "{} has given quads, which are kept, so boundary layers cannot be placed along its rim",
             entity_of(volume.model, face));
         if (!options.beside.own_mesh) throw NotSweepable(std::move(refusal));
-        throw NotSweepable(std::move(refusal).remedy(
-            "quads = \"paved\" meshes it anew, as does loading with keep_mesh = false"));
+        throw NotSweepable(
+            std::move(refusal).remedy("remesh it with quads = \"paved\", or load with keep_mesh = false"));
     }
 }
 
@@ -366,7 +366,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         if (volume.model[wall].origin != Origin::given || std::ranges::find(faces, wall) != faces.end())
             continue;
         result.report.push_back(
-            formatted("walls: {} is smaller than the quads there and has none, nor a group",
+            formatted("walls: {} is smaller than the quads there, so it gets no quads and no group",
                       entity_of(volume.model, wall)));
     }
     report_progress(context, "proof of every cell");

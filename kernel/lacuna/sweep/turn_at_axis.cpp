@@ -113,8 +113,9 @@ private:
     {
         const LayerSpec& spec = options_.layers;
         if (!spec.heights.empty() || spec.bias != 1)
-            throw InvalidInput(Message("sweep.axis_layers", "layers round an axis with wedges are even")
-                                   .remedy("give their number alone"));
+            throw InvalidInput(
+                Message("sweep.axis_layers", "layers around an axis with wedges have equal angles")
+                    .remedy("give only their number"));
         const double turn = std::abs(turn_.angle);
         const int least = static_cast<int>(std::ceil(kLeastPerTurn * turn / kFullTurn - kSamePlace));
         layers_ = spec.count;
@@ -158,8 +159,8 @@ private:
         for (const Index n : quad) centre += nodes_[index(n)] / 4;
         throw NotSweepable(
             Message("sweep.axis_corner",
-                    "a quad of the source, at {}, touches the axis with a corner alone, so that "
-                    "it sweeps to no cell",
+                    "a quad of the source, at {}, touches the axis with one corner only, which "
+                    "gives no valid cell",
                     place_with_digits(centre, 4))
                 .remedy("use another 'size', or quads = \"paved\""));
     }
@@ -325,7 +326,7 @@ private:
                                    exact, radius_ * (1 - std::cos(half))));
         if (std::abs(all / exact - 1) <= kVolumeNoted) return;
         report.push_back(formatted(
-            "note: the mesh has {:.2g} % less volume than what was sealed; layers = {} keep it within 1 %",
+            "note: the mesh has {:.2g} % less volume than the sealed shape; layers = {} keep it within 1 %",
             100 * (1 - all / exact), static_cast<int>(std::ceil(std::abs(turn_.angle) / kOnePercent))));
         log_line(context_, report.back());
     }
