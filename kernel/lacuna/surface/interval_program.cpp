@@ -72,7 +72,7 @@ public:
         rows_.push_back(std::move(row));
     }
 
-    /// Add a term of the objective, or a floor if its weight is zero.
+    /// Add a term of the objective or, if the weight is zero, a floor.
     void add_term(const std::vector<std::size_t>& variables, double wanted, double weight)
     {
         Term term{{}, 0, wanted, weight};

@@ -454,7 +454,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
 
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
 {
-    // A column through the end of a piece still crosses it.
+    // Include the ends of pieces, so that a column through an end still crosses the ring.
     std::vector<Crossing> result;
     for (const Piece& piece : ring.pieces) {
         const Vec2 &a = piece.a, &b = piece.b;

@@ -264,8 +264,8 @@ double quads_of(const Program& program, const std::vector<int>& counts)
 /// three grids around a node have more quads than the sides of their face suggest.
 std::vector<int> solve_for_quads(const Program& program)
 {
-    // The promised number of quads is the requested one within a quarter. The weight inside that range and
-    // the number of corrections are heuristic.
+    // The requested number of quads must be met within a quarter. The tolerance used here and the number of
+    // corrections are heuristic.
     constexpr double kNear = 0.1, kQuads = 0.25;
     constexpr int kTries = 4;
     std::vector<int> best = solve(program, 1), counts = best;
@@ -296,7 +296,7 @@ std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, co
     std::set<EdgeId> settled = add_beside_mapped(task, grids, seeds, all);
     add_alike(alike, all);
     const std::vector<int> counts = solve_for_quads(all);
-    std::vector<int> fewer; // if the free faces have no solution
+    std::vector<int> fewer; // used if the free faces have no solution
     for (std::size_t p = 0; p < all.pieces.size(); ++p) {
         int count = counts[all.piece_variable[p]];
         if (count == 0 && p < mapped.pieces.size()) {

@@ -175,7 +175,7 @@ private:
                 double share = sizing.gap > 0 ? width / sizing.gap : most;
                 share = std::max(share, least_ * asked(at.point));
                 if (share >= most) continue;
-                // Add the point halfway across too, so that quads do not grow away from the rim.
+                // Add the point halfway across as well, so that quads stay small between the two rims.
                 sizes.push_back({at.point, share});
                 sizes.push_back({at.point + width / 2 * at.inward, share});
                 because(share);
@@ -225,7 +225,8 @@ private:
         }
         const bool at_start = a.from == b.from || a.from == b.to, at_end = a.to == b.from || a.to == b.to;
         if (!at_start && !at_end) return Opposite{other, width};
-        // Next to a common corner no width is defined; two edges with both ends in common enclose the face.
+        // Next to a common corner no width is defined. Two edges that share both ends enclose the face, so
+        // the mean width applies.
         if (!at_start || !at_end || a.from == a.to) return std::nullopt;
         return Opposite{other, std::max(width, mean_width_)};
     }

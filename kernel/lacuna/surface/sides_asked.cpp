@@ -69,7 +69,8 @@ double length_at(double index, const SidesAsked& asked)
     return std::expm1(growth * index) / std::expm1(growth * asked.count);
 }
 
-/// Assign nodes to the ends of pieces: the nearest ones by the bias, with at least one side per piece.
+/// Assign nodes to the ends of pieces. Each end gets the node nearest to it by the bias; every piece gets at
+/// least one side.
 std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& asked)
 {
     std::vector<int> node{0};

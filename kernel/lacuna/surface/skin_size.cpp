@@ -64,7 +64,7 @@ int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeF
     return first == counts.end() ? kMostPerTurn : *first;
 }
 
-/// Sizes on curved faces along the sides of their facets, which may be longer than the sizes at their ends.
+/// Sizes inside the facets' sides on curved faces: a side may be longer than the sizes at its ends.
 void add_curved(const Face& face, std::span<const PointCurvature> at, int per_turn, const SizeField& size,
                 std::vector<PointSize>& sizes)
 {

@@ -113,7 +113,8 @@ private:
         return at_layer;
     }
 
-    /// Heights of a side line's nodes: those that its edges keep, or shifted to where plain rings meet it.
+    /// Heights of a side line's nodes: the nodes of kept edges, or the layers' heights shifted to the plain
+    /// rings that meet the line.
     [[nodiscard]] std::vector<double> line_heights(const Chain& chain) const
     {
         if (chain.uses().size() > 1 && std::ranges::all_of(chain.uses(), [&](const EdgeUse& use) {

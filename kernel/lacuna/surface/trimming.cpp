@@ -147,8 +147,8 @@ Trimming::Clearance Trimming::clearance_of(Index triangle) const
     return clear;
 }
 
-/// Points well inside: the displacement from the facet is shorter than the distance to any border, or ends
-/// over the same facet.
+/// Whether a point is well inside the face: its displacement from the facet is shorter than the distance to
+/// the border, or ends above the same facet.
 bool Trimming::is_clear(const Projected& point, bool measured) const
 {
     const double reach = (*point.at - point.from->point).norm() + most_bulge_;

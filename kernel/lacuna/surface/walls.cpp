@@ -179,7 +179,7 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Columns of given nodes are fixed: edges that turn or end between them are refused.
+    /// Columns of given nodes are fixed, so an edge that turns or ends between them is refused.
     void check_stops() const
     {
         for (std::size_t i = 0; i < grid_.stops.size(); ++i) {

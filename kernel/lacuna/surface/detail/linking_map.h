@@ -52,8 +52,8 @@ public:
     /// turns.
     [[nodiscard]] double target_branch() const { return branch_; }
 
-    /// Rotation of the transported frames against the rims' segments: on the target, and the maximum over all
-    /// sections [turns].
+    /// Rotation of the transported frames against the rims' segments [turns]: on the target, and the maximum
+    /// over all sections.
     [[nodiscard]] double turn() const { return turn_; }
     [[nodiscard]] double most_turned() const { return most_turned_; }
     [[nodiscard]] bool bends() const

@@ -19,11 +19,11 @@ struct Projected {
     Vec3* at = nullptr;                             ///< on the exact surface
 };
 
-/// The border of a face with exact geometry; its surface extends beyond it.
+/// The border of a face with exact geometry. The exact surface extends beyond the border.
 ///
-/// Seams and poles are not part of the border. A point is inside or outside by the nearest side of the
-/// border's polyline, at its corners by the sum of the two inward directions (Bærentzen and Aanæs 2005), and
-/// within the curve's bulge by the exact curve.
+/// Seams and poles are not part of the border. The nearest side of the border's polyline decides whether a
+/// point is inside or outside. At a corner of the polyline, the sum of the inward directions of both sides
+/// decides (Bærentzen and Aanæs 2005). Within the curve's bulge, the exact curve decides.
 class Trimming {
 public:
     Trimming(const topology::Model& model, FaceId face);

@@ -78,9 +78,9 @@ struct RimRows {
 RimRows rim_rows(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                  const LayerTables& tables);
 
-/// Positions of rows on the edge where they end: fractions of its length in its direction, increasing; fewer
-/// than heights if the edge is too short.
-/// @param at_end   the rows end at its end, otherwise at its start.
+/// Positions of rows on the edge where they end: fractions of the edge's length in its direction, increasing.
+/// There are fewer positions than heights if the edge is too short.
+/// @param at_end   whether the rows end at the edge's end; otherwise at its start.
 /// @param heights  of the rows, over the edge they run along, rising [model length].
 std::vector<double> row_places(const topology::Model& model, EdgeId edge, bool at_end,
                                const RimRows::End& end, std::span<const double> heights);

@@ -28,7 +28,8 @@ GivenTarget given_target(const topology::OpenVolume& volume, std::span<const Lin
                          const SourceMesh& source, bool wedges = false);
 
 /// If both ends have given quads with the same graph, rotate the loops whose walls do not fix their rotation
-/// (round, without columns or side lines) as the graph requires, starting from a loop whose walls do.
+/// (round, without columns or side lines). The rotation follows from the graph, starting from a loop whose
+/// walls fix its rotation.
 /// @param columns  of each linking surface.
 /// @note  O(quads of the ends); nothing is done where no loop needs it.
 std::vector<LinkingSurface> align_alike_ends(const topology::OpenVolume& volume,

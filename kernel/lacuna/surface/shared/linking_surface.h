@@ -42,7 +42,7 @@ struct LinkingSurface {
     Chain source, target;
     std::vector<LinkingLine> lines;   ///< in walking order
     std::vector<RimSegment> segments; ///< in walking order, the first from source length 0
-    /// For a ring without side lines: the end on the target rim of the shortest path from the source's start,
+    /// For a ring without side lines: where the shortest path from the source's start ends on the target rim,
     /// as a number of turns around the ring. Not set if corresponding vertices of both rims are given.
     std::optional<double> branch{};
 };

@@ -23,8 +23,8 @@ std::vector<std::vector<Vec3>> wall_columns(const topology::OpenVolume& volume, 
 std::vector<std::vector<Vec3>> wall_rows(const topology::OpenVolume& volume, const LinkingSurface& link,
                                          const LinkingNodes& nodes, int steps, const RunContext& context);
 
-/// Turn of the rim along each segment [radian], on the source's or the target's side, whichever is larger;
-/// without the turn between vertices of facets that the rim follows.
+/// Turn of the rim along each segment [radian], on the source's or the target's side, whichever is larger.
+/// The turn between facet vertices that the rim follows is not counted.
 std::vector<double> turning_of_segments(const topology::Model& model, const LinkingSurface& link);
 
 } // namespace lacuna::surface
