@@ -77,7 +77,7 @@ constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surfa
                                                      "surface.kept_rim", "sweep.layers_given"};
 
 /// The reason for a member's failure. If the member was given without a mesh, its kept quads come from
-/// neighbours that were meshed earlier, so the advice to load it differently does not apply.
+/// neighbours that were meshed earlier, so advice to load the member differently does not apply.
 Message why_failed(const AssemblyMember& member, const Error& error)
 {
     Message why = error.message().about(member.region);
@@ -497,9 +497,10 @@ private:
         return shared;
     }
 
-    /// Copy the neighbours' meshes on shared faces to the member, then sweep it. A face whose mesh follows
-    /// from its rim alone is left to the member, and the result is compared with the neighbour's; if they
-    /// differ, all meshes are copied. Meshes of images on periodic faces are copied always.
+    /// Copy the neighbours' meshes on shared faces to the member, then sweep it. If the rim alone determines
+    /// the mesh of a shared face, the member meshes that face itself, and the result is compared with the
+    /// neighbour's; if they differ, all meshes are copied. Meshes of images on periodic faces are always
+    /// copied.
     void make(std::size_t m, const std::vector<Neighbour>& neighbours, const std::vector<Neighbour>& images)
     {
         const AssemblyMember& member = members_[m];
@@ -529,7 +530,7 @@ private:
         const auto sweep_it = [&] {
             OpenVolume volume = *member.volume, sealed = *member.volume;
             give_edge_nodes(volume, plan_.nodes[m]);
-            // Rows along walls continue across a shared face: each side makes them itself.
+            // Rows along walls continue across a shared face, so each side makes them itself.
             if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
                 for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
             for (const auto& [own, other, from, onto] : handed) {
@@ -579,7 +580,7 @@ private:
     }
 
     /// Make the nodes of a member's periodic faces exact images of each other. If the motion is a
-    /// translation, nodes are also rounded to the grid, so that images in other members match.
+    /// translation, nodes are also rounded to the grid, so that images in other members are bit-identical.
     void tie_images(std::size_t m, const std::set<FaceId>& fixed, const mesh::SkinNodes& skin,
                     const std::vector<FaceId>& faces, SettledNodes& settled) const
     {
@@ -721,8 +722,8 @@ private:
                                members_[m].region);
     }
 
-    /// Whether a member will mesh a face with the same grid as its neighbour: the face is flat and has four
-    /// edges with planned nodes, and the neighbour generated as many quads there as the grid has.
+    /// Whether a member will give a face the same grid as its neighbour did. This holds if the face is flat,
+    /// has four edges with planned nodes, and has as many quads of the neighbour as the grid.
     [[nodiscard]] bool is_alike(std::size_t m, const Neighbour& n) const
     {
         if (members_[n.other].fixed != nullptr) return false;
@@ -775,8 +776,8 @@ private:
         return largest;
     }
 
-    /// Name the groups of cells and roles after their member, unless it is alone. Faces between two pieces of
-    /// one volume are in no group.
+    /// Prefix the names of groups of cells and roles with the member's name, unless it is the only volume.
+    /// Faces between two pieces of one volume are in no group.
     void name_groups()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {

@@ -24,8 +24,8 @@ struct AssemblyMember {
     const topology::OpenVolume* volume = nullptr; ///< sealed
     SweepOptions options;
     std::string region; ///< its name, for messages and groups
-    /// A given mesh, which is not changed; or null. With a given mesh, `volume` is its skin, whose faces keep
-    /// their quads, and `faces` of the mesh are those of `volume`. Of the options only `order` applies.
+    /// A given mesh, which is not changed; or null. With a given mesh, `volume` is its skin and keeps its
+    /// quads, and the mesh's `faces` refer to `volume`. Of the options only `order` applies.
     const Swept* fixed = nullptr;
     /// For a piece of a full turn, the region of the whole turn: the volumes of its pieces are checked
     /// together. Empty otherwise.

@@ -502,7 +502,7 @@ private:
         return at;
     }
 
-    /// Sides that an edge needs by its member's size and curvature.
+    /// Number of sides that an edge needs by its member's size and curvature.
     [[nodiscard]] double wanted(const MemberEdge& edge) const
     {
         const std::vector<Vec3> line = surface::edge_line(model(edge.member), edge.edge);
@@ -706,7 +706,7 @@ private:
             asked_.insert(of);
         }
         for (const auto& [of, sides] : intervals_) {
-            if (kept_of_class_.at(of) == Kept::quads) continue; // the sweep reports the number
+            if (kept_of_class_.at(of) == Kept::quads) continue; // the sweep reports a conflict of numbers
             count_[of] = sides.count;
             asked_.insert(of);
         }
@@ -749,7 +749,7 @@ private:
         std::size_t best = edges_.size();
         for (const auto& [of, times] : uses) {
             if (times % 2 == 0 || asked_.contains(of) || kept_of_class_.at(of) == Kept::quads) continue;
-            // Later rounds take the next class, so that ends do not undo each other's changes; given nodes of
+            // Later rounds take the next class, so that ends do not undo each other's changes. Given nodes on
             // faces that are only geometry are changed last.
             const auto before = [&](std::size_t a, std::size_t b) {
                 return std::tuple(kept_of_class_.at(a) != Kept::rim, -bumps_[a], count_.at(a)) >
@@ -763,7 +763,7 @@ private:
         return true;
     }
 
-    /// Nodes of an edge shared by several members, in the direction of the first member's edge.
+    /// Nodes of an edge that several members share, in the direction of the first member's edge.
     [[nodiscard]] std::vector<Vec3> places(std::size_t e, int count) const
     {
         const MemberEdge& edge = edges_[e];
@@ -852,7 +852,7 @@ private:
         std::map<std::size_t, std::vector<Vec3>> nodes;
         const std::vector<bool> on_frame = find_frame();
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            // Given nodes on the rim of a face that is only geometry are dropped if the member's number of
+            // Given nodes on the rim of a face that is only geometry are dropped if the planned number of
             // sides differs.
             const bool gives_way = kept_[e] == Kept::rim && sides_of(e) != count_.at(classes_.find(e));
             if (!(common_[e] || gives_way) || !on_frame[e]) continue;
@@ -880,7 +880,7 @@ private:
         return plan;
     }
 
-    /// Layers of a member with side lines of several edges, at least one for each edge.
+    /// Number of layers of a member with side lines of several edges: at least one for each edge.
     [[nodiscard]] int layers_of(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines) const
     {
         double layers = std::max(layers_asked(m), layers_[m]);
@@ -1036,7 +1036,8 @@ private:
     std::map<std::size_t, SidesOfClass> intervals_;           ///< for each class with an interval request
     /// For each set of same edges, the edge with a requested bias, and that bias in its direction.
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
-    std::set<std::size_t> stacked_;       ///< edges that are parts of side lines in some member, by `same_`
+    std::set<std::size_t> stacked_;       ///< edges that are parts of side lines in some member; ids of sets
+                                          ///< of same edges
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
     std::vector<Vec3> corners_;           ///< vertices where edges of several members end

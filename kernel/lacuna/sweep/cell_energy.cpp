@@ -49,8 +49,8 @@ void each_wedge_corner(const Visit& visit)
     }
 }
 
-/// The foldover-free energy of a corner, and its derivatives. The corner is given by its determinant divided
-/// by that of the reference box, and by the squares of its edges divided by those of the box.
+/// The foldover-free energy of a corner and its derivatives. Arguments are the corner's determinant divided
+/// by that of the box, and the squares of its edges divided by those of the box.
 struct Shape {
     double value, by_determinant, by_squares;
 };

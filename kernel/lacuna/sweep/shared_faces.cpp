@@ -28,11 +28,11 @@ namespace {
 constexpr double kMostly = 0.5;
 /// Faces that share a smaller fraction only touch along their rims.
 constexpr double kNothing = 1e-3;
-/// Points of one rim may be off the chords of the other by this factor times their sag, because the sag is an
-/// estimate.
+/// Points of one rim may be off the chords of the other by this factor times the sag of the chords, because
+/// the sag is an estimate.
 constexpr double kRimSag = 1.5;
-/// Faces that touch along a rim and curve away from each other are within the facet error for a smaller
-/// share.
+/// Faces that touch along a rim and curve away from each other are within the facet error over less than this
+/// share of their area.
 constexpr double kAlongRim = 0.5;
 /// Points count as lying on a volume's skin within this share of its diagonal, because the facets of its
 /// curved faces and of the neighbour's may differ.
@@ -95,7 +95,8 @@ bool rim_lies_on(const Side& one, const Side& other, double tolerance)
 
 bool is_void(const Side& side) { return side.face_data().origin == Origin::made_void; }
 
-/// Whether faces in two boxes can share more than a line: the boxes do so if each is widened by a limit.
+/// Whether faces in two boxes can share more than a line. This holds if the boxes, each widened by a limit,
+/// overlap.
 bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double limit)
 {
     const Vec3 common = (a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min())).array() + limit;
@@ -118,7 +119,7 @@ bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& 
 {
     RimOff off = rim_off(one, other);
     const RimOff back = rim_off(other, one);
-    // A rim that was laid onto facets is off the curve by as much as these.
+    // A rim that was projected onto facets is as far off the curve as these facets.
     const double slack = std::max(tolerance + kRimSag * std::max(off.sag, back.sag), common.limit);
     if (back.distance > off.distance) off = back;
     if (off.distance <= tolerance) return true;
@@ -148,7 +149,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
 {
     const double limit = tolerance + one.sag + other.sag;
     if (!share_area(one.box, other.box, limit)) return {};
-    // A face that closed an opening is the neighbour's given face in the same place.
+    // A void face is the same face as a neighbour's given face with the same rim.
     bool same = (is_void(one) || is_void(other)) && rim_lies_on(one, other, tolerance) &&
                 rim_lies_on(other, one, tolerance);
     if (!same && overlap == nullptr) return {};
@@ -199,7 +200,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
     return common;
 }
 
-/// Rims that agree within the sag of their chords but do not lie on one curve: the gap is closed.
+/// Report rims that agree within the sag of their chords but do not lie on one curve; the gap is closed.
 NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFace& faces,
                 const InCommon& common, double area, double tolerance)
 {

@@ -162,7 +162,8 @@ private:
         } catch (const NotSweepable& error) {
             const Message why = error.message().about(words);
             tried_.push_back(why.text());
-            const bool own = error.code() == kOwnTriangles; // any plan without wedges would have to keep them
+            const bool own = error.code() == kOwnTriangles; // without wedges, no plan could remesh the given
+                                                            // triangles
             if (own) left_[plan.wedges] = 0;
             refusal_ = refusal_ && !own ? refusal_->attempt(why) : error.message();
         }
@@ -196,7 +197,8 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
                                .remedy("leave one of them out"));
     }
     spec.count = layers->count;
-    // Edges run from the end at which the sweep starts; layers run from the source named by the user.
+    // The bias of an edge counts from the end at which the sweep starts; the bias of layers counts from the
+    // source named by the user.
     const bool turn = volume.turned_round && !layers->from_named_source;
     spec.bias = turn ? 1 / layers->bias : layers->bias;
     return options;

@@ -25,7 +25,8 @@ using namespace topology;
 
 namespace {
 
-/// Least layers of a full turn, as of one of hexahedra alone: with fewer, a cell spans 120° or more.
+/// Least number of layers of a full turn, as for hexahedra alone: with fewer layers, a cell spans 120° or
+/// more.
 constexpr int kLeastPerTurn = 4;
 /// Angle of a layer with which chords lose 1 % of a circle's area [radian].
 const double kOnePercent = std::sqrt(0.06);
@@ -66,7 +67,7 @@ private:
         std::size_t quad;
     };
 
-    /// The face that stands for what parts share.
+    /// A face id that stands for the face between two parts.
     [[nodiscard]] FaceId between() const { return FaceId(flat_.model.faces.size()); }
 
     /// The mesh may have been swept from either end of the flat volume.
@@ -88,7 +89,7 @@ private:
         }
     }
 
-    /// Have the quads look along the turn.
+    /// Orient the quads in the direction of the turn.
     void orient()
     {
         const double sense = turn_.angle < 0 ? -1 : 1;
@@ -187,7 +188,7 @@ private:
         return all;
     }
 
-    /// The place of a node of the source in a layer; those on the axis stay.
+    /// The place of a source node in a layer; a node on the axis stays.
     [[nodiscard]] Vec3 place(Index node, int layer) const
     {
         const Vec3& at = nodes_[index(node)];
@@ -197,7 +198,7 @@ private:
         return turn_.point + map * (at - turn_.point);
     }
 
-    /// The patches of a part, of which each is added when it is first used.
+    /// The patches of a part; a patch is added when it is first used.
     struct Patches {
         const Swept& base;
         FaceId between;
@@ -292,7 +293,8 @@ private:
         mesh.volume_groups = base_.mesh.volume_groups;
     }
 
-    /// Prove the parts, and compare their volume with that of the turned facets of the source.
+    /// Prove the parts, and compare their total volume with the volume that the source's facets sweep in the
+    /// turn.
     void measure()
     {
         double exact = 0, all = 0;

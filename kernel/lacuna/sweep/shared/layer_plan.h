@@ -30,7 +30,7 @@ struct LayerPlan {
     std::vector<Vec3> target;
     RimColumns columns;
     PlacementOptions options;
-    /// Nodes of the skin that are moved after all are placed, increasing.
+    /// Nodes of the skin that are moved after all nodes are placed; sorted by node.
     std::vector<std::pair<Index, Vec3>> laid{};
     std::optional<MiddlePlan> middles{}; ///< middle nodes, if the mesh is of order 2
 };
@@ -52,8 +52,8 @@ struct PlacedLayers {
 /// @throw  as `place_layers()`
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
 
-/// The same layers with some nodes of the skin moved. @param laid  increasing
-/// @pre  they have no middle nodes yet, which would have to move too.
+/// The same layers with some nodes of the skin moved. @param laid  sorted by node
+/// @pre  the layers have no middle nodes yet, because these would have to move too.
 PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid);
 
 /// The same layers with middle nodes.
