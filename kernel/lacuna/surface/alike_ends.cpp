@@ -239,7 +239,7 @@ private:
         return radius > 0 ? far / radius : kNearInside;
     }
 
-    /// The affine map from the source's rims to the target's, and the normal of the target.
+    /// The affine map from the source's rims to the target's rims, and the normal of the target.
     void fit_rims()
     {
         std::vector<Vec3> low, high;

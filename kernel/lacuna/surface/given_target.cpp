@@ -86,7 +86,8 @@ std::optional<EndQuads> quads_of(const OpenVolume& volume, Role end, std::string
 }
 
 /// Match the quads of two meshes as graphs, by traversal from some sides.
-/// @param image  of nodes of `from`: on input of those on the sides, on output of all.
+/// @param image  node of `to` for each node of `from`; set for the nodes on the sides before the call, and
+///          for all nodes after it.
 /// @return  the counterpart of each quad; nothing if the graphs differ or some quads are not reached.
 std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, std::span<const Quad> all_to,
                                                std::vector<Index>& image, std::span<const Segment> sides)

@@ -118,7 +118,7 @@ private:
 
     struct Term {
         std::map<std::size_t, int> variables;
-        std::int64_t given = 0; ///< sum over fixed variables
+        std::int64_t given = 0; ///< sum over fixed variables in the row
         double wanted = 1, weight = 1;
     };
 

@@ -307,7 +307,7 @@ private:
     const NodeFreedom& freedom_;
     const RunContext& context_;
     std::vector<Home> home_;
-    std::vector<std::vector<double>> at_; ///< of the nodes on each edge, as fractions
+    std::vector<std::vector<double>> at_; ///< positions of the nodes on each edge, as fractions
     std::vector<Line> lines_;
     std::vector<Ground> grounds_;
     mesh::Incidence quads_at_;

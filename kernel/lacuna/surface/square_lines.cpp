@@ -39,7 +39,7 @@ constexpr double kWorthIt = 0.05;
 constexpr double kStraight = 0.1;
 using Line = SectionLine;
 
-/// A cosine and its derivatives by the positions of a line's two ends.
+/// A cosine and its derivatives by the positions of the two ends of a line.
 struct Cosine {
     double value = 0, from = 0, to = 0;
 };
@@ -189,7 +189,7 @@ private:
                      const std::vector<Node>& first, const std::vector<Node>& last)
     {
         const auto sides = static_cast<double>(first.size() - 1);
-        std::array<std::array<Vec3, 2>, 2> bend; // of the first and the last line, at either end
+        std::array<std::array<Vec3, 2>, 2> bend; // deviations of the first and the last line, at either end
         bool straight = true;
         for (std::size_t k = 0; k < 2; ++k) {
             const std::vector<Node>& own = k == 0 ? first : last;

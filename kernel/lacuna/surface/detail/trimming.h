@@ -15,8 +15,8 @@ namespace lacuna::surface {
 /// owns.
 struct Projected {
     const geometry::FacetTree::Hit* from = nullptr; ///< the closest point on the facets
-    Index triangle = -1;                            ///< that facet, of the face
-    Vec3* at = nullptr;                             ///< on the exact surface
+    Index triangle = -1;                            ///< index of that facet in the face
+    Vec3* at = nullptr;                             ///< present position, on the exact surface
 };
 
 /// The border of a face with exact geometry. The exact surface extends beyond the border.
@@ -64,7 +64,7 @@ private:
     const topology::Model* model_;
     FaceId face_;
     std::vector<Side> sides_;
-    geometry::FacetTree tree_; ///< a facet of no area for each side
+    geometry::FacetTree tree_; ///< one degenerate facet (without area) for each side
     double most_bulge_ = 0;
     mutable std::once_flag once_;
     mutable std::vector<Clearance> clearance_; ///< for each facet, computed on first use

@@ -51,7 +51,7 @@ struct WallNet {
     std::vector<Level> levels;   ///< by rising height
     std::vector<LongEdge> long_edges;
 
-    /// Whether two levels overlap along the rim, so that they need two layers.
+    /// Whether two levels overlap along the rim, so that each needs its own layer.
     [[nodiscard]] bool over_each_other(const LinkingMap& map, std::size_t a, std::size_t b) const;
 
     /// For each level: the levels below it that overlap it and therefore need layers of their own.

@@ -49,7 +49,7 @@ struct RimRows {
     std::vector<std::vector<double>> heights; ///< for each table [model length]
     /// Of each edge of the source's rim: parts of its length, as it runs, and their tables.
     struct Part {
-        double from = 0, to = 1; ///< fractions of its length
+        double from = 0, to = 1; ///< fractions of the edge's length
         int table = -1;
         FaceId wall; ///< the wall that the table belongs to
     };

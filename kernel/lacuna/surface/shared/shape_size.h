@@ -23,7 +23,7 @@ struct SizeCause {
     FaceId face;                 ///< face of the source
     std::optional<EdgeId> edge;  ///< edge of its rim, one side of a narrow place; unset: curvature
     std::optional<EdgeId> other; ///< the edge opposite
-    double width = 0;            ///< between the two [model length]
+    double width = 0;            ///< distance between the two edges [model length]
 };
 
 /// Sizes over the source, and the causes of the reduction.
