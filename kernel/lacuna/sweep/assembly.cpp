@@ -103,7 +103,7 @@ struct Ingredients {
     std::string region;
     std::vector<Vec3> points; ///< points of the member's volume; the next two vectors are its edges and faces
     std::size_t edges = 0, faces = 0;
-    std::vector<EdgeNodes> nodes; ///< as planned
+    std::vector<EdgeNodes> nodes; ///< nodes planned for edges of the member
     int layers = 0;
     bool wedges = false;
     std::set<FaceId> between; ///< faces shared with other members
@@ -860,7 +860,7 @@ private:
     bool is_made_ = true; ///< false while a part is made
     /// For each part that exists: what it was made of, and its number.
     std::vector<std::optional<std::pair<Ingredients, std::size_t>>> made_of_;
-    SharedMiddles middles_; ///< of the parts so far, at order 2
+    SharedMiddles middles_; ///< middle nodes of the parts so far, at order 2
     SweptAssembly result_;
 };
 

@@ -593,7 +593,7 @@ private:
                 const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
                                      (here[1].places.empty() ? 0 : here[1].places.back());
                 if (taken >= edges_[e].length)
-                    rows_.erase(same_.find(e)); // the sweep reports the available length
+                    rows_.erase(same_.find(e)); // drop the rows; the sweep reports the available length
             }
         }
     }
@@ -896,8 +896,8 @@ private:
         return std::max(static_cast<int>(std::lround(layers)), static_cast<int>(most));
     }
 
-    /// Place nodes on side lines of several edges so that each vertex on them is a node. If an edge of an
-    /// unswept member's skin ends on such a line, it needs a node there.
+    /// Place nodes on side lines of several edges so that each of their vertices is a node. An edge of an
+    /// unswept member's skin that ends on such a line needs a node there.
     void plan_stacks(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines,
                      std::map<std::size_t, std::vector<Vec3>>& nodes, AssemblyPlan& plan)
     {
@@ -1021,7 +1021,7 @@ private:
     std::vector<bool> common_;                    ///< for each edge: other members have it too
     /// For each set of same edges: least length of the first side at both ends [model length].
     std::map<std::size_t, std::array<double, 2>> cusps_;
-    double grid_ = 0;              ///< of nodes on periodic faces
+    double grid_ = 0;              ///< spacing of the grid for nodes on periodic faces
     std::set<std::size_t> tied_;   ///< sets of same edges on periodic faces
     std::set<std::size_t> beside_; ///< edges shared with members that are not swept
     /// For each member: side lines of several edges, of which some are shared with unswept members.

@@ -236,7 +236,7 @@ private:
     std::vector<Role>& role_;
     std::vector<FaceId> whole_;
     const double near_ = from_.tolerance;
-    std::map<Index, Index> place_; ///< of points of the parts
+    std::map<Index, Index> place_; ///< point in the other volume for each point of the parts
 };
 
 class LineCarrier {

@@ -31,7 +31,7 @@ constexpr std::size_t kTurnChords = 8;
 /// Mean data of the columns between both rims.
 struct Columns {
     double length = 0;
-    double turning = 0; ///< from the source to the target [radian]
+    double turning = 0; ///< total turning from the source to the target [radian]
     double sides = 0;   ///< number of layers by the size in the middle of each column
     /// Layers required by the size from the source to evenly spaced positions; empty: the size is constant
     /// along the sweep.

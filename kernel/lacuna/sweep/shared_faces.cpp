@@ -107,10 +107,11 @@ bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, doub
 struct InCommon {
     bool any = false, whole = false;
     double limit = 0; ///< maximum distance of the facets of the same surface
-    /// Reason if a part is shared; if nothing is shared, the reason for overlapping volumes.
+    /// The reason to refuse the pair: a face that is shared in part or, if nothing is shared, overlapping
+    /// volumes.
     std::optional<Message> refusal;
     double apart = 0; ///< for one common face: distance of the arcs of both rims
-    double sag = 0;   ///< maximum distance of their chords from these
+    double sag = 0;   ///< maximum distance of the rims' chords from these arcs
 };
 
 /// One face in two members, whose rims may be apart. @return  whether they are the same face nevertheless
@@ -162,7 +163,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                      whole_other = face_area(other.model(), other.face);
         const double there = overlap->a.on / whole, back = overlap->b.on / whole_other;
         if (there <= kNothing && back <= kNothing) return {};
-        // The faces lie on both sides of one curve, which they approximate by different chords.
+        // The faces lie on both sides of one curve and approximate it by different chords.
         if (std::max(there, back) < kMostly) {
             const double under = area_under_arcs(rim_chords(one.model(), one.face),
                                                  rim_chords(other.model(), other.face), tolerance);
@@ -237,7 +238,7 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
     const Eigen::AlignedBox3d inner(box_of_b.min().array() + inside_by, box_of_b.max().array() - inside_by);
     if (inner.isEmpty() || !inner.intersects(box_of_a) || !free_edges(*b.volume).empty()) return;
     std::vector<Triangle> own, others;
-    std::vector<double> sag; // of the face of each of `own`
+    std::vector<double> sag; // sag of the face that each facet of `own` belongs to
     for (const Side& side : sides_of_a) {
         own.insert(own.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
         sag.resize(own.size(), side.sag);

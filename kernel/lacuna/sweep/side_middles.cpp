@@ -68,7 +68,7 @@ private:
     struct Curve {
         geometry::FacetTree tree;
         std::vector<EdgeId> edge; ///< for each side
-        std::vector<double> arc;  ///< of the edge's start, for each edge
+        std::vector<double> arc;  ///< for each edge, the running length at its start
     };
 
     Curve& curve_of(const std::vector<EdgeId>& edges)

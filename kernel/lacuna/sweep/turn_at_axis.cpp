@@ -338,9 +338,9 @@ private:
     const Swept& base_;
     const SweepOptions& options_;
     const RunContext& context_;
-    std::vector<Vec3> nodes_; ///< of the source
+    std::vector<Vec3> nodes_; ///< nodes of the source
     std::vector<Quad> quads_;
-    std::vector<char> on_axis_;      ///< nodes
+    std::vector<char> on_axis_;      ///< for each source node, whether it is on the axis
     std::vector<Index> start_, end_; ///< patch of each quad at both ends of the turn
     std::map<Segment, Index> wall_;  ///< patch of the wall of each side of the rim
     std::vector<std::size_t> rest_;  ///< quads away from the axis

@@ -218,7 +218,7 @@ private:
         surface::LinkingNodes nodes;
         std::vector<std::vector<Vec3>> rows;
         double sign = 1;   ///< sign of its enclosed volume
-        double within = 0; ///< six times the volume within its walls
+        double within = 0; ///< six times the volume enclosed by its walls
     };
 
     /// Six times the volume that a mesh of the ring encloses.
@@ -399,8 +399,9 @@ private:
     surface::RimFacets facets_{volume_, links_};
     std::vector<std::vector<std::pair<double, double>>> pairs_; ///< breaks that the model follows
     std::vector<char> on_crease_;
-    double on_ends_ = 0, ends_ = 0;       ///< lost on ends: without breaks, with current breaks
-    std::shared_ptr<Walls> rims_, walls_; ///< straight between the rims, and as given
+    double on_ends_ = 0, ends_ = 0;       ///< volume lost on ends: without breaks, and with the current
+                                          ///< breaks
+    std::shared_ptr<Walls> rims_, walls_; ///< wall models: straight between the rims, and as given
 };
 
 } // namespace

@@ -44,7 +44,8 @@ private:
 
     std::span<const AssemblyMember> members_;
     std::span<const SharedFace> shared_;
-    std::vector<std::map<EdgeId, double>> height_; ///< for each member: of edges around its walls, in [0, 1]
+    std::vector<std::map<EdgeId, double>> height_; ///< for each member: heights of the edges around its
+                                                   ///< walls, in [0, 1]
     std::vector<double> length_;                   ///< length of each member's walls along the sweep [model
                                                    ///< length]
     std::vector<std::vector<double>> levels_;      ///< for each member, rising, from 0 to 1

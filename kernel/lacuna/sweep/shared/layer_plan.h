@@ -38,7 +38,7 @@ struct LayerPlan {
 /// The cells over a source, without nodes and patches.
 mesh::HexMesh cells_over(const mesh::QuadMesh& source, int layers);
 
-/// The numbers of a plan's middle nodes, which are not stored; empty: it is of order 1.
+/// The numbers of a plan's middle nodes; their positions are not stored. Empty if the plan is of order 1.
 /// @param cells  quads, rim and layers of the plan's mesh
 mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells);
 
