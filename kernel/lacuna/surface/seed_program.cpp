@@ -29,9 +29,9 @@ constexpr double kHalves = kFullTurn / 3;
 /// between 15 and 13 sides.
 constexpr double kEvenCore = 1;
 
-/// Number of quads from which a sector's counts follow the rows along its round side. Quarters of a disc get
-/// 80 and 86 quads for 30 and 12 wanted with this rule, 45 and 39 without it; from 120 on it is better
-/// throughout.
+/// Number of wanted quads from which a sector's counts follow the rows along its round side. Measured on
+/// quarters of a disc: for 30 wanted quads they get 80 with this rule and 45 without it; for 12 wanted quads,
+/// 86 and 39. From 120 wanted quads on, the rule is better throughout.
 constexpr double kQuadsForRows = 20;
 
 /// Weight of an edge that is changed last, relative to others, if the present counts are repaired. Heuristic.

@@ -31,7 +31,8 @@ constexpr int kMostPerTurn = 160;
 /// Minimum size in narrow places, as a share of the requested one. The number of triangles along a rim is
 /// inversely proportional to it; in still narrower faces the triangles are flat.
 constexpr double kLeastShare = 0.1;
-/// Maximum sag of a side over the distance of the opposite skin [-]: each may use a quarter.
+/// Maximum sag of a side divided by the distance to the opposite skin [-]. Two opposite sides then use at
+/// most half of the distance.
 constexpr double kSagOfGap = 0.25;
 /// Skins are opposite each other if their normals differ by less than 37° from opposite directions [cosine].
 constexpr double kOpposite = 0.8;

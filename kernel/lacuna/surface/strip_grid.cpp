@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    /// Assign each level the nearest layer that leaves one for every level above and below it.
+    /// Assign each level to the nearest layer that leaves enough layers for all levels above and below it.
     void plan_levels()
     {
         const auto layers = static_cast<int>(layers_);

@@ -118,8 +118,8 @@ private:
         if (column.target_at) lead(*near, *way_to(*near, *column.target_at));
     }
 
-    /// The distance by which a break's target end must move along the rim to reach the end of a column;
-    /// nothing if it is a vertex or a given node, or if other breaks lie between.
+    /// The distance by which the target end of a break must move along the rim to reach the end of a column.
+    /// Nothing if that end is a vertex or a given node, or if other breaks lie between.
     [[nodiscard]] std::optional<double> way_to(std::size_t i, double target_at) const
     {
         const double length = link_.target.length();
