@@ -29,7 +29,7 @@ constexpr double kWidest = 5e-3;
 /// have a quarter; faces that curve away from a contact have a half.
 constexpr double kStaysNear = 0.6;
 /// Minimum share of a face, or of an edge, that is near the other member. A smaller share counts only if the
-/// overlap is wider than the window on average, or longer than `kCorner` windows along an edge.
+/// overlap is wider on average than the window, or longer than `kCorner` windows along an edge.
 constexpr double kPart = 0.05;
 /// Vertices of two rims correspond if their distance is at most this factor times the distance of the rims.
 /// At corners of 30°, vertices are twice as far apart as the sides.

@@ -231,7 +231,8 @@ private:
         return found;
     }
 
-    /// Fit a motion to the ends and centres of the edges that it takes to edges, and check that it takes all.
+    /// Fit a motion to pairs of edges: the ends and centres of edges, and those of their images under the
+    /// given motion. Empty unless the result maps all edges.
     std::optional<Isometry3d> refined(Isometry3d motion, bool turns)
     {
         std::vector<std::size_t> image = rough_images(motion);
