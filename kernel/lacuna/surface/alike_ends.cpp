@@ -28,7 +28,7 @@ constexpr double kNearInside = 0.5;
 
 /// An item of a face's loop: an inner edge, or a run of rim edges between two inner edges.
 struct Item {
-    EdgeUse use; ///< of a rim item: its first edge use
+    EdgeUse use; ///< rim items only: first edge use of the run
     bool rim = false;
     VertexId from;
 };
@@ -134,7 +134,7 @@ private:
             for (const Loop& loop : model_[face].loops) {
                 Walk walk;
                 for (const EdgeUse& use : loop.uses) {
-                    if (times[use.edge] > 1) continue; // a seam
+                    if (times[use.edge] > 1) continue; // a seam has its face on both sides
                     if (inner_.contains(use.edge))
                         walk.push_back({use, false, use_from(model_, use)});
                     else if (walk.empty() || !walk.back().rim || ends_.contains(use_from(model_, use)))
@@ -189,8 +189,9 @@ private:
         return !whole || match({low->second, 0}, {high->second, 0});
     }
 
-    /// Match the inner loops of faces that are already matched, by position after the affine fit of the rims.
-    /// @return whether there were any; nothing if they do not fit.
+    /// Match one inner loop of faces that are already matched, by its position after the affine fit of the
+    /// rims.
+    /// @return  whether a loop was matched; nothing if an inner loop has no counterpart.
     std::optional<bool> match_inside()
     {
         const std::map<FaceId, FaceId> faces = result_.faces;
@@ -238,7 +239,7 @@ private:
         return radius > 0 ? far / radius : kNearInside;
     }
 
-    /// The affine map from the source's rims to the target's, and the normal of the target.
+    /// The affine map from the source's rims to the target's rims, and the normal of the target.
     void fit_rims()
     {
         std::vector<Vec3> low, high;
@@ -289,12 +290,12 @@ private:
     std::set<VertexId> ends_;
     AlikeEnds result_;
     std::vector<Walk> walks_;
-    std::vector<FaceId> face_; ///< for each walk
+    std::vector<FaceId> face_; ///< face of each walk
     std::map<EdgeUse, std::pair<std::size_t, std::size_t>> at_use_;
     std::map<std::pair<VertexId, FaceId>, std::pair<std::size_t, std::size_t>> place_;
     std::map<EdgeId, std::size_t> at_rim_; ///< walk of each edge of a rim without inner edges
     std::vector<std::pair<EdgeUse, EdgeUse>> front_;
-    std::size_t next_ = 0;       ///< in front_
+    std::size_t next_ = 0;       ///< index in `front_` of the next pair to visit
     std::set<std::size_t> done_; ///< walks that are matched
     std::optional<geometry::AffineFit> fit_;
     Vec3 up_ = Vec3::Zero();

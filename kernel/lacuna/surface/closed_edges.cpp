@@ -24,8 +24,8 @@ struct Circle {
     EdgeId edge;
     Vec2 centre = Vec2::Zero();
     double area = 0;           ///< signed
-    std::vector<Vec2> line;    ///< the first point repeated
-    std::vector<double> share; ///< of the edge's length at each point
+    std::vector<Vec2> line;    ///< closed: the last point repeats the first
+    std::vector<double> share; ///< position of each point of `line`, as a share of the edge's length
     [[nodiscard]] double radius() const { return std::sqrt(std::abs(area) / std::numbers::pi); }
 };
 

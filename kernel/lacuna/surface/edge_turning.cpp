@@ -47,7 +47,7 @@ void EdgeTurning::append(const Model& model, EdgeUse use)
     std::vector<Vec3> line = line_of(model, use.edge);
     if (use.reversed) std::ranges::reverse(line);
     const std::vector<double> arc = geometry::arc_lengths(line);
-    // Running lengths refer to the model's polyline; the exact curve is slightly longer.
+    // Running lengths refer to the model's polyline, which is slightly shorter than the exact curve.
     const double scale = arc.back() > 0 ? edge_length(model, use.edge) / arc.back() : 1;
     const std::size_t sides = line.size() - 1;
     const auto middle = [&](std::size_t side) { return (arc[side] + arc[side + 1]) / 2; };
@@ -59,7 +59,7 @@ void EdgeTurning::append(const Model& model, EdgeUse use)
         const double first = arc[1], last = arc[sides] - arc[sides - 1];
         turn[0] = first + last > 0 ? seam * first / (first + last) : 0;
         turn[sides] = seam - turn[0];
-    } else if (sides > 1) { // the half sides at both ends bend like their neighbours
+    } else if (sides > 1) { // the half sides at both ends bend like the adjacent half sides
         const double low = middle(1) - middle(0), high = middle(sides - 1) - middle(sides - 2);
         turn[0] = low > 0 ? turn[1] * middle(0) / low : 0;
         turn[sides] = high > 0 ? turn[sides - 1] * (arc[sides] - middle(sides - 1)) / high : 0;

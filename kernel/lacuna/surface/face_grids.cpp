@@ -34,8 +34,8 @@ bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
     });
 }
 
-/// Whether a face's grid is nearly as good as paving, or the face must have one: by the style, for counts
-/// across narrow places, or because it cannot be laid on a plane.
+/// Whether a face's grid is nearly as good as paving, or the face must have a grid: because the style demands
+/// it, because counts across narrow places are set, or because the face cannot be flattened.
 bool is_fairly_mapped(const SeedTask& task, FaceId face, const MappedFace& mapped)
 {
     if (task.style != QuadStyle::automatic || task.sizing.gap > 0) return true;

@@ -39,8 +39,8 @@ double inner_angle(const Model& model, FaceId face, const Loop& loop, std::size_
     const Index at = after.front();
     Vec3 normal = Vec3::Zero();
     for (const Triangle& t : model[face].triangles) {
-        // The angle is that of the facets at this corner alone, also if the face passes the vertex twice (at
-        // a seam).
+        // Measure the angle between the facets at this corner only: at a seam, the face passes the vertex
+        // twice.
         const bool touches = std::ranges::find(t, at) != t.end();
         const bool on_side = std::ranges::find(t, after[1]) != t.end() ||
                              std::ranges::find(t, before[before.size() - 2]) != t.end();

@@ -81,7 +81,7 @@ std::vector<PointCurvature> facet_curvature(const Model& model, FaceId face, dou
         point.area = at[p].area;
         if (!(wide[p].area > 0)) continue;
         const Vec3 bends = geometry::symmetric_eigenvalues(wide[p].bends / wide[p].area).cwiseAbs();
-        if (!(bends.maxCoeff() * model.diagonal > 1e-6)) continue; // flatter than any size resolves
+        if (!(bends.maxCoeff() * model.diagonal > 1e-6)) continue; // too flat to matter for any size
         point.most = bends.maxCoeff();
         point.sum = bends.sum();
         if (f.surface == nullptr) point.least_size = wide[p].shortest / 2;

@@ -63,9 +63,8 @@ private:
 };
 
 /// Relative decrease of the energy at which flattening stops. The size is corrected for the remaining
-/// stretch, so a coarse solution is enough: two faces with holes took 150 ms with 1e-6, 100 ms with 1e-4 and
-/// 50 ms with this, and the minimum scaled Jacobian of four curved sources at four sizes changed by 0.02 at
-/// most.
+/// stretch, so a coarse solution is enough. Two faces with holes took 150 ms with 1e-6, 100 ms with 1e-4 and
+/// 50 ms with 1e-3; the minimum scaled Jacobian of four curved sources at four sizes changed by at most 0.02.
 constexpr double kSettled = 1e-3;
 
 Message not_flat(const Model& model, FaceId face, const char* why)
@@ -82,7 +81,7 @@ Message not_flat(const Model& model, FaceId face, const char* why)
 geometry::Flattened laid_flat(const Model& model, FaceId face, const FineFacets& fine)
 try {
     return geometry::flatten(fine.points, fine.triangles, {.settled = kSettled});
-} catch (const InvalidInput& error) { // it knows facets but not the face
+} catch (const InvalidInput& error) { // the error names facets but not the face
     throw InvalidInput(
         not_flat(model, face, "are in several parts, closed or have a handle").attempt(error.message()));
 }
@@ -150,7 +149,7 @@ public:
     }
 
 private:
-    /// The position in the plane of a point on an edge, by side of the polyline and share of it.
+    /// The position in the plane of a point on an edge. @param at  as `FineFacets::OnEdge::at`
     [[nodiscard]] Vec2 place_on(EdgeId edge, double at) const
     {
         const std::vector<FineFacets::OnEdge>& chain = fine_.edges.at(edge);

@@ -51,8 +51,8 @@ struct FacetSide {
     Index point = -1; ///< index of the midpoint once it is added
 };
 
-/// Corners of the facets into which a facet is split: 0, 1 and 2 are its corners; 3, 4 and 5 the midpoints of
-/// the sides that start at these.
+/// Corners of the facets into which a facet is split. Corners 0, 1 and 2 are those of the facet; 3, 4 and 5
+/// are the midpoints of the sides that start at 0, 1 and 2.
 std::vector<std::array<std::size_t, 3>> parts(const std::array<bool, 3>& halved)
 {
     const auto count = std::ranges::count(halved, true);
@@ -251,7 +251,7 @@ private:
     std::vector<FacetSide> sides_;
     std::vector<std::array<std::size_t, 3>> side_of_;       ///< for each facet, by the corner it runs from
     std::unordered_map<std::uint64_t, std::size_t> number_; ///< for each side
-    std::unordered_map<std::uint64_t, Vec3> settled_;       ///< midpoints of accurate sides
+    std::unordered_map<std::uint64_t, Vec3> settled_;       ///< midpoints of sides that need no bisection
 };
 
 } // namespace

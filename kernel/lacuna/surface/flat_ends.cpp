@@ -121,7 +121,7 @@ private:
         return best;
     }
 
-    /// Whether a node exists only because a closed edge needs a vertex.
+    /// Whether a node exists only because a closed edge needs a start vertex.
     static bool closes_edge(const std::vector<FlatEdge>& edges, std::size_t node)
     {
         std::size_t ends = 0;

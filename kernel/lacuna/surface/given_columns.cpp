@@ -132,8 +132,8 @@ private:
         return strips;
     }
 
-    /// Cross opposite sides from a side of a rim to the last quad; empty if the first quad was walked
-    /// already.
+    /// Walk from a side of a rim across opposite sides of quads to the last quad; empty if the first quad was
+    /// walked already.
     Strip walk(Index a, Index b)
     {
         Strip strip{{a}, {b}, {}, {}, false, 0};
@@ -476,7 +476,7 @@ GivenRows given_columns(const OpenVolume& volume, std::span<const LinkingSurface
     }
     const std::set<EdgeId> kept = kept_edges(volume.model);
     const int rows = first != nullptr ? first->rows : common_line_rows(volume.model, links, kept);
-    if (rows <= tallest_stub(columns)) return result; // quads take precedence over side lines
+    if (rows <= tallest_stub(columns)) return result; // given quads take precedence over side lines
     for (std::size_t b = 0; b < links.size(); ++b) {
         for (const LinkingLine& line : links[b].lines) {
             const int own = line_rows(volume.model, line, kept);

@@ -23,7 +23,7 @@ constexpr std::size_t kMostPairs = 4'000'000;
 /// A break between segments: corresponding positions on both rims.
 struct Break {
     double source = 0, target = 0; ///< running lengths; the target's may exceed its length
-    bool given = false;            ///< the interval up to the next break is one side of a quad
+    bool given = false;            ///< whether the interval up to the next break is one side of a given quad
 };
 
 /// The segments of one linking surface, with given nodes as breaks.
@@ -101,8 +101,8 @@ private:
         for (Break& b : breaks) b.target -= turns * length;
     }
 
-    /// Position on the target of the ring's start, from the columns on either side: node by node if both rims
-    /// have equally many nodes there.
+    /// Position of the ring's start on the target, interpolated between the columns on either side of it. If
+    /// both rims have equally many nodes there, nodes are counted instead.
     [[nodiscard]] double start_between_columns() const
     {
         const double s_length = link_.source.length(), t_length = link_.target.length();
@@ -131,7 +131,7 @@ private:
         return at;
     }
 
-    /// Breaks at every column, and no others where quads lead from rim to rim.
+    /// Breaks at every column. Where given quads lead from rim to rim, there are no other breaks.
     [[nodiscard]] std::vector<Break> with_columns(const std::vector<Break>& breaks) const
     {
         if (columns_.rows == 0) return breaks;

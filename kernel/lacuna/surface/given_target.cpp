@@ -86,7 +86,8 @@ std::optional<EndQuads> quads_of(const OpenVolume& volume, Role end, std::string
 }
 
 /// Match the quads of two meshes as graphs, by traversal from some sides.
-/// @param image  of nodes of `from`: on input of those on the sides, on output of all.
+/// @param image  node of `to` for each node of `from`; set for the nodes on the sides before the call, and
+///          for all nodes after it.
 /// @return  the counterpart of each quad; nothing if the graphs differ or some quads are not reached.
 std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, std::span<const Quad> all_to,
                                                std::vector<Index>& image, std::span<const Segment> sides)
@@ -95,7 +96,7 @@ std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, s
     std::vector<Index> twin(all_from.size(), -1);
     std::vector<char> taken(all_to.size(), 0);
     struct Step {
-        Index a, b, source, target; ///< a side, and the quads from which it is crossed
+        Index a, b, source, target; ///< a side, and the source and target quads already visited next to it
     };
     std::vector<Step> steps;
     for (const Segment& side : sides) steps.push_back({side[0], side[1], -1, -1});
@@ -176,7 +177,8 @@ GivenTarget given_target(const OpenVolume& volume, std::span<const LinkingSurfac
 std::vector<LinkingSurface> align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> columns,
                                              std::vector<LinkingSurface> links, bool wedges)
 {
-    // Columns and side lines fix the rotation of a loop; round loops without them rotate like the others.
+    // Columns and side lines fix the rotation of a loop. A round loop without them is rotated like the loops
+    // that have them.
     std::vector<std::size_t> unsure;
     const LinkingSurface* sure = nullptr;
     for (std::size_t b = 0; b < links.size(); ++b) {

@@ -39,7 +39,7 @@ public:
             const std::size_t before = ways.empty() ? 0 : ways.back().node;
             if (!add_way(stub.at, stub.from_target, stub.points, stub.faces, ways)) refuse_stub(stub);
             // Between adjacent given columns there may be one more node, which splits a side of a rim with an
-            // odd count. More nodes come from the opposite rim, which has another mesh.
+            // odd count. More nodes mean that the opposite rim has another mesh.
             if (beside && (ways.back().node + count_ - before) % count_ > 2) refuse_stub(stub);
         }
         take_ways(up, false);
@@ -93,7 +93,7 @@ private:
             }
             const std::size_t end = next.node > way.node ? next.node : next.node + count_;
             for (std::size_t i = way.node; i < end && !way.faces->empty(); ++i) {
-                // Nodes in between split the quads: an odd rim got an additional node.
+                // Nodes in between split the given quads: a rim with an odd count got an additional node.
                 const double share = static_cast<double>(i - way.node) / static_cast<double>(end - way.node);
                 for (std::size_t k = 0; k < way.faces->size(); ++k) {
                     const std::size_t low = std::min(layer(k), layer(k + 1));

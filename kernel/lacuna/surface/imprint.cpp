@@ -89,7 +89,7 @@ private:
         result_.target_of.resize(model().faces.size());
         for (const auto& [low, high] : alike->faces) result_.target_of[low.index()] = high;
         for (const auto& [low, high] : alike->edges) {
-            // The target faces the other way: its edge is walked backwards.
+            // The target's loops run in the opposite sense, so the target's edge is walked backwards.
             const bool along = low.reversed != high.reversed;
             result_.images[low.edge] = {high.edge, along ? 0.0 : 1.0, along ? 1.0 : 0.0};
         }
@@ -162,7 +162,8 @@ private:
             const EdgeId edge = flat_.source[piece.edge].edge;
             part[k] = edge;
             if (k == 0 || low[k - 1].edge != piece.edge) continue;
-            // Pieces are split off from the last to the first, so the edge now ends where this piece ends.
+            // Pieces are split off from the last to the first, so the remaining edge ends where this piece
+            // ends.
             const EdgeSplit made = split_at(model(), edge, piece.from_at / piece.to_at, inner_.front());
             part[k] = made.behind;
             flat_.vertex[piece.from] = made.vertex;
@@ -237,8 +238,8 @@ private:
         return at.barycentric[0] * uv[0] + at.barycentric[1] * uv[1] + at.barycentric[2] * uv[2];
     }
 
-    /// Shift parameters by the period of a seam if needed, so that they are on the same side of it as those
-    /// of a nearby place.
+    /// Shift parameters by the period of a seam if needed, so that they are on the same side of the seam as
+    /// `near`.
     Vec2 unwrapped(FaceId face, Vec2 uv, const Vec2& near)
     {
         const Vec2 range = seam_jump(face);
@@ -274,7 +275,8 @@ private:
 
     Edge new_edge(const FlatPiece& piece, EdgeId target, FaceId face)
     {
-        // Take an end's parameters from a point slightly inside the edge: on a seam the end has two sets.
+        // At an end of the edge, take the parameters from a point slightly inside: a point on a seam has two
+        // sets of parameters.
         constexpr double kWayIn = 1e-6;
         const Face& on = base_.model[face];
         std::vector<Vec2> line{piece.line.front()};
@@ -366,7 +368,7 @@ private:
         if (rim != rim_target_.end()) return rim->second;
         if (!border.image) return {};
         const bool along = border.image->from < border.image->to;
-        // The target faces the other way, so left and right of an edge are exchanged.
+        // The target's loops run in the opposite sense, so left and right of an edge are exchanged.
         return target_left_.at({border.image->target, along != use.reversed});
     }
 
@@ -392,7 +394,7 @@ private:
                 }
             }
         }
-        // Regions bounded by source edges only belong to the target face of their neighbours.
+        // A region bounded only by source edges belongs to the same target face as its neighbours.
         for (bool changed = true; changed;) {
             changed = false;
             for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -415,7 +417,7 @@ private:
                                "a part of the other end has no counterpart on this one");
             FaceId face = source[r];
             if (!begun.insert(face).second) {
-                if (!split_.contains(face)) // its loops bound one region, or the plane map is torn
+                if (!split_.contains(face)) // an unsplit face is one region
                     refuse_imprint(builder(), inner_.front(), "the edges of both ends cross inconsistently");
                 face = FaceId(builder().faces.size());
                 builder().faces.push_back(base_.model[source[r]]);

@@ -17,8 +17,8 @@ namespace {
 
 /// Cost of violating a floor by one side: larger than any term of the objective. Heuristic.
 constexpr double kBelowFloor = 1e6;
-/// Limit of free variables up to which pairs of vectors are tried too: a board of 32 × 32 faces has as many.
-/// Decides the quality of the counts against the time. Heuristic.
+/// Maximum number of free variables up to which pairs of vectors are tried too: a board of 32 × 32 faces has
+/// as many. A larger value gives better counts but takes longer. Heuristic.
 constexpr std::size_t kByTwos = 64;
 /// Additional cost of sides whose length is outside the accepted range, for each wanted side and by the
 /// relative excess. Heuristic.
@@ -72,7 +72,7 @@ public:
         rows_.push_back(std::move(row));
     }
 
-    /// Add a term of the objective, or a floor if its weight is zero.
+    /// Add a term of the objective or, if the weight is zero, a floor.
     void add_term(const std::vector<std::size_t>& variables, double wanted, double weight)
     {
         Term term{{}, 0, wanted, weight};
@@ -118,7 +118,7 @@ private:
 
     struct Term {
         std::map<std::size_t, int> variables;
-        std::int64_t given = 0; ///< sum over fixed variables
+        std::int64_t given = 0; ///< sum over fixed variables in the row
         double wanted = 1, weight = 1;
     };
 
@@ -175,7 +175,8 @@ private:
         return std::max<std::int64_t>(variable(v).least, weight > 0 ? std::llround(wanted / weight) : 1);
     }
 
-    /// The right-hand side for the pivot, by the free variables.
+    /// The right-hand side of a row minus the terms of its free variables: coefficient times value of the
+    /// pivot.
     [[nodiscard]] std::int64_t rest_of(const Row& row) const
     {
         std::int64_t sum = row.right;
@@ -185,7 +186,7 @@ private:
 
     [[nodiscard]] bool is_whole(const Row& row) const { return rest_of(row) % row.of.at(row.pivot) == 0; }
 
-    /// Raise a free variable of a row so that its pivot is an integer, and those of the rows before it too.
+    /// Raise a free variable of a row until the row's pivot and those of all earlier rows are integers.
     bool make_whole(std::size_t r)
     {
         return is_whole(rows_[r]) || std::ranges::any_of(rows_[r].of, [&](const auto& part) {
@@ -202,7 +203,8 @@ private:
                });
     }
 
-    /// Set the free variables to their wishes, as far as the dependent ones are integers, and compute these.
+    /// Set the free variables to their wishes, adjusted so that the dependent variables are integers, and
+    /// compute the dependent ones.
     bool start()
     {
         for (std::size_t v = 0; v < own_.size(); ++v) count_.push_back(is_pivot(v) ? 0 : rounded_wish(v));

@@ -11,8 +11,8 @@ namespace lacuna::surface {
 
 double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal)
 {
-    /// Cosine of the largest angle between a triangle and the face at its corners: above it, curvature alone
-    /// no longer explains the angle, as sides turn by 30° at most.
+    /// Minimum cosine of the angle between a triangle and the face normal at its corners: 60°. Curvature
+    /// alone cannot cause a larger angle, because sides turn by 30° at most.
     constexpr double kAligned = 0.5;
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
     const Vec3 across = ab.cross(-ca);

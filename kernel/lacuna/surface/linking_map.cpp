@@ -212,7 +212,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
             least = std::min(least, corners[t][i].x());
             most = std::max(most, corners[t][i].x());
         }
-        // As many copies as overlap [0, 1].
+        // Add a copy for every whole turn that overlaps [0, 1].
         for (int shift = static_cast<int>(std::ceil(-most)); least + shift <= 1; ++shift) {
             const auto base = static_cast<Index>(flat.size());
             for (const Vec2& c : corners[t]) flat.emplace_back((c.x() + shift) * width_, c.y() * height_, 0);
@@ -262,8 +262,8 @@ double LinkingMap::from_even(double height) const
 
 void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link, const RunContext& context)
 {
-    // Sections lie a quarter of the radius apart: frames transported over bends in several planes are within
-    // 2°.
+    // Sections lie a quarter of the radius apart. Frames transported over bends in several planes are then
+    // accurate to 2°.
     constexpr double kRowsRound = 24, kLeastRows = 32, kMostRows = 2048;
     constexpr double kLeads = 0.2; // least length of the axis, in section radii; heuristic
     const double rows = std::ceil(std::clamp(kRowsRound * height_ / width_, kLeastRows, kMostRows));
@@ -286,7 +286,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
     const std::vector<Vec3> ways = leads ? geometry::ways_along(middles, widths) : areas;
     std::vector<std::vector<double>> round; // share of each section's length at even steps of the harmonic s
     std::vector<Vec3> first;
-    std::vector<double> turned; // the frame against the harmonic s [turns]
+    std::vector<double> turned; // rotation of the frame against the harmonic s [turns]
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     for (std::size_t k = 0; k < rings.size(); ++k) {
         // Project along the direction of the sweep: sections of coarse facets and between oblique rims are
@@ -345,7 +345,7 @@ double LinkingMap::harmonic(double s, double t) const
 Vec2 LinkingMap::upright(const Vec2& place) const
 {
     if (columns_.empty()) return place;
-    double low = place.x() - 2, high = place.x() + 2; // a column deviates by less from its harmonic s
+    double low = place.x() - 2, high = place.x() + 2; // a column deviates from its harmonic s by less than 2
     while (high - low > kRoundoff) {
         const double middle = (low + high) / 2;
         (harmonic(middle, place.y()) < place.x() ? low : high) = middle;
@@ -454,7 +454,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
 
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
 {
-    // A column through the end of a piece still crosses it.
+    // Include the ends of pieces, so that a column through an end still crosses the ring.
     std::vector<Crossing> result;
     for (const Piece& piece : ring.pieces) {
         const Vec2 &a = piece.a, &b = piece.b;

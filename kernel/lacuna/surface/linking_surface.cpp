@@ -130,7 +130,7 @@ struct PairedPlaces {
     double source_at, target_at;
 };
 
-/// Segments between two positions of both chains, split at the pairs in between.
+/// Add segments between two positions of both chains, split at the pairs in between.
 void add_paired_segments(const Model& model, LinkingSurface& link, std::vector<PairedPlaces> pairs, double s0,
                          double s1, double t0, double t1)
 {
@@ -177,8 +177,9 @@ void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext
     add_segments(volume.model, link, 0, link.source.length(), start, start + length);
 }
 
-/// Whether the only side line is the seam of a periodic face and should not guide the sweep: it winds around
-/// the walls, or the walls bend and consist of several faces, whose rows it would shear.
+/// Whether the only side line is the seam of a periodic face that should not guide the sweep. This is so if
+/// the seam winds around the walls, or if the walls bend and have several faces: their rows would be sheared
+/// by it.
 bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     if (link.lines.size() != 1 || runs_straight(volume.model, link)) return false;

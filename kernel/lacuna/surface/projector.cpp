@@ -88,7 +88,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
                 if (inside && hits[i].distance2 <= rounding * rounding) continue;
                 hits[i] = tree_.closest(points[i], hits[i].distance2);
             }
-            if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]); // the bound was rounded
+            if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]); // rounding can exclude all facets
         }
     });
     std::map<FaceId, std::vector<std::size_t>> on_face;

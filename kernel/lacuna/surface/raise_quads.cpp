@@ -20,16 +20,16 @@ using namespace topology;
 
 namespace {
 
-/// Quads with a smaller scaled Jacobian are improved: the minimum to reach even with few quads, if the
-/// corners allow it.
+/// Quads with a smaller scaled Jacobian are improved. Even coarse meshes reach this value if their corners
+/// allow it.
 constexpr double kGoodEnough = 0.6;
 /// Maximum number of passes over the nodes; the first pass without a gain is the last.
 constexpr int kRounds = 20;
 /// Step sizes of the search relative to the shortest side at the node, and the minimum gain of a step, as in
 /// quads/smooth_plane.cpp. Heuristic.
 constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
-/// A node with a smaller total gain is moved back. Beside a sharp corner tiny gains degrade the quads around
-/// (mean 0.943 to 0.927 for a minimum that rose by 0.0001). Heuristic.
+/// A node whose total gain is smaller is moved back. Next to a sharp corner, tiny gains degrade the
+/// surrounding quads: the mean fell from 0.943 to 0.927 for a minimum that rose by 0.0001. Heuristic.
 constexpr double kWorthIt = 0.02;
 /// Minimum distance of a node from its neighbours on an edge, as a share of theirs. Heuristic.
 constexpr double kApart = 0.1;
@@ -195,7 +195,8 @@ private:
     }
 
     /// Move a node to where the worst quad around it is better. @return whether it moved
-    /// @param place  puts the node at a distance from its position [length]; false if it may not be there
+    /// @param place  moves the node by an offset from its position [model length]; false if the node may not
+    ///          be there
     template <class Place>
     bool search(std::size_t p, const Star& star, std::span<const Vec2> directions, const Place& place)
     {
@@ -306,11 +307,11 @@ private:
     const NodeFreedom& freedom_;
     const RunContext& context_;
     std::vector<Home> home_;
-    std::vector<std::vector<double>> at_; ///< of the nodes on each edge, as fractions
+    std::vector<std::vector<double>> at_; ///< positions of the nodes on each edge, as fractions
     std::vector<Line> lines_;
     std::vector<Ground> grounds_;
     mesh::Incidence quads_at_;
-    std::vector<char> restless_;     ///< to be visited again
+    std::vector<char> restless_;     ///< nodes to be visited again
     std::vector<double> least_side_; ///< lower bound of the sides at each node
 };
 

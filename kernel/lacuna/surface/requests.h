@@ -32,7 +32,7 @@ struct Interval {
     Of of = Of::sweep;
     int edge = 0;
     std::array<int, 2> vertices{};
-    FaceNames walls; ///< the sides over all of them: equal to their columns of quads
+    FaceNames walls; ///< these walls have `count` sides together, that is, as many columns of quads
     int count = 1;   ///< >= 1
     /// Ratio of last to first length, > 0 [-]: in the edge's direction, from the first vertex to the second,
     /// or from source to target; 1 for walls.

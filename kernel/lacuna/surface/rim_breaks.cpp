@@ -59,7 +59,7 @@ bool starts_at(const Chain& chain, double at)
     return false;
 }
 
-/// `at` plus the multiple of the length that is nearest to `to`.
+/// `at` shifted by whole turns so that it is nearest to `to`.
 double nearest_turn(double at, double to, double length)
 {
     return at + std::round((to - at) / length) * length;
@@ -122,7 +122,7 @@ bool holds(const BreakPairs& pairs, const std::pair<double, double>& wanted, con
     });
 }
 
-/// BreakPairs around the ring, and positions between them where source edges start.
+/// Pairs around the whole ring, with additional positions where source edges start.
 BreakPairs with_starts(BreakPairs pairs, const LinkingSurface& link)
 {
     pairs.emplace_back(link.source.length(), pairs.front().second + link.target.length());
@@ -138,7 +138,7 @@ BreakPairs with_starts(BreakPairs pairs, const LinkingSurface& link)
     return pairs;
 }
 
-/// BreakPairs of close vertices of both rims, and the opposite positions of the other vertices.
+/// BreakPairs of close vertices of both rims, and of each other vertex with the position opposite to it.
 template <class Vertices>
 BreakPairs paired_near(const LinkingSurface& link, const Vertices& low, const Vertices& high)
 {
@@ -210,7 +210,7 @@ const std::vector<Index>& RimFacets::crease(Index rim)
     return crease->second;
 }
 
-/// Whether creases begin and end at the given nodes of a linking surface's rims.
+/// Whether the given nodes of a linking surface's rims are exactly the ends of its creases.
 bool RimFacets::has_nodes_at(const LinkingSurface& link,
                              std::span<const std::pair<double, double>> creases) const
 {
@@ -280,7 +280,7 @@ std::vector<RimFacets::Vertex> RimFacets::kept(const Chain& chain, int per_turn,
         const std::vector<std::size_t> points = kept_points(line, sag);
         const double most = std::max(turn / angle, arc.back() / size(line[line.size() / 2]));
         if (static_cast<double>(points.size() - 1) > std::ceil(most)) continue;
-        // The ends of other edges are nodes anyway.
+        // Skip both ends of an edge, because vertices are nodes anyway; keep the start of a closed edge.
         for (std::size_t k = edge.from == edge.to ? 0 : 1; k + 1 < points.size(); ++k) {
             const std::size_t i = points[k];
             const double along = use.reversed && i > 0 ? arc.back() - arc[i] : arc[i];
@@ -340,7 +340,7 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
         };
         if (!in_order || !std::ranges::all_of(high, is_met)) continue;
         const bool given = std::ranges::any_of(link.segments, &RimSegment::given);
-        // Given meshes of walls have columns of their own.
+        // A wall with a given mesh has its own columns.
         const bool meshed = std::ranges::any_of(link.walls,
                                                 [&](FaceId wall) { return volume_.model[wall].keeps_nodes; });
         const bool whole = !meshed && link.lines.empty() && !up.empty() && up.front().source_at == 0 &&

@@ -18,12 +18,12 @@ using namespace topology;
 
 namespace {
 
-/// Minimum number of sides for a full turn if none is requested. With fewer, quads of a round face have
-/// corners of 120° or more.
+/// Minimum number of sides for a full turn if no number is requested. With fewer sides, quads of a round face
+/// have corners of 120° or more.
 constexpr int kFewestPerTurn = 6;
 
-/// Share of a side by which the curvature may exceed the count before it adds a side: the sampling error of a
-/// curve. Heuristic.
+/// Part of a side by which the turn may exceed the current number of sides before another side is added. It
+/// covers the sampling error of a curve. Heuristic.
 constexpr double kPartOfSide = 0.05;
 
 /// Points per piece at which the size is sampled. Heuristic.
@@ -115,7 +115,7 @@ void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
             to = to || std::abs(f - piece.to) <= slack;
             if (f > piece.from + slack && f < piece.to - slack) piece.kept.push_back(f);
         }
-        // A piece that is a single side already has no node inside.
+        // A piece with a single given side has no node inside.
         if (!from || !to || (piece.fixed && piece.kept.size() != sides)) {
             throw NotSweepable(
                 Message("surface.kept_rim",
@@ -139,8 +139,8 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
     const EdgeTurning turning(task.model, edge);
     const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
-    // Only the excess turn of the opposite rim counts: the rim of an oblique end turns unevenly, but as much
-    // in total.
+    // Only the part of the opposite rim's turn that exceeds this rim's counts. The rim of an oblique end
+    // turns unevenly, but by the same total.
     const auto turn_between = [&](double from, double to) {
         return piece.follows ? 0 : turning.between(from, to);
     };

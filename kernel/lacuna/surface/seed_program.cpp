@@ -29,14 +29,15 @@ constexpr double kHalves = kFullTurn / 3;
 /// between 15 and 13 sides.
 constexpr double kEvenCore = 1;
 
-/// Number of quads from which a sector's counts follow the rows along its round side. Quarters of a disc get
-/// 80 and 86 quads for 30 and 12 wanted with this rule, 45 and 39 without it; from 120 on it is better
-/// throughout.
+/// Number of wanted quads from which a sector's counts follow the rows along its round side. Measured on
+/// quarters of a disc: for 30 wanted quads they get 80 with this rule and 45 without it; for 12 wanted quads,
+/// 86 and 39. From 120 wanted quads on, the rule is better throughout.
 constexpr double kQuadsForRows = 20;
 
 /// Weight of an edge that is changed last, relative to others, if the present counts are repaired. Heuristic.
 constexpr double kLastWeight = 10;
-/// Weight of half the total of a face. The wish is where the search starts and hardly counts.
+/// Weight of the wish for half the total of a face. The wish only sets where the search starts; its weight is
+/// too small to affect the counts.
 constexpr double kHalfWeight = 1e-6;
 
 /// A grid of a face, as the variables along its sides in either direction.
@@ -50,7 +51,7 @@ struct Program {
     std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
     std::vector<FaceGrid> grids;         ///< grids that fill a face together
     double asked = 0;                    ///< quads wanted on those faces
-    /// If the present counts are wanted: the edges to be changed last; else null.
+    /// Set if the present counts are to be repaired: the edges to be changed last; else null.
     const std::set<EdgeId>* last = nullptr;
 };
 
@@ -263,8 +264,8 @@ double quads_of(const Program& program, const std::vector<int>& counts)
 /// three grids around a node have more quads than the sides of their face suggest.
 std::vector<int> solve_for_quads(const Program& program)
 {
-    // The promised number of quads is the requested one within a quarter. The weight inside that range and
-    // the number of corrections are heuristic.
+    // The requested number of quads must be met within a quarter. The tolerance used here and the number of
+    // corrections are heuristic.
     constexpr double kNear = 0.1, kQuads = 0.25;
     constexpr int kTries = 4;
     std::vector<int> best = solve(program, 1), counts = best;
@@ -295,7 +296,7 @@ std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, co
     std::set<EdgeId> settled = add_beside_mapped(task, grids, seeds, all);
     add_alike(alike, all);
     const std::vector<int> counts = solve_for_quads(all);
-    std::vector<int> fewer; // if the free faces have no solution
+    std::vector<int> fewer; // used if the free faces have no solution
     for (std::size_t p = 0; p < all.pieces.size(); ++p) {
         int count = counts[all.piece_variable[p]];
         if (count == 0 && p < mapped.pieces.size()) {

@@ -38,8 +38,8 @@ constexpr double kPointsPerSide = 4;
 constexpr double kApart = 2;
 /// Maximum number of rim points per edge. Heuristic.
 constexpr std::size_t kMostPoints = 4096;
-/// Two rim points face each other if the line between them is this close to the rim's normal [cosine]: closer
-/// than for any two sides of a right angle.
+/// Minimum cosine of the angle between the line that joins two rim points and the rim's normal, if the points
+/// face each other. The two sides of a right angle never face each other by this bound.
 constexpr double kFacing = 0.8;
 /// Two points of one edge face each other if the path along the edge is longer than the chord by this factor:
 /// nearly a half circle, 1.57 [-].
@@ -175,12 +175,12 @@ private:
                 double share = sizing.gap > 0 ? width / sizing.gap : most;
                 share = std::max(share, least_ * asked(at.point));
                 if (share >= most) continue;
-                // Add the point halfway across too, so that quads do not grow away from the rim.
+                // Add the point halfway across as well, so that quads stay small between the two rims.
                 sizes.push_back({at.point, share});
                 sizes.push_back({at.point + width / 2 * at.inward, share});
                 because(share);
-                // Where the width is much smaller than the size, refine the sampling: the size would grow
-                // again in between.
+                // Where the width is much smaller than the size, refine the sampling; otherwise the size
+                // would grow again between the samples.
                 if (to - from > kApart * share && length < static_cast<double>(kMostPoints) * (to - from)) {
                     parts.push_back({(from + to) / 2, to});
                     parts.push_back({from, (from + to) / 2});
@@ -225,7 +225,8 @@ private:
         }
         const bool at_start = a.from == b.from || a.from == b.to, at_end = a.to == b.from || a.to == b.to;
         if (!at_start && !at_end) return Opposite{other, width};
-        // Next to a common corner no width is defined; two edges with both ends in common enclose the face.
+        // Next to a common corner no width is defined. Two edges that share both ends enclose the face, so
+        // the mean width applies.
         if (!at_start || !at_end || a.from == a.to) return std::nullopt;
         return Opposite{other, std::max(width, mean_width_)};
     }

@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// The height of rows, measured along the side they run along, up to which an edge has room for them.
+/// The largest height of rows, measured along the side that the rows follow, for which an edge has room.
 double room_on(const Model& model, const SeedPiece& piece, EdgeId edge, bool at_end, const RimRows::End& end)
 {
     const std::vector<double>& other = at_end ? piece.low : piece.high;
@@ -69,7 +69,8 @@ double length_at(double index, const SidesAsked& asked)
     return std::expm1(growth * index) / std::expm1(growth * asked.count);
 }
 
-/// Assign nodes to the ends of pieces: the nearest ones by the bias, with at least one side per piece.
+/// Assign nodes to the ends of pieces. Each end gets the node nearest to it by the bias; every piece gets at
+/// least one side.
 std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& asked)
 {
     std::vector<int> node{0};

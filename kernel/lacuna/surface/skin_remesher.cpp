@@ -22,17 +22,18 @@ constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
 /// Rounds of splitting, collapsing, flipping and smoothing. On the tests' bodies the smallest angle no longer
 /// changes after five.
 constexpr int kRounds = 6;
-/// Tangent of the smallest angle that a collapse or a move may cause: 15°, as flips and moves that follow
-/// double it.
+/// Tangent of the smallest angle that a collapse or a move may cause: 15°. Later flips and moves about double
+/// such an angle.
 constexpr double kPoorAngle = 0.27;
 /// Tangent of the smallest angle below which triangles are improved one by one: 30°.
 constexpr double kGoodAngle = 0.577;
-/// Rounds of these improvements; the last ones hardly find any.
+/// Rounds of these improvements. The last rounds find hardly anything to improve.
 constexpr int kImprovements = 6;
 /// Tangent of an angle that counts as zero.
 constexpr double kFlat = 1e-4;
-/// Triangles of a round of splitting, as a multiple of the number by area and size. Badly shaped ones need
-/// more than that number, but at most twice as many; the bound ends splits next to facets that fold.
+/// Maximum number of triangles after a round of splitting, as a multiple of the estimate from area and size.
+/// Badly shaped triangles need at most twice the estimate. The bound stops endless splits next to facets that
+/// fold.
 constexpr double kMostOfEstimate = 4;
 /// More triangles than this are refused, as the volume behind them would have more than 1e7 tetrahedra.
 constexpr double kMostTriangles = 1e7;
@@ -59,7 +60,7 @@ double SkinRemesher::worst_around(Index node, const Vec3& place) const
 void SkinRemesher::set_normals(Index node)
 {
     const Index line = mesh_.nodes[index(node)].line;
-    if (line >= 0 && !lines_[index(line)].edge.valid()) return; // both sides of a crease are one face
+    if (line >= 0 && !lines_[index(line)].edge.valid()) return; // a crease has the same face on both sides
     FaceId known;
     Vec3 normal = Vec3::Zero();
     mesh_.each_out(node, [&](Index s) {
@@ -77,7 +78,8 @@ Index SkinRemesher::try_split(Index s)
 {
     const Index g = mesh_.twin(s), line = mesh_.line(s);
     if (mesh_.is_kept(s) || (line >= 0 && lines_[index(line)].kept)) return -1;
-    // A triangle without height is flipped or collapsed first: its parts would have none either.
+    // Do not split a triangle without height, because its parts would have none either; it is flipped or
+    // collapsed first.
     if (line < 0 && std::min(std::abs(mesh_.quality(s)), std::abs(mesh_.quality(g))) < kFlat) return -1;
     const auto& side = mesh_.sides;
     const auto normal_at = [&](Index x) {
@@ -104,7 +106,7 @@ Index SkinRemesher::try_split(Index s)
         if (halves && is_upright(place.point)) node.at = place.point;
     }
     node.size = size_(node.at);
-    // Nodes this close would be collapsed again.
+    // Do not insert a node this close to others: it would be collapsed again.
     const double close = std::min((c - node.at).norm(), (d - node.at).norm());
     if (line < 0 && close < kClose * node.size) return -1;
     return mesh_.split(s, node, normals);
@@ -140,7 +142,7 @@ void SkinRemesher::split_long()
         const auto [before, s] = queue.top();
         queue.pop();
         const double now = ratio(s);
-        if (now != before) { // changed by a flip or another split
+        if (now != before) { // a flip or another split changed it
             add(s);
             continue;
         }
@@ -398,7 +400,7 @@ void SkinRemesher::run(const topology::Model& model)
     }
     improve(true);
     make_exact(model);
-    improve(false); // in narrow places exact positions may be beyond the exact border
+    improve(false); // in narrow places the exact position may be beyond the exact border
 }
 
 } // namespace lacuna::surface

@@ -51,7 +51,7 @@ std::map<Index, std::set<Index>> creases(const Model& model, const Face& face, d
     return result;
 }
 
-/// The chains of a graph between points where other than two sides meet, or that are `ends`.
+/// The chains of a graph. A chain ends at a point in `ends`, or where the number of sides is not two.
 std::vector<std::vector<Index>> chains_of(std::map<Index, std::set<Index>> graph, const std::set<Index>& ends)
 {
     std::set<Index> stops;

@@ -28,10 +28,11 @@ namespace {
 constexpr int kLeastPerTurn = 12;
 /// Maximum number: with it, a sphere loses 0.06 % of its volume.
 constexpr int kMostPerTurn = 160;
-/// Minimum size in narrow places, as a share of the requested one. The triangles along a rim are inversely
-/// proportional to it; narrower faces have flatter triangles.
+/// Minimum size in narrow places, as a share of the requested one. The number of triangles along a rim is
+/// inversely proportional to it; in still narrower faces the triangles are flat.
 constexpr double kLeastShare = 0.1;
-/// Maximum sag of a side over the distance of the opposite skin [-]: each may use a quarter.
+/// Maximum sag of a side divided by the distance to the opposite skin [-]. Two opposite sides then use at
+/// most half of the distance.
 constexpr double kSagOfGap = 0.25;
 /// Skins are opposite each other if their normals differ by less than 37° from opposite directions [cosine].
 constexpr double kOpposite = 0.8;
@@ -64,7 +65,7 @@ int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeF
     return first == counts.end() ? kMostPerTurn : *first;
 }
 
-/// Sizes on curved faces along the sides of their facets, which may be longer than the sizes at their ends.
+/// Sizes inside the facets' sides on curved faces: a side may be longer than the sizes at its ends.
 void add_curved(const Face& face, std::span<const PointCurvature> at, int per_turn, const SizeField& size,
                 std::vector<PointSize>& sizes)
 {

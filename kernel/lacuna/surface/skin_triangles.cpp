@@ -26,7 +26,7 @@ using namespace topology;
 
 namespace {
 
-/// Points that stay: vertices, given nodes, ends and corners of lines.
+/// Points that do not move: vertices, given nodes, ends and corners of lines.
 std::vector<char> fixed_points(const Model& model, std::span<const SkinLine> lines)
 {
     std::vector<char> fixed(model.points.size(), 0);
@@ -96,7 +96,7 @@ LinkedTriangles linked(const Model& model, std::span<const SkinLine> lines, cons
                                .remedy("close the volume first"));
     }
     for (std::size_t i = 0; i < mesh.sides.size(); ++i) mesh.sides[i].normal = normals[i / 3][i % 3];
-    // By the points of a side: its line, and the place of the first point on it.
+    // For each side, by its two points: its line, and the position of the first point on that line.
     std::unordered_map<std::uint64_t, std::pair<Index, double>> on_line;
     for (std::size_t l = 0; l < lines.size(); ++l) {
         const SkinLine& line = lines[l];

@@ -65,7 +65,7 @@ public:
         }
         put_triangles_last();
         raise();
-        // Face normals point outward; the quads' normals must point along the sweep.
+        // Face normals point outward, but normals of quads must point along the sweep.
         for (Quad& quad : result_.quads.quads) quad = mesh::turned_over(quad);
         return std::move(result_);
     }

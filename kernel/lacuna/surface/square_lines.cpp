@@ -24,22 +24,22 @@ namespace {
 
 /// Samples per side of quads on an edge: enough for cubic interpolation. Heuristic.
 constexpr int kPerSide = 4;
-/// Maximum number of Gauss-Newton steps, and of increases of the evenness weight. Heuristic: a solution that
-/// needs more is far from even.
+/// Maximum number of Gauss-Newton steps, and of increases of the evenness weight. A problem that needs more
+/// steps would end far from even. Heuristic.
 constexpr int kSteps = 12, kRounds = 5;
 /// Bounds of a side's length relative to its original length: half of the accepted range of sizes.
 constexpr double kShortest = 0.75, kLongest = 1.35;
-/// Evenness has a higher weight at the ends of a line. Heuristic: with 1 a third of the rows along shared
-/// edges of flat rings are too low, with 4 the mean scaled Jacobian drops by 0.01.
+/// Factor on the weight of evenness at the ends of a line. Heuristic: with 1, a third of the rows along
+/// shared edges of flat rings are too low; with 4, the mean scaled Jacobian drops by 0.01.
 constexpr double kEnds = 2;
 /// Nodes move only if the largest cosine falls by this: 3°. Heuristic.
 constexpr double kWorthIt = 0.05;
-/// A grid's lines are straight at a side if the adjacent sides leave it within this share of a line's length;
-/// only then do the walls determine the sections above. Heuristic.
+/// A grid's lines count as straight at a side if the adjacent sides leave that side within this share of a
+/// line's length. Only then do the walls determine the sections above. Heuristic.
 constexpr double kStraight = 0.1;
 using Line = SectionLine;
 
-/// A cosine and its derivatives by the positions of a line's two ends.
+/// A cosine and its derivatives by the positions of the two ends of a line.
 struct Cosine {
     double value = 0, from = 0, to = 0;
 };
@@ -51,7 +51,7 @@ struct Node {
 /// A line of a grid between nodes of opposite sides.
 struct Rung {
     Node from, to;
-    /// Deviation of its direction at either end from the chord, on the source.
+    /// Deviation of the line's direction from its chord at either end, on the source.
     std::array<Vec3, 2> bend{Vec3::Zero(), Vec3::Zero()};
     bool on_rims = false; ///< both ends lie on the rims
 };
@@ -131,7 +131,7 @@ private:
         try {
             walls = mesh_walls(volume_, links_, nodes, heights, {}, context_, false);
         } catch (const NotSweepable&) {
-            return false; // there are more edges to follow than sections
+            return false; // more edges must be followed than there are sections
         }
         for (std::size_t b = 0; b < links_.size(); ++b) {
             std::size_t next = 0;
@@ -189,7 +189,7 @@ private:
                      const std::vector<Node>& first, const std::vector<Node>& last)
     {
         const auto sides = static_cast<double>(first.size() - 1);
-        std::array<std::array<Vec3, 2>, 2> bend; // of the first and the last line, at either end
+        std::array<std::array<Vec3, 2>, 2> bend; // deviations of the first and the last line, at either end
         bool straight = true;
         for (std::size_t k = 0; k < 2; ++k) {
             const std::vector<Node>& own = k == 0 ? first : last;
@@ -303,7 +303,7 @@ private:
     {
         for (const std::size_t l : lines) {
             const Line& line = lines_[l];
-            // Both ends of the sweep count once if they are the same.
+            // If the target has the same positions as the source, its term counts once, with the full weight.
             const double each = line.above.empty() ? weight : weight / 2;
             const auto visit_sides = [&](const std::vector<double>& u,
                                          const std::vector<std::size_t>& variable) {
@@ -331,8 +331,8 @@ private:
         });
     }
 
-    /// Visit the nodes whose columns deviate from even ones: displacement along the edge per length of the
-    /// column.
+    /// Visit the nodes whose columns deviate from the evenly spaced ones. The deviation is the displacement
+    /// along the edge divided by the length of the column.
     template <class Visit>
     static void for_columns(const Line& line, const Visit& visit)
     {
@@ -340,7 +340,7 @@ private:
             visit(i, (line.above[i] - line.at[i]) * line.steep[i]);
     }
 
-    /// Derivative of a node's column in a section, by its variables.
+    /// Derivative of the position of a node's column in a section, by the node's variables.
     void add_slopes(const Node& node, std::size_t section, double slope, std::vector<Slope>& slopes) const
     {
         const Line& line = lines_[node.line];

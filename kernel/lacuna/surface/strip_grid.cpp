@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    /// Assign each level the nearest layer that leaves one for every level above and below it.
+    /// Assign each level to the nearest layer that leaves enough layers for all levels above and below it.
     void plan_levels()
     {
         const auto layers = static_cast<int>(layers_);
@@ -113,7 +113,8 @@ private:
         return at_layer;
     }
 
-    /// Heights of a side line's nodes: those that its edges keep, or shifted to where plain rings meet it.
+    /// Heights of a side line's nodes: the nodes of kept edges, or the layers' heights shifted to the plain
+    /// rings that meet the line.
     [[nodiscard]] std::vector<double> line_heights(const Chain& chain) const
     {
         if (chain.uses().size() > 1 && std::ranges::all_of(chain.uses(), [&](const EdgeUse& use) {

@@ -18,13 +18,15 @@ geometry::MotionPointer swept_motion(const OpenVolume& volume)
     const auto surface_of = [&](FaceId wall) {
         return dynamic_cast<const geometry::SweptSurface*>(model[wall].surface.get());
     };
-    if (walls.empty() || surface_of(walls.front()) == nullptr) return nullptr; // as for most volumes
+    if (walls.empty() || surface_of(walls.front()) == nullptr)
+        return nullptr; // most volumes have no swept
+                        // walls
     std::vector<std::optional<Role>> end(model.points.size());
     for (std::size_t f = 0; f < model.faces.size(); ++f)
         if (volume.role[f] != Role::wall)
             for (const Index p : corners_of(model.faces[f])) end[index(p)] = volume.role[f];
     geometry::MotionPointer motion;
-    std::optional<double> first; // height of the source
+    std::optional<double> first; // height of the source on the swept surfaces: 0 or 1
     for (const FaceId wall : walls) {
         const Face& face = model[wall];
         const auto* swept = surface_of(wall);

@@ -23,7 +23,8 @@ constexpr int kRounds = 3;
 /// Step of the finite differences for a curve's derivatives, as a share of a side: a compromise between
 /// truncation and rounding. Heuristic.
 constexpr double kDifference = 1e-2;
-/// Minimum number of points per thread, as in the closest facet search, which costs as much.
+/// Minimum number of points per thread; the same as in the closest facet search, because a point costs as
+/// much there.
 constexpr std::size_t kGrain = 512;
 
 /// Maximum height of a convex curve over its chord, as a share of the chord, for these angles between curve
@@ -147,8 +148,8 @@ Trimming::Clearance Trimming::clearance_of(Index triangle) const
     return clear;
 }
 
-/// Points well inside: the displacement from the facet is shorter than the distance to any border, or ends
-/// over the same facet.
+/// Whether a point is well inside the face: its displacement from the facet is shorter than the distance to
+/// the border, or ends above the same facet.
 bool Trimming::is_clear(const Projected& point, bool measured) const
 {
     const double reach = (*point.at - point.from->point).norm() + most_bulge_;

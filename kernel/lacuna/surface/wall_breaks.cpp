@@ -19,7 +19,7 @@ using namespace topology;
 
 namespace {
 
-/// Whether an edge inside a linking surface ends off its side lines and rims.
+/// Whether some edge inside a linking surface has an end that is on neither a side line nor a rim.
 bool has_net(const Model& model, const LinkingSurface& link)
 {
     std::set<VertexId> known;
@@ -38,8 +38,8 @@ bool has_net(const Model& model, const LinkingSurface& link)
     return false;
 }
 
-/// Minimum number of layers for edges around the walls that end on side lines only: one more than the most
-/// vertices on one line where such edges start.
+/// Minimum number of layers for edges around the walls that end on side lines only: one more than the largest
+/// number of vertices on one side line where such edges start.
 int layers_between_rings(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> along;
@@ -118,8 +118,8 @@ private:
         if (column.target_at) lead(*near, *way_to(*near, *column.target_at));
     }
 
-    /// The distance by which a break's target end must move along the rim to reach the end of a column;
-    /// nothing if it is a vertex or a given node, or if other breaks lie between.
+    /// The distance by which the target end of a break must move along the rim to reach the end of a column.
+    /// Nothing if that end is a vertex or a given node, or if other breaks lie between.
     [[nodiscard]] std::optional<double> way_to(std::size_t i, double target_at) const
     {
         const double length = link_.target.length();
@@ -153,7 +153,7 @@ private:
         for (std::size_t i = 0; i < link_.segments.size(); ++i) {
             RimSegment& low = link_.segments[i];
             if (at < low.source_from + slack || at > low.source_to - slack) continue;
-            if (low.given) return; // one side of a given quad: the column uses one of its nodes
+            if (low.given) return; // a side of a given quad is not split: the column uses one of its nodes
             RimSegment high = low;
             const double f = (at - low.source_from) / (low.source_to - low.source_from);
             high.source_from = low.source_to = at;
@@ -184,7 +184,7 @@ WallBreaks set_wall_breaks(const OpenVolume& volume, const SizeField& size, std:
         try {
             layers = std::max(layers, Breaker(volume, size, link, true).run());
         } catch (const NotSweepable& error) {
-            // If given nodes guide the columns, edges between void faces are optional.
+            // If given nodes guide the columns, edges between void faces need not be followed.
             if (!has_given || error.code() != "surface.wall_edge") throw;
             layers = std::max(layers, Breaker(volume, size, link, false).run());
         }

@@ -18,7 +18,7 @@ namespace {
 /// Number of sampled columns if there are no side lines: one every 45° on a round wall. Not measured.
 constexpr int kPlaces = 8;
 
-/// Walls count as straight if they are longer than the straight line by less than this share, which is below
+/// Walls count as straight if they are longer than the straight line by less than this share. It is less than
 /// the height of one of ten layers.
 constexpr double kHardlyLonger = 0.05;
 
@@ -41,7 +41,8 @@ std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& 
     return points;
 }
 
-/// A point of a wall's column: where it starts on the source's rim, as a share of the rim, and how far up.
+/// A point of a wall's column: the start of the column as a share of the source's rim, and its share of the
+/// height.
 struct ColumnPlace {
     double s, share;
 };

@@ -129,7 +129,7 @@ private:
             const EdgeId corner = corner_at(ring, vertex);
             if (!met && (!corner.valid() || on_line_.contains(vertex))) continue;
             if (on_source_.contains(vertex) || on_target_.contains(vertex)) {
-                // There is a column, and the level runs into the rim.
+                // A column exists here, but the level runs into the rim.
                 refuse_wall_edge(model_, corner.valid() ? corner : level.edge,
                                  "runs around the walls and ends on a rim, where no layer can follow it",
                                  "let it end above or below the rim, or merge the two faces");
@@ -137,7 +137,7 @@ private:
             level.plain = false;
             level.stops.push_back(stop_at(vertex, place));
         }
-        // Where a level with stops meets vertices on side lines, the nodes there are stops as well.
+        // A level with stops also has stops at its vertices on side lines.
         for (const auto& [vertex, place] : places) {
             if (level.plain || !on_line_.contains(vertex)) continue;
             const std::size_t stop = stop_at(vertex, place);
@@ -167,7 +167,7 @@ private:
         return away.size() == 2 && away[0].dot(away[1]) < -kOneCurve ? EdgeId() : any;
     }
 
-    /// Edges of one ring follow each other around the walls; those around a round patch turn back.
+    /// Edges of one ring must follow each other around the walls; edges around a round patch turn back.
     void check_one_way(const LinkingMap::Ring& ring) const
     {
         struct Reach {
@@ -184,7 +184,8 @@ private:
             reach.low = std::min(reach.low, reach.at);
             reach.high = std::max(reach.high, reach.at);
         }
-        // Share of the ring's length: a closed edge that returns to its start has half. Heuristic.
+        // Minimum extent of a ring in s, as a share of its length. A closed edge that returns to its start
+        // has half. Heuristic.
         constexpr double kStraightOn = 0.75;
         for (std::size_t i = 0; i < reaches.size(); ++i) {
             const Reach& reach = reaches[i];
@@ -196,8 +197,8 @@ private:
         }
     }
 
-    /// Levels with stops must be nearly horizontal throughout; rings from side line to side line or all the
-    /// way round may climb.
+    /// Levels with stops must be nearly horizontal throughout. Rings from side line to side line, or all the
+    /// way round, may climb.
     void check_cross_edges(const WallNet::Level& level) const
     {
         if (level.plain) return;

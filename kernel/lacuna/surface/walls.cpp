@@ -136,8 +136,8 @@ private:
         for (std::size_t i = 0; i < count_; ++i) point(layer, i) = points[i];
     }
 
-    /// Whether the walls are those of a source moved along a path: between two side lines, one face for each
-    /// part of the path.
+    /// Whether the walls were made by moving the source along a path. Between two side lines there is then
+    /// one face for each part of the path.
     [[nodiscard]] bool moves_along(const std::vector<std::vector<FaceId>>& panels) const
     {
         return motion_ && !panels.empty() && std::ranges::all_of(panels, [&](const auto& faces) {
@@ -145,7 +145,8 @@ private:
                });
     }
 
-    /// Rows are the source's rim, moved; what that misses the target's by is shared over the height.
+    /// Rows are the source's rim, moved along the path. Its distance from the target's rim at the end is
+    /// spread over the height.
     void mesh_by_motion(const std::vector<std::vector<FaceId>>& panels)
     {
         const geometry::Motion& motion = *motion_;
@@ -178,7 +179,7 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Columns of given nodes are fixed: edges that turn or end between them are refused.
+    /// Columns of given nodes are fixed, so an edge that turns or ends between them is refused.
     void check_stops() const
     {
         for (std::size_t i = 0; i < grid_.stops.size(); ++i) {
@@ -229,7 +230,7 @@ private:
             left.push_back(point(k, first));
             right.push_back(point(k, last));
         }
-        // Flat panels keep the plain patch, which keeps an affine block affine up to rounding.
+        // Flat panels keep the plain transfinite patch: an affine block then stays affine up to rounding.
         const bool flat = model_[face].kind == "plane" || model_[face].geometry == Geometry::newell;
         const std::vector<Vec3> grid = flat ? geometry::transfinite(bottom, right, top, left)
                                             : geometry::swept_grid(bottom, right, top, left);

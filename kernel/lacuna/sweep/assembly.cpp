@@ -65,8 +65,8 @@ double shortest_side(const FaceMesh& mesh)
     return least;
 }
 
-/// Nodes of faces whose quads are connected alike are nearer to each other's images than this share of the
-/// shortest side; then no other node is as near.
+/// If two faces have the same quad connectivity, corresponding nodes are nearer to each other's images than
+/// this share of the shortest side. No other node is then as near.
 constexpr double kNearImage = 0.25;
 
 /// Relative difference between a face's area and the sum of its facets' areas below which the face is flat.
@@ -77,13 +77,13 @@ constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surfa
                                                      "surface.kept_rim", "sweep.layers_given"};
 
 /// The reason for a member's failure. If the member was given without a mesh, its kept quads come from
-/// neighbours that were meshed earlier, so the advice to load it differently does not apply.
+/// neighbours that were meshed earlier, so advice to load the member differently does not apply.
 Message why_failed(const AssemblyMember& member, const Error& error)
 {
     Message why = error.message().about(member.region);
     if (came_with_mesh(member) || std::ranges::find(kGivenMesh, error.code()) == kGivenMesh.end()) return why;
     return std::move(why).remedy(
-        "its neighbours made these quads and nodes: give all of them the same 'size' "
+        "these quads and nodes come from its neighbours: give all of them the same 'size' "
         "and 'layers'");
 }
 
@@ -98,16 +98,17 @@ struct MemberFailed : NotSweepable {
     std::size_t member;
 };
 
-/// Everything that decides a part.
+/// All inputs that determine a part: equal inputs give equal parts.
 struct Ingredients {
     std::string region;
-    std::vector<Vec3> points; ///< of its volume, as those of the next two
+    std::vector<Vec3> points; ///< points of the member's volume; the next two vectors are its edges and faces
     std::size_t edges = 0, faces = 0;
-    std::vector<EdgeNodes> nodes; ///< as planned
+    std::vector<EdgeNodes> nodes; ///< nodes planned for edges of the member
     int layers = 0;
     bool wedges = false;
     std::set<FaceId> between; ///< faces shared with other members
-    /// Of neighbours that were meshed before: the common face in both members, and the number of their part.
+    /// For each neighbour meshed before: the common face in this member, the same face in the neighbour, and
+    /// the number of the neighbour's part.
     std::vector<std::tuple<FaceId, FaceId, std::size_t>> beside;
 
     bool operator==(const Ingredients& other) const
@@ -130,11 +131,11 @@ struct MadePart {
     std::optional<Message> why;
 };
 
-/// Parts that were made in other orders of the members, or while more of them were swept: a part is made
-/// again only of something else.
+/// Parts made in earlier attempts, with another order of the members or with more members swept. A part is
+/// made again only if its inputs differ.
 struct PartsBefore {
     std::vector<MadePart> parts;
-    std::size_t count = 0; ///< of all parts made
+    std::size_t count = 0; ///< number of parts made so far
 
     /// Take a part, or the reason for its failure, if it is there.
     std::optional<MadePart> take(const Ingredients& of)
@@ -312,7 +313,7 @@ private:
             if (faces_of_fixed() != before) return false; // their quads stay as they are
         } catch (const Cancelled&) {
             throw;
-        } catch (const Error& error) { // the first error is more informative
+        } catch (const Error& error) { // report the first error: it is more informative
             log_line(context_, error.message().text());
         }
         notes_.insert(notes_.end(), lines.begin(), lines.end());
@@ -349,7 +350,7 @@ private:
     {
         std::vector<std::size_t> first;
         std::optional<MemberFailed> reason;
-        std::vector<SharedFace> faces = result_.shared; // a periodic face takes the quads of its image
+        std::vector<SharedFace> faces = result_.shared; // a periodic face takes its image's quads
         for (const PeriodicFaces& pair : periodic_)
             if (pair.a != pair.b)
                 faces.push_back(pair.a < pair.b ? SharedFace{pair.a, pair.b, pair.face_a, pair.face_b}
@@ -449,13 +450,13 @@ private:
         return of;
     }
 
-    /// Make a part, or take one that was made of the same before.
+    /// Make a part, or reuse one that was made from the same inputs.
     void make_or_take(std::size_t m, const std::vector<Neighbour>& neighbours,
                       const std::vector<Neighbour>& images)
     {
         Ingredients of = ingredients(m, neighbours);
-        // A part of order 2 also depends on those that it touches along an edge, and any part on the images
-        // of its periodic faces.
+        // At order 2 a part also depends on the parts that it touches along an edge. A part with periodic
+        // faces depends on their images.
         const bool again = members_[m].options.order > 1 || !periodic_.empty();
         if (!again && made_of_[m] && made_of_[m]->first == of) return;
         if (again)
@@ -496,9 +497,10 @@ private:
         return shared;
     }
 
-    /// Copy the neighbours' meshes on shared faces to the member, then sweep it. A face whose mesh follows
-    /// from its rim alone is left to the member, and the result is compared with the neighbour's; if they
-    /// differ, all meshes are copied. Meshes of images on periodic faces are copied always.
+    /// Copy the neighbours' meshes on shared faces to the member, then sweep it. If the rim alone determines
+    /// the mesh of a shared face, the member meshes that face itself, and the result is compared with the
+    /// neighbour's; if they differ, all meshes are copied. Meshes of images on periodic faces are always
+    /// copied.
     void make(std::size_t m, const std::vector<Neighbour>& neighbours, const std::vector<Neighbour>& images)
     {
         const AssemblyMember& member = members_[m];
@@ -508,12 +510,12 @@ private:
         }
         SweepOptions options = member.options;
         options.fallback = Fallback::none;                      // the whole assembly is computed again
-        options.layered = options.layered && periodic_.empty(); // pairs of nodes are written with the whole
+        options.layered = options.layered && periodic_.empty(); // periodic pairs need stored nodes
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         if (!plan_.heights[m].empty()) {
             std::vector<double> heights{0};
             heights.insert(heights.end(), plan_.heights[m].begin(), plan_.heights[m].end());
-            if (member.volume->turned_round) reverse_heights(heights); // these run from the named source
+            if (member.volume->turned_round) reverse_heights(heights); // given from the named source
             options.layers.heights.assign(heights.begin() + 1, heights.end());
         }
         std::vector<Neighbour> alike, handed = images;
@@ -528,7 +530,7 @@ private:
         const auto sweep_it = [&] {
             OpenVolume volume = *member.volume, sealed = *member.volume;
             give_edge_nodes(volume, plan_.nodes[m]);
-            // Rows along walls continue across a shared face: each side makes them itself.
+            // Rows along walls continue across a shared face, so each side makes them itself.
             if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
                 for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
             for (const auto& [own, other, from, onto] : handed) {
@@ -541,7 +543,7 @@ private:
             fixed = options.beside.handed;
             for (const Neighbour& n : handed) fixed.insert(n.own);
             if (keeps) give_to_images(m, volume, fixed);
-            // The shape is compared with the volume as sealed, not with the neighbours' quads on its rim.
+            // The reference shape is the volume as sealed, without the neighbours' quads on its rim.
             if (!plan_.nodes[m].empty() || !fixed.empty()) options.beside.shape = &sealed;
             result_.parts[m] = sweep(volume, options, context_);
         };
@@ -578,7 +580,7 @@ private:
     }
 
     /// Make the nodes of a member's periodic faces exact images of each other. If the motion is a
-    /// translation, nodes are also rounded to the grid, so that images in other members match.
+    /// translation, nodes are also rounded to the grid, so that images in other members are bit-identical.
     void tie_images(std::size_t m, const std::set<FaceId>& fixed, const mesh::SkinNodes& skin,
                     const std::vector<FaceId>& faces, SettledNodes& settled) const
     {
@@ -649,7 +651,8 @@ private:
             for (const Index n : from) moved.push_back(pair.onto * part_a.skin()[n]);
             for (const Index n : to) places.push_back(part_b.skin()[n]);
             const FaceMesh corners = face_mesh(part_a.skin(), quads_of(pair.a, pair.face_a));
-            // Given nodes of both faces may differ by the tolerance; middle nodes by the facets' sag.
+            // Given nodes of two faces may differ by the tolerance, and their middle nodes by the facets'
+            // sag.
             const std::vector<Index> twin = same_places(moved, places,
                                                         kNearImage / 4 * shortest_side(corners));
             if (twin.empty()) refuse_images(pair, false);
@@ -719,8 +722,8 @@ private:
                                members_[m].region);
     }
 
-    /// Whether a member will mesh a face with the same grid as its neighbour: the face is flat and has four
-    /// edges with planned nodes, and the neighbour generated as many quads there as the grid has.
+    /// Whether a member will give a face the same grid as its neighbour did. This holds if the face is flat,
+    /// has four edges with planned nodes, and has as many quads of the neighbour as the grid.
     [[nodiscard]] bool is_alike(std::size_t m, const Neighbour& n) const
     {
         if (members_[n.other].fixed != nullptr) return false;
@@ -773,8 +776,8 @@ private:
         return largest;
     }
 
-    /// Name the groups of cells and roles after their member, unless it is alone. Faces between two pieces of
-    /// one volume are in no group.
+    /// Prefix the names of groups of cells and roles with the member's name, unless it is the only volume.
+    /// Faces between two pieces of one volume are in no group.
     void name_groups()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -831,24 +834,25 @@ private:
                                                    a.size() == 1 ? "quad" : "quads"));
                 continue;
             }
-            throw NotSweepable("assembly.not_shared",
-                               "{} of {} and {} of {} are one face, round {}, but their meshes on it differ: "
-                               "{} quads and {}{}",
-                               face_a, region_a, face_b, region_b,
-                               place_with_digits(face_centroid(members_[m].volume->model, own), 4),
-                               found(a.size()), needed(b.size()),
-                               part.not_kept.empty() ? "" : "; " + part.not_kept.front());
+            throw NotSweepable(
+                "assembly.not_shared",
+                "{} of {} and {} of {} are one face, centred at {}, but their meshes on it differ: "
+                "{} quads and {}{}",
+                face_a, region_a, face_b, region_b,
+                place_with_digits(face_centroid(members_[m].volume->model, own), 4), found(a.size()),
+                needed(b.size()), part.not_kept.empty() ? "" : "; " + part.not_kept.front());
         }
     }
 
     std::vector<AssemblyMember> members_;
     std::vector<OpenVolume> imprinted_;                  ///< the members' volumes, if faces had to be split
     std::vector<std::pair<std::size_t, FaceId>> beside_; ///< faces shared with members that are not swept
-    std::vector<std::vector<double>> sag_; ///< for each member: of its faces before ends were split
+    std::vector<std::vector<double>> sag_; ///< for each member: sag of each of its faces, measured before
+                                           ///< ends were split
     std::vector<std::string> notes_;       ///< lines of the report: imprints and near misses
     const RunContext& context_;
     std::vector<PeriodicFaces> periodic_;
-    double grid_ = 0; ///< of the nodes on periodic faces
+    double grid_ = 0; ///< spacing of the grid that nodes of periodic faces are rounded to
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
@@ -856,7 +860,7 @@ private:
     bool is_made_ = true; ///< false while a part is made
     /// For each part that exists: what it was made of, and its number.
     std::vector<std::optional<std::pair<Ingredients, std::size_t>>> made_of_;
-    SharedMiddles middles_; ///< of the parts so far, at order 2
+    SharedMiddles middles_; ///< middle nodes of the parts so far, at order 2
     SweptAssembly result_;
 };
 
@@ -873,8 +877,8 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
     }
     std::vector<std::size_t> place(left.size());
     std::iota(place.begin(), place.end(), std::size_t{0});
-    std::map<std::string, MemberFailed> without_wedges; // by region
-    std::map<std::size_t, Message> failures;            // of members that are then not swept, by index
+    std::map<std::string, MemberFailed> without_wedges; // first errors, by region
+    std::map<std::size_t, Message> failures;            // of members not swept, by index
     std::vector<LeftOut> left_out;
     PartsBefore before;
     for (;;) {

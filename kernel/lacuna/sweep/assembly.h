@@ -24,8 +24,8 @@ struct AssemblyMember {
     const topology::OpenVolume* volume = nullptr; ///< sealed
     SweepOptions options;
     std::string region; ///< its name, for messages and groups
-    /// Null, or the given mesh, which is not changed: then `volume` is its skin, whose faces keep their
-    /// quads, and its `faces` are those of `volume`. Of the options only `order` applies.
+    /// A given mesh, which is not changed; or null. With a given mesh, `volume` is its skin and keeps its
+    /// quads, and the mesh's `faces` refer to `volume`. Of the options only `order` applies.
     const Swept* fixed = nullptr;
     /// For a piece of a full turn, the region of the whole turn: the volumes of its pieces are checked
     /// together. Empty otherwise.
@@ -35,8 +35,8 @@ struct AssemblyMember {
     std::string whole = {};
     /// That volume, whose faces define the roles of the piece's faces in groups. Null if unknown.
     const topology::OpenVolume* piece_of = nullptr;
-    bool alone = false;   ///< it, or the volume of which it is a piece, is the only one
-    bool unswept = false; ///< not swept: the caller fills it beside the others; see `Unswept`
+    bool alone = false;   ///< it is the only volume, or all members are pieces of one volume
+    bool unswept = false; ///< not swept: the caller meshes it beside the others; see `Unswept`
 };
 
 /// A face shared by two members, one on each side.
@@ -54,7 +54,7 @@ struct NearMiss {
     std::size_t edge_of = 0;                ///< a or b
     int tag_a = 0, tag_b = 0, edge_tag = 0; ///< tags of the faces and the edge, as shown to the user
     double least = 0, width = 0;            ///< smallest and largest distance [model length]
-    bool reach_in = false;                  ///< the members overlap by that distance instead
+    bool reach_in = false;                  ///< the members overlap, and the distances above are depths
     double area = 0;                        ///< area of the faces within that distance [model length²]
     double length = 0;                      ///< length of the edge within that distance [model length]
     /// Tolerance of both models that would join the faces [model length].
@@ -62,13 +62,13 @@ struct NearMiss {
     Message message{"assembly.near_miss", "a near miss"}; ///< the fields above as a note
 };
 
-/// The faces shared by members: the same surface within the tolerance, with any facets; or void faces with
-/// the same rim.
+/// The faces shared by members. Two faces are shared if they are the same surface within the tolerance,
+/// whatever their facets, or if one is void and has the same rim.
 /// @throw InvalidInput "assembly.part_of_face"  a face that covers only part of another's;
-///                     "assembly.overlap"  two volumes on the same side of a face, or reaching into each
-///                     other; "assembly.rims_apart"  one face whose rims are further apart than the
-///                     tolerance and nearer than `kNearMiss` times it; "assembly.crack"  faces that touch in
-///                     part, or along an edge, and part from there by as little. Names them.
+///                     "assembly.overlap"  two volumes on the same side of a face, or overlapping volumes;
+/// "assembly.rims_apart"  one face whose rims are apart by more than the tolerance and less than `kNearMiss`
+/// times the tolerance; "assembly.crack"  faces that touch in part, or along an edge, and are apart elsewhere
+/// by a distance in that range. Names them.
 /// @note  O(facets log facets) over faces whose boxes meet.
 std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context = {});
 
@@ -78,12 +78,13 @@ struct LeftOut {
     Message message;    ///< message of the error
 };
 
-/// A volume of an assembly that was not swept because it was not to be, or because its sweep failed with
+/// A volume of an assembly that was not swept, either on request or because its sweep failed with
 /// `Fallback::mixed`.
 struct Unswept {
     std::size_t member = 0;      ///< its index in the list of members
-    topology::OpenVolume volume; ///< split where it shares parts of faces, as the others are
-    std::optional<Message> why;  ///< message of the error; empty: it was not to be swept
+    topology::OpenVolume volume; ///< where it shares parts of faces, its faces are split as in the swept
+                                 ///< volumes
+    std::optional<Message> why;  ///< message of the error; empty: it was requested not to be swept
 };
 
 /// Hexahedra of several sweeps with common nodes at shared faces.
@@ -91,11 +92,12 @@ struct SweptAssembly {
     std::vector<Swept> parts;        ///< in the members' order, each with its own numbering
     std::vector<std::size_t> member; ///< for each part, its index in the list of members
     std::vector<LeftOut> left_out;   ///< members without a part
-    std::vector<Unswept> unswept;    ///< likewise
-    /// Faces that these share with others and with each other; `a` and `b` index the list of members.
+    std::vector<Unswept> unswept;    ///< members that are not swept
+    /// Faces that unswept members share with others and with each other; `a` and `b` index the list of
+    /// members.
     std::vector<SharedFace> beside;
-    /// Of each part's nodes, the number in the whole mesh, from 0. Parts follow each other; a node that an
-    /// earlier part has keeps its number.
+    /// For each part, the number of each of its nodes in the whole mesh, from 0. Numbers follow the order of
+    /// the parts; a node that an earlier part has keeps that part's number.
     std::vector<mesh::NodeNumbers> numbering;
     std::size_t nodes = 0;                     ///< number of nodes of the whole mesh
     std::vector<mesh::PeriodicNodes> periodic; ///< one for each pair of `SweepOptions::periodic`

@@ -32,8 +32,9 @@ namespace {
 
 constexpr const char* kPartOfFace = "assembly.part_of_face"; // code of an error
 
-/// The midpoint of the shortest connection of two chords; empty if they are too far apart, or run along each
-/// other: where those cross is decided by rounding, and the vertex there would leave a side without length.
+/// The midpoint of the shortest connection of two chords. Empty if they are too far apart. Empty also if they
+/// run along each other: rounding decides where such chords cross, and a vertex there would make a side
+/// without length.
 std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double within)
 {
     const Vec3 u = b - a, v = d - c, w = c - a;
@@ -60,7 +61,7 @@ std::vector<std::size_t> chords_off(const std::vector<Vec3>& line, const std::ve
 /// A face of one volume that is cut along the rim of another.
 class FaceCutter {
 public:
-    /// @param within  distance of the line's ends from vertices of the rim that are the same place.
+    /// @param within  a vertex of the rim within this distance of a line's end is the same point.
     FaceCutter(ModelBuilder& model, FaceId face, double within)
         : model_(model), face_(face), tolerance_(model.tolerance), within_(within)
     {
@@ -158,7 +159,7 @@ struct SideOfPair {
     [[nodiscard]] Model& model() const { return volume->model; }
 };
 
-/// Whether the exact curve of an edge runs through `p`, although its chords are farther from it.
+/// Whether the exact curve of an edge passes through `p`, although the edge's chords are farther away.
 bool curve_runs_through(const Model& model, EdgeId id, const std::vector<Vec3>& line, const OnLine& place,
                         const Vec3& p, double within)
 {
@@ -197,7 +198,7 @@ bool is_closed_on_rim(const SideOfPair& side, EdgeId edge, const SideOfPair& oth
     });
 }
 
-/// Vertices of a face's rim, but for those of closed edges that both faces have.
+/// Vertices of a face's rim, except those of closed edges that both faces have.
 std::vector<Vec3> corners_of(const SideOfPair& side, const SideOfPair& other, double within)
 {
     std::vector<Vec3> corners;
@@ -286,7 +287,7 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
             for (const SideOfPair* side : {&a, &b})
                 ensure_vertex(side->model(), rim_edges(side->model(), side->face), stop, within);
     };
-    // Corners first: rims whose curves meet in one may have chords that cross beside it.
+    // Corners first: where two curves meet in a corner, their chords may cross next to it.
     std::vector<Vec3> stops = corners_of(a, b, within);
     const std::vector<Vec3> others = corners_of(b, a, within);
     stops.insert(stops.end(), others.begin(), others.end());
@@ -296,7 +297,7 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
         const std::vector<Vec3> p = surface::edge_line(a.model(), e);
         for (const EdgeId f : rim_edges(b.model(), b.face)) {
             const std::vector<Vec3> q = surface::edge_line(b.model(), f);
-            // Where rims run along each other, chords meet at every point of theirs, but nothing crosses.
+            // Rims that run along each other do not cross, although their chords meet at every point.
             const std::vector<std::size_t> of_q = chords_off(q, p, within);
             for (const std::size_t i : chords_off(p, q, within))
                 for (const std::size_t j : of_q)
@@ -316,8 +317,8 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
                     side->fixed ? "is a face of a mesh that stays as it is"
                                 : "came with quads, which stay as they are")
                 .remedy("{}", side->fixed
-                                  ? "put the volume it was made of in its place, or split the face there "
-                                    "before that is meshed"
+                                  ? "use the unmeshed volume instead, or split the face before the volume "
+                                    "is meshed"
                                   : "mesh the two faces alike, or, of a mesh from a file, load it with "
                                     "keep_mesh = false"));
     }
@@ -386,7 +387,7 @@ FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const Assembl
             return SideOfPair{&volumes[m], face, members[m].fixed != nullptr, m == faces.a ? face_a : face_b,
                               members[m].region};
         };
-        // Parts made in earlier steps are compared with those of the other side.
+        // Compare parts made in earlier steps with the parts of the other side.
         std::vector<FaceId> all_a = parts(faces.a, faces.face_a);
         for (std::size_t i = 0; i < all_a.size(); ++i) {
             std::vector<FaceId> all_b = parts(faces.b, faces.face_b);

@@ -17,8 +17,8 @@ using namespace topology;
 
 namespace {
 
-/// Heights that differ by less than this share of a member are one level: a layer bends to either, where a
-/// thinner one would be a sliver. A choice.
+/// Heights that differ by less than this share of a member are one level: a layer can bend to both, while a
+/// layer between them would be a sliver. A choice.
 constexpr double kSameLevel = 1e-2;
 
 /// Whether layers of a member are free: neither its user nor a given mesh has set them.
@@ -123,7 +123,7 @@ std::vector<AssemblyLevels::Contact> AssemblyLevels::contacts() const
     return found;
 }
 
-/// Make levels of one member within a shared wall levels of the other, until none is missing.
+/// Copy levels within shared walls from each member to the other, until none is missing.
 void AssemblyLevels::exchange(std::span<const Contact> contacts)
 {
     const auto pass_on = [&](std::size_t from, double low, double high, std::size_t to, double there,
@@ -136,7 +136,7 @@ void AssemblyLevels::exchange(std::span<const Contact> contacts)
         }
         return any;
     };
-    // A level reaches every member after as many rounds as there are members.
+    // A level reaches every member within as many rounds as there are members.
     for (std::size_t round = 0; round < members_.size(); ++round) {
         bool any = false;
         for (const Contact& c : contacts) {
@@ -155,13 +155,13 @@ std::vector<std::vector<double>> AssemblyLevels::heights(
     exchange(all);
     geometry::UnionFind groups(members_.size());
     for (const Contact& c : all) groups.unite(c.a, c.b);
-    // Only groups with levels of which nobody has set the layers.
+    // Only groups that have levels and in which nobody has set the number of layers.
     std::vector<bool> concerned(members_.size(), false), set(members_.size(), false);
     for (std::size_t m = 0; m < members_.size(); ++m) {
         if (levels_[m].size() > 2) concerned[groups.find(m)] = true;
         if (!has_free_layers(members_[m])) set[groups.find(m)] = true;
     }
-    std::vector<std::size_t> first{0}; // of the parts between levels
+    std::vector<std::size_t> first{0}; // first part of each member
     for (const std::vector<double>& levels : levels_) first.push_back(first.back() + levels.size() - 1);
     geometry::UnionFind parts(first.back());
     const auto at = [&](std::size_t m, double height) {

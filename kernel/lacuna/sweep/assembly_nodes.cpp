@@ -25,7 +25,7 @@ struct PartNode {
     friend auto operator<=>(const PartNode&, const PartNode&) = default;
 };
 
-/// Each node that coincides with earlier ones, with the first of them.
+/// Each node that coincides with an earlier one, paired with the first node in that place.
 std::vector<std::pair<PartNode, PartNode>> in_same_places(const SweptAssembly& assembly,
                                                           const std::vector<PartNode>& nodes)
 {
@@ -108,7 +108,7 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
         std::size_t part;
         Segment nodes;
     };
-    // Each position once, by its number in the whole mesh.
+    // Each position once, by its node number in the whole mesh.
     std::vector<EdgeSide> sides;
     std::vector<std::array<Vec3, 2>> segments;
     std::vector<std::pair<std::size_t, Index>> at;

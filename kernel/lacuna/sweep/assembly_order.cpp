@@ -13,8 +13,8 @@ using namespace topology;
 
 namespace {
 
-/// For each member, whether both source and target have several faces, or a member for which this is true
-/// must follow it: such a member imprints one end on the other before any neighbour has meshed them.
+/// For each member, whether both source and target have several faces, or a member of this kind must follow
+/// it. Such a member imprints one end on the other before any neighbour has meshed them.
 std::vector<bool> split_at_both_ends(std::span<const AssemblyMember> members,
                                      std::span<const std::set<std::size_t>> before)
 {

@@ -41,8 +41,8 @@ namespace {
 constexpr double kMostNodes = 2e7;
 /// A rim segment does not include edges that it covers by less than this share of its length.
 constexpr double kInset = 1e-3;
-/// Bound on the rounds of making ends even. Each round adds a side to one class; families of blocks need far
-/// fewer.
+/// Maximum number of rounds that make ends even. Each round adds a side to one class; families of blocks need
+/// far fewer.
 constexpr int kRounds = 64;
 
 class Planner {
@@ -131,7 +131,7 @@ private:
         for (const SharedFace& face : shared_) find_same_rims(face);
         for (const std::size_t e : beside_) common_[e] = true;
     }
-    /// The closed rims of a shared face are the same edges, however coarse their chords.
+    /// The closed rims of a shared face are the same edges, however coarse their chords are.
     void find_same_rims(const SharedFace& face)
     {
         const auto closed_rims = [&](std::size_t m, FaceId of) {
@@ -145,7 +145,7 @@ private:
         if (own.size() != others.size()) return;
         for (const std::size_t a : own) {
             const std::size_t b = *std::ranges::min_element(others, {}, [&](std::size_t other) {
-                // Rims round each other have one centre.
+                // Concentric rims have the same centre, so their lengths are compared too.
                 return (edges_[other].centre - edges_[a].centre).norm() +
                        std::abs(edges_[other].length - edges_[a].length);
             });
@@ -154,7 +154,8 @@ private:
         }
     }
 
-    /// Make edges of periodic faces one edge with their images, whose place and nodes are those of the first.
+    /// Join edges of periodic faces with their images. The position and the nodes of the first edge apply to
+    /// all.
     void join_periodic()
     {
         std::map<std::size_t, std::vector<std::pair<std::size_t, Eigen::Isometry3d>>> images; // onto the key
@@ -188,7 +189,8 @@ private:
         for (const auto& [first, ignored] : home) tied_.insert(same_.find(first));
     }
 
-    /// Tie the vertices of periodic faces, once for all pairs: those of given meshes stay.
+    /// Make the vertices of periodic faces exact images of each other, for all pairs at once. Vertices of
+    /// given meshes stay.
     void tie_corners()
     {
         if (periodic_.empty()) return;
@@ -223,7 +225,7 @@ private:
         corners_ = std::move(places);
     }
 
-    /// Nodes of an edge moved onto the first of its images, or back.
+    /// Move nodes of an edge onto the first of its images, or back.
     [[nodiscard]] std::vector<Vec3> at_home(std::vector<Vec3> nodes, std::size_t e) const
     {
         if (!tied_.contains(same_.find(e))) return nodes;
@@ -255,8 +257,8 @@ private:
                                .remedy("load one of them with keep_mesh = false"));
     }
 
-    /// Find corners of ends whose two edges leave them along one tangent, such as an arc and the line that
-    /// touches it: the quad there is flat unless its sides are long enough for the edges to part.
+    /// Find corners of ends whose two edges leave in the same direction, such as an arc and its tangent line.
+    /// A quad there is flat unless its sides are long enough for the two edges to diverge.
     void find_cusps()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -305,7 +307,7 @@ private:
         for (const surface::LinkingSurface& link : links) {
             for (const surface::RimSegment& segment : link.segments) {
                 const EdgeId from = link.source.uses()[segment.use].edge;
-                // A segment may cover several edges of the target, from the first to the last of them.
+                // A segment may cover several edges of the target.
                 const double whole = link.target.length();
                 const double inset = kInset * (segment.target_to - segment.target_from);
                 const auto use_at = [&](double at) {
@@ -403,7 +405,7 @@ private:
             }
         }
     }
-    /// Corners between edges become the nodes nearest to them by length, with at least one side per edge.
+    /// Each corner between edges becomes the node nearest to it by length; every edge gets at least one side.
     void ask_sides(std::size_t m, const surface::SidesAsked& asked, const std::vector<EdgeAsked>& edges)
     {
         double all = 0, until = 0;
@@ -440,9 +442,9 @@ private:
                 .remedy("ask for the same number in both"));
     }
 
-    /// Opposite edges of walls have equal numbers because walls have rows and columns; so have those of an
-    /// end that is a wall of another member. Applied to all shared ends of four edges, so that every volume
-    /// with such an end gets the same quads.
+    /// Join opposite edges of walls, because walls have rows and columns, and of ends that are walls of
+    /// another member. All shared ends of four edges are treated so, so that every volume with such an end
+    /// gets the same quads.
     void join_opposite()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -500,7 +502,7 @@ private:
         return at;
     }
 
-    /// Sides that an edge needs by its member's size and curvature.
+    /// Number of sides that an edge needs by its member's size and curvature.
     [[nodiscard]] double wanted(const MemberEdge& edge) const
     {
         const std::vector<Vec3> line = surface::edge_line(model(edge.member), edge.edge);
@@ -591,7 +593,7 @@ private:
                 const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
                                      (here[1].places.empty() ? 0 : here[1].places.back());
                 if (taken >= edges_[e].length)
-                    rows_.erase(same_.find(e)); // the sweep reports the available length
+                    rows_.erase(same_.find(e)); // drop the rows; the sweep reports the available length
             }
         }
     }
@@ -704,7 +706,7 @@ private:
             asked_.insert(of);
         }
         for (const auto& [of, sides] : intervals_) {
-            if (kept_of_class_.at(of) == Kept::quads) continue; // the sweep reports the number
+            if (kept_of_class_.at(of) == Kept::quads) continue; // the sweep reports a conflict of numbers
             count_[of] = sides.count;
             asked_.insert(of);
         }
@@ -747,7 +749,7 @@ private:
         std::size_t best = edges_.size();
         for (const auto& [of, times] : uses) {
             if (times % 2 == 0 || asked_.contains(of) || kept_of_class_.at(of) == Kept::quads) continue;
-            // Later rounds take the next class, so that ends do not undo each other's changes; given nodes of
+            // Later rounds take the next class, so that ends do not undo each other's changes. Given nodes on
             // faces that are only geometry are changed last.
             const auto before = [&](std::size_t a, std::size_t b) {
                 return std::tuple(kept_of_class_.at(a) != Kept::rim, -bumps_[a], count_.at(a)) >
@@ -761,7 +763,7 @@ private:
         return true;
     }
 
-    /// Nodes of an edge shared by several members, in the direction of the first member's edge.
+    /// Nodes of an edge that several members share, in the direction of the first member's edge.
     [[nodiscard]] std::vector<Vec3> places(std::size_t e, int count) const
     {
         const MemberEdge& edge = edges_[e];
@@ -850,7 +852,7 @@ private:
         std::map<std::size_t, std::vector<Vec3>> nodes;
         const std::vector<bool> on_frame = find_frame();
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            // Given nodes on the rim of a face that is only geometry are dropped if the member's number of
+            // Given nodes on the rim of a face that is only geometry are dropped if the planned number of
             // sides differs.
             const bool gives_way = kept_[e] == Kept::rim && sides_of(e) != count_.at(classes_.find(e));
             if (!(common_[e] || gives_way) || !on_frame[e]) continue;
@@ -878,7 +880,7 @@ private:
         return plan;
     }
 
-    /// Layers of a member with side lines of several edges, at least one for each edge.
+    /// Number of layers of a member with side lines of several edges: at least one for each edge.
     [[nodiscard]] int layers_of(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines) const
     {
         double layers = std::max(layers_asked(m), layers_[m]);
@@ -894,8 +896,8 @@ private:
         return std::max(static_cast<int>(std::lround(layers)), static_cast<int>(most));
     }
 
-    /// Nodes of side lines of several edges, so that each vertex on them is one: where an edge of a skin that
-    /// is not swept ends on such a line, it needs one there.
+    /// Place nodes on side lines of several edges so that each of their vertices is a node. An edge of an
+    /// unswept member's skin that ends on such a line needs a node there.
     void plan_stacks(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines,
                      std::map<std::size_t, std::vector<Vec3>>& nodes, AssemblyPlan& plan)
     {
@@ -928,8 +930,8 @@ private:
         }
     }
 
-    /// An edge across a member's walls that others have too, such as the rim of a band, has as many sides as
-    /// the rims of the member's ends, which then are planned with it.
+    /// Find edges across a member's walls that other members have too, such as the rim of a band. They need
+    /// as many sides as the rims of the member's ends, so these are planned too.
     void find_across()
     {
         const std::vector<bool> frame = find_frame();
@@ -964,7 +966,7 @@ private:
         return corners_.emplace_back(p);
     }
 
-    /// Of the same edge in several members, one with given nodes or with an exact curve.
+    /// Among the same edge in several members, the one with given nodes, or else one with an exact curve.
     [[nodiscard]] std::size_t exact_one(std::size_t e)
     {
         const std::size_t root = same_.find(e);
@@ -1007,20 +1009,22 @@ private:
     std::vector<std::size_t> first_; ///< index of each member's first edge
     std::vector<MemberEdge> edges_;  ///< edges of all members
     mutable geometry::UnionFind same_{0}, classes_{0};
-    /// The given nodes of an edge that are kept: none, those of a face that is only geometry, those of quads.
+    /// The given nodes of an edge that are kept: none, the rim nodes of a face that is only geometry, or the
+    /// nodes of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
     std::vector<Kept> kept_;                    ///< for each edge
     std::map<std::size_t, Kept> kept_of_class_; ///< for the edges that determine its number
     std::map<std::size_t, std::array<RowsHere, 2>>
         rows_; ///< for each set of same edges, in the direction of the first
-    std::map<std::size_t, std::size_t> kept_one_; ///< for each set of same edges, one with given nodes
+    std::map<std::size_t, std::size_t> kept_one_; ///< for each set of same edges, one edge that has given
+                                                  ///< nodes
     std::vector<bool> common_;                    ///< for each edge: other members have it too
     /// For each set of same edges: least length of the first side at both ends [model length].
     std::map<std::size_t, std::array<double, 2>> cusps_;
-    double grid_ = 0;              ///< of nodes on periodic faces
-    std::set<std::size_t> tied_;   ///< sets of same edges that periodic faces have
+    double grid_ = 0;              ///< spacing of the grid for nodes on periodic faces
+    std::set<std::size_t> tied_;   ///< sets of same edges on periodic faces
     std::set<std::size_t> beside_; ///< edges shared with members that are not swept
-    /// For each member: side lines of several edges, some of them shared with such members.
+    /// For each member: side lines of several edges, of which some are shared with unswept members.
     std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
     std::map<std::size_t, int> count_;                  ///< for each class
@@ -1032,7 +1036,8 @@ private:
     std::map<std::size_t, SidesOfClass> intervals_;           ///< for each class with an interval request
     /// For each set of same edges, the edge with a requested bias, and that bias in its direction.
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
-    std::set<std::size_t> stacked_;       ///< edges that are parts of side lines in some member, by `same_`
+    std::set<std::size_t> stacked_;       ///< edges that are parts of side lines in some member; ids of sets
+                                          ///< of same edges
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
     std::vector<Vec3> corners_;           ///< vertices where edges of several members end

@@ -25,8 +25,8 @@ using namespace topology;
 
 namespace {
 
-/// Bound on the rounds. Each round maps lines once from one end of every volume to the other, so a stack of
-/// up to this many volumes is covered.
+/// Maximum number of rounds. Each round maps lines once from one end of every volume to the other, so lines
+/// pass through a stack of up to this many volumes.
 constexpr int kRounds = 64;
 
 /// Copies the parts of a split face to the volume that has the whole face.
@@ -112,7 +112,7 @@ private:
         return geometry::arc_lengths(surface::edge_line(to_, edge));
     }
 
-    /// Insert a point between the one before it, which exists, and the next one that exists.
+    /// Insert a point between the previous one, which exists already, and the next one that exists.
     void insert(const std::vector<Index>& walk, std::size_t i)
     {
         const Index before = place_.at(walk[i - 1]);
@@ -236,7 +236,7 @@ private:
     std::vector<Role>& role_;
     std::vector<FaceId> whole_;
     const double near_ = from_.tolerance;
-    std::map<Index, Index> place_; ///< of points of the parts
+    std::map<Index, Index> place_; ///< point in the other volume for each point of the parts
 };
 
 class LineCarrier {
@@ -335,7 +335,7 @@ private:
         std::swap(line.source_to, line.target_to);
     }
 
-    /// Corresponding lines and vertices of both ends of a member, as seen from the end that is split.
+    /// Corresponding lines and vertices of both ends of a member; the end that is split counts as the source.
     [[nodiscard]] std::vector<surface::KnownLine> known_lines(std::size_t m, Role end) const
     {
         std::vector<surface::KnownLine> lines = known_[m];

@@ -49,8 +49,8 @@ void each_wedge_corner(const Visit& visit)
     }
 }
 
-/// The foldover-free energy of a corner by its determinant over the box's and the squares of its edges over
-/// the box's.
+/// The foldover-free energy of a corner and its derivatives. Arguments are the corner's determinant divided
+/// by that of the box, and the squares of its edges divided by those of the box.
 struct Shape {
     double value, by_determinant, by_squares;
 };
@@ -70,8 +70,8 @@ Shape shape_energy(double epsilon, double determinant, double squares)
             (1 - kVolumeShare) * power};
 }
 
-/// Energy of a corner; its gradient by the three edges is added. `best`: factor that makes the scaled
-/// Jacobian of an ideal corner 1.
+/// Energy of a corner; its gradient by the three edges is added to the output. `best` is the factor that
+/// makes the scaled Jacobian of an ideal corner 1.
 double corner_energy(const CellEnergy& energy, const std::array<const Vec3*, 3>& edge, double volume,
                      const Vec3& by_square, double best, const std::array<Vec3*, 3>& by_edge)
 {

@@ -59,8 +59,8 @@ const std::array<std::array<std::size_t, 3>, 8>& neighbours_in(const Hex& hex)
     return mesh::is_wedge(hex) ? mesh::kWedgeNeighbours : mesh::kHexNeighbours;
 }
 
-/// Call `visit(corner, a, b)` for each pair of edges of a cell that meet in a corner and are fixed, because
-/// all three nodes are.
+/// Call `visit(corner, a, b)` for each pair of fixed edges of a cell that meet in a corner. An edge is fixed
+/// if both its nodes are.
 template <class Visit>
 void for_locked_angles(const Hex& hex, const std::vector<char>& locked, const Visit& visit)
 {

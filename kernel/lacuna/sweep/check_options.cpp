@@ -10,7 +10,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// More threads than supported machines have cores, and far fewer than an operating system allows.
+/// Above the core count of any supported machine, and far below the limit of an operating system.
 constexpr int kMostThreads = 1024;
 
 [[noreturn]] void refuse(const std::string& option, const Argument& must, const Argument& value)
@@ -36,7 +36,8 @@ void check_heights(const LayerSpec& spec)
                                    found(layers), found(spec.count))
                                .remedy("leave out the count, or the heights"));
     }
-    // Heights are often sums of steps, so the last is 1 up to the rounding of as many steps.
+    // Heights are often sums of steps, so the last height may differ from 1 by the rounding of that many
+    // additions.
     const double slack = 4 * layers * std::numeric_limits<double>::epsilon();
     double below = 0;
     for (int i = 0; i < layers; ++i) {
@@ -44,8 +45,8 @@ void check_heights(const LayerSpec& spec)
         const bool last = i + 1 == layers;
         if (!(height > below && height <= 1 + slack) || (!last && height >= 1)) {
             throw InvalidInput(code,
-                               "sweep: option 'layers' needs a height that rises from the last one, in "
-                               "(0, 1], the last alone being 1: height {} is {} after {}",
+                               "sweep: option 'layers' needs increasing heights in (0, 1], of which only "
+                               "the last is 1: height {} is {} after {}",
                                i + 1, found(height), below);
         }
         below = height;

@@ -28,8 +28,8 @@ namespace {
 /// Quads, facets or points per block; each block has its own sums. A smaller block adds overhead, a larger
 /// one leaves threads idle. Not measured.
 constexpr std::size_t kBlock = 1024;
-/// Distances above this, in sides of the quad, are not taken from the walk, because another part of the face
-/// may be nearer. A lower value searches the tree more often. Not measured.
+/// Distances above this, in sides of the quad, are computed by searching the tree, because another part of
+/// the face may be nearer. A lower value searches the tree more often. Not measured.
 constexpr double kFar = 0.25;
 
 /// A point of one skin and its distance from the other.
@@ -164,8 +164,8 @@ private:
         });
     }
 
-    /// Compare a quad's centre and side midpoints; midpoints on the patch's rim are compared in one of the
-    /// two patches. @return  the facet nearest to the centre
+    /// Compare a quad's centre and side midpoints. A midpoint on the border between two patches is compared
+    /// in one of them only. @return  the facet nearest to the centre
     Index compare_quad(const FacetWalk& walk, std::size_t q, Tally& tally) const
     {
         const Quad& quad = quads_[q];
@@ -201,8 +201,8 @@ private:
             const double reach = foot ? std::abs(foot->height) : kInfinity;
             sample.distance = distance_to_face(sample.point, facet, reach);
         }
-        // If the point is far off, as on a long quad in a bend, the nearest facet may be on the opposite part
-        // of the face. A higher factor accepts such facets. Not measured.
+        // If the point is far from the face, as on a long quad in a bend, the nearest facet may belong to the
+        // opposite part of the face. A higher factor accepts such facets. Not measured.
         constexpr double kNear = 0.1; // of the quad's width
         const auto found = static_cast<Index>(facet);
         sample.turned = limit_.folds && sample.distance * sample.side < kNear * across.norm() &&
@@ -217,10 +217,11 @@ private:
                                           double reach = kInfinity) const
     {
         auto hit = face_tree_.closest(point, reach * reach);
-        if (hit.triangle < 0) hit = face_tree_.closest(point); // the other height has other rounding errors
+        if (hit.triangle < 0) hit = face_tree_.closest(point); // the two heights are rounded differently
         facet = index(hit.triangle);
         Vec3 bulge = shape_.bulge_at(facet, hit.barycentric);
-        // Next to the face, compare with the exact edge; above a facet, add only its bulge.
+        // Beside the face, compare with the exact edge, so the whole bulge counts; above a facet, only its
+        // component along the normal counts.
         if (hit.barycentric.minCoeff() > 0) {
             const Vec3 normal = shape_.normal(facet);
             bulge = bulge.dot(normal) * normal;
@@ -306,7 +307,7 @@ private:
                 front.push_back(next);
             }
         }
-        // Facets of another component get any of them.
+        // Facets of a component without quads get any facet that has some.
         for (Index& facet : near) facet = facet < 0 ? front.front() : facet;
         return near;
     }
@@ -392,8 +393,8 @@ private:
         return box.squaredExteriorDistance(point);
     }
 
-    /// @param over  whether the foot point is no farther from the point than from the quad's sides: then no
-    /// other quad is nearer unless the skin folds back within that distance.
+    /// @param over  set to whether the foot point is closer to the point than to the quad's sides: no other
+    ///          quad is then nearer unless the skin folds back within that distance.
     [[nodiscard]] double distance2_to_quad(const Vec3& point, std::size_t quad, bool& over) const
     {
         const std::array<Vec3, 4> c = corners(quad);
@@ -495,8 +496,8 @@ private:
             result_.misfit = Misfit::cut;
     }
 
-    /// Tell the two kinds of deviation apart: if a quad's nodes lie on the face, only its curvature between
-    /// them deviates.
+    /// Distinguish the two kinds of deviation: if a quad's nodes lie on the face, only the face's curvature
+    /// between them causes the deviation.
     void tell_straight_from_cut()
     {
         constexpr double kOnFace =
@@ -512,7 +513,8 @@ private:
             most = sag;
             result_.side = result_.source_side = (b - a).norm();
             if (mesh_ == nullptr) continue;
-            // The side of the mesh's quad; at order 2 the one that this side is half of, or parallel to.
+            // The corresponding side of the mesh's quad. At order 2, the side that contains this one as a
+            // half, or is parallel to it.
             const Index row = mesh_->nodes_per_layer;
             const std::size_t own = mesh_->order() == 1 ? k : (worst_ + 3 * (k % 2)) % 4;
             const Quad whole = mesh::skin_quad(*mesh_, item_[worst_]).nodes;
@@ -555,7 +557,7 @@ Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std
     Skin skin;
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // Nodes of the first and last layer and the rim nodes between, in the mesh's order; then middle nodes.
+    // Nodes of the first and last layer and the rim nodes in between, in the mesh's order, then middle nodes.
     std::vector<Index> known;
     const Index row = mesh.nodes_per_layer;
     std::set<Index> rim;
@@ -573,7 +575,7 @@ Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std
     }
     std::sort(known.begin() + corners, known.end());
     known.erase(std::unique(known.begin() + corners, known.end()), known.end());
-    // Centres that are not nodes follow.
+    // Append the centres of quads that are not nodes of the mesh.
     const std::size_t centres = curved && !mesh.middles.full ? mesh.skin_count() : 0;
     skin.points.resize(known.size() + centres);
     parallel_each(context, known.size(), kBlock, [&](std::size_t i) { skin.points[i] = nodes[known[i]]; });
@@ -626,7 +628,7 @@ Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::s
     skin.points.insert(skin.points.end(), mesh.middles.nodes.begin(), mesh.middles.nodes.end());
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // Parts of a side of order 2 may deviate as the whole may.
+    // At order 2 the parts of a side may deviate as much as the whole side.
     const auto add = [&](std::size_t i, const Quad& side) {
         SkinOfFace& face = skin.faces[faces[index(mesh.skin_patch[i])].index()];
         const Quad& whole = mesh.skin[i];

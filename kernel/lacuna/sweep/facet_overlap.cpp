@@ -14,9 +14,9 @@ using namespace topology;
 
 namespace {
 
-/// Facets at an angle with a smaller cosine count as adjacent, not as covering each other: 60°. Facets of the
-/// same curved face, coarse on one side, differ by some 30°. A lower value counts adjacent faces as overlap.
-/// Not measured.
+/// Two facets at an angle with a smaller cosine than this (more than 60°) count as adjacent, not as covering
+/// each other. Facets of one curved face, coarse on one side, differ by about 30°. A lower value counts
+/// adjacent faces as overlap. Not measured.
 constexpr double kOver = 0.5;
 /// Pairs of facets between two checks for cancellation.
 constexpr std::size_t kLook = 1 << 16;
@@ -67,7 +67,7 @@ private:
     std::size_t count_;
 };
 
-/// Facets of a volume that overlap a box, and the face of each.
+/// Facets of a volume that overlap a box, with the face of each facet.
 struct NearFacets {
     std::vector<Triangle> facets;
     std::vector<FaceId> face;

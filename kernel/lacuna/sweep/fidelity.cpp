@@ -101,14 +101,13 @@ Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
     const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
     if (face.along_layers) {
         return std::move(message).remedy(
-            "by the sag of straight sides {} layers would do instead of {}, as it bends from layer to layer",
+            "use {} layers instead of {}: straight sides then follow the bend from layer to layer",
             needed(static_cast<int>(std::ceil(layers / by))), found(layers));
     }
     const double asked = options.size ? options.size(face.found_at) : face.source_side;
-    return std::move(message).remedy("by the sag of straight sides a size of {:.2g} would do, where a side "
-                                     "of {:.2g} cannot follow the bend",
-                                     needed(rounded_down(std::min(face.source_side, asked) * by)),
-                                     found(face.side));
+    return std::move(message).remedy(
+        "use a size of {:.2g}: a straight side of {:.2g} does not follow the bend",
+        needed(rounded_down(std::min(face.source_side, asked) * by)), found(face.side));
 }
 
 } // namespace

@@ -17,7 +17,7 @@
 
 namespace lacuna::sweep {
 
-/// The kind of deviation of a mesh from a face.
+/// How a mesh deviates from a face.
 enum class Misfit {
     none,
     no_quads, ///< the face has no quads
@@ -97,8 +97,8 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::TetPart& mesh,
 /// allowed distance. Nothing if no face exceeds it.
 std::optional<Message> misfit(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
 
-/// Check the total volume. It reveals coarse chords on faces that turn by a right angle over one side, which
-/// pass the distance check.
+/// Check the total volume. This finds chords that pass the distance check although a face turns by a right
+/// angle over one side.
 /// @throw NotSweepable "sweep.deviation"  the mesh's volume differs from the sealed one by more than a fifth.
 void require_volume(const Fidelity& fidelity, int layers);
 

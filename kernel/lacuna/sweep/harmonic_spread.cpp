@@ -15,8 +15,8 @@ namespace lacuna::sweep {
 
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
 {
-    // Every side adds each of its ends to the other; sides shared by two quads are added twice, and
-    // duplicates are removed.
+    // Offer each end of every side to the other end. Sides shared by two quads are offered twice; duplicates
+    // are removed.
     mesh::Incidence offered = mesh::incidence(nodes, [&](const auto& visit) {
         for (const Quad& quad : quads) {
             for (std::size_t i = 0; i < 4; ++i) {
@@ -122,8 +122,9 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
 
 namespace {
 
-/// Forward and backward substitution and the diagonal for a block of right-hand sides, row-major in the
-/// factor's order: kPacks packs of numbers. The result of a number does not depend on how many there are.
+/// Forward and backward substitution and division by the diagonal, for a block of right-hand sides, row-major
+/// in the factor's order: kPacks packs of numbers. The result for one number does not depend on the size of
+/// the block.
 template <int kPacks>
 LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, const double* diagonal,
                                    double* block)
@@ -138,8 +139,8 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
         for (int k = 0; k < kPacks; ++k) known[k] = row(j)[k];
         int p = begin[j];
         const int end = begin[j + 1];
-        // A column often has the entries of the next one plus its own: both are applied in one pass through
-        // memory. Subtractions keep the same order.
+        // A column often has the same entries as the next one, plus one: both are then applied in one pass
+        // through memory. Subtractions keep the same order.
         if (p < end && inner[p] == j + 1 && end - p - 1 == begin[j + 2] - end) {
             Four next[kPacks];
             for (int k = 0; k < kPacks; ++k) row(j + 1)[k] = next[k] = row(j + 1)[k] - value[p] * known[k];

@@ -89,8 +89,8 @@ private:
         return found.least >= before.least && found.lacking < before.lacking * (1 - kWorthIt);
     }
 
-    /// One minimisation from `x`. The best iterate is kept; sliding nodes are projected back onto their
-    /// surfaces.
+    /// One minimisation from `x`. Every iterate is judged with its sliding nodes projected back onto their
+    /// surfaces; the best one is kept.
     void descend(Eigen::VectorXd& x, double mean_floor)
     {
         energy_.set_planes(x);

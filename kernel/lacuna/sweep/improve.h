@@ -47,7 +47,8 @@ ImproveOptions with_deadline(ImproveOptions options);
 /// Skin nodes that may slide, each along the surface its face lies on.
 struct Sliding {
     std::vector<Index> surface; ///< for each node of the mesh; -1: inside, or fixed. Empty: no node slides
-    std::function<void(Index surface, std::span<Vec3> points)> project; ///< onto that surface
+    std::function<void(Index surface, std::span<Vec3> points)> project; ///< moves the points onto that
+                                                                        ///< surface
     std::vector<char> held{}; ///< for each node of the mesh: it is fixed, also inside; empty: none
 };
 
@@ -62,7 +63,7 @@ struct Improved {
     std::size_t cells = 0;                  ///< cells that were worked on
     std::size_t moved = 0;                  ///< nodes that were free
     double before = 1, after = 1;           ///< minimum scaled Jacobian of those cells
-    double mean_before = 1, mean_after = 1; ///< and their mean
+    double mean_before = 1, mean_after = 1; ///< mean scaled Jacobian of those cells
     bool untangled = false;                 ///< some were folded before
     bool unfinished = false;                ///< stopped by the limit of work or time
     bool won = false;                       ///< nodes were moved in the end

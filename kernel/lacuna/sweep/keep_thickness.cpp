@@ -21,8 +21,8 @@ using namespace topology;
 
 namespace {
 
-/// Bound on the rounds of moves; each round corrects the errors that bends within a cell left in the last.
-/// Tapered, twisted and bulging walls never needed more.
+/// Maximum number of rounds of moves. Each round corrects the errors that the last round left where cells
+/// bend. Tapered, twisted and bulging walls never needed more.
 constexpr int kRounds = 8;
 /// A row has converged if its relative thickness error is below this: a tenth of the tolerance.
 constexpr double kMet = kThicknessOff / 10;
@@ -160,8 +160,8 @@ private:
         return normal.stableNormalized();
     }
 
-    /// Mean of the unit normals of the walls below a column: a height along it is the mean of the heights
-    /// over both walls.
+    /// Mean of the unit normals of the walls at the base of a column. A height along this mean is the mean of
+    /// the heights over both walls.
     [[nodiscard]] Vec3 normal_of(const RowColumn& column, std::size_t layer) const
     {
         const std::size_t n = parts_.size_of(column.link);
@@ -305,13 +305,13 @@ private:
         put_on_ends();
     }
 
-    /// Whether edges between faces of the source are edges of the layer's face too.
+    /// Whether edges between faces of the source are also edges in this layer.
     [[nodiscard]] bool has_edges(std::size_t layer) const
     {
         return layer == 0 || (layer == layers_ && !parts_.target_edges.empty());
     }
 
-    /// Spread the moves of rims and rows over the layers whose inner edges hold nodes, or over the others.
+    /// Spread the moves of rims and rows over some layers: those whose inner edges hold nodes, or the others.
     void spread_moves(const std::vector<Vec3>& before, bool with_edges)
     {
         std::vector<std::size_t> layers;
@@ -364,8 +364,8 @@ private:
         }
     }
 
-    /// Move a node within its layer to its required heights: at the same position along the rim as on the
-    /// source, and at its current distance from the layer's plane. The initial positions of thin rows are
+    /// Move a node within its layer to its required heights. It keeps the position along the rim that it has
+    /// on the source, and its current distance from the layer's plane. The initial position in a thin row is
     /// ignored.
     void move_inside(std::size_t node, const std::vector<Hold>& holders, std::size_t layer)
     {
@@ -407,8 +407,8 @@ private:
                            within[1] * ((a * off[1] - c * off[0]) / det);
     }
 
-    /// Rows that end on other walls: move their nodes there along the layer's rim to the required heights,
-    /// and the nodes beyond accordingly.
+    /// Move nodes of rows that end on other walls along the layer's rim to the required heights. The nodes
+    /// beyond them move in proportion.
     void slide_on_walls()
     {
         for (std::size_t b = 0; b < parts_.links.size(); ++b) {
@@ -540,7 +540,7 @@ private:
                 const FaceId face = faces[index(around.front())];
                 const bool one = std::ranges::all_of(around,
                                                      [&](Index q) { return faces[index(q)] == face; });
-                // The facets of a void end do not cover the area next to a curved rim.
+                // The facets of a void end do not reach the curved rim everywhere.
                 const bool near_rim = model_[face].origin == Origin::made_void &&
                                       row_nodes_.contains(static_cast<Index>(node));
                 if (one && !near_rim && model_[face].kind != "plane") on_face[face].push_back(node);

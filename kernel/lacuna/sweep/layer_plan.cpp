@@ -46,7 +46,7 @@ void put_plan(A& with, Plan& plan)
     with(plan.options), with(plan.laid), with(plan.middles);
 }
 
-/// Layers with the moved nodes of the plan.
+/// The layers, with the skin nodes that the plan moves.
 mesh::LayeredNodes laid_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<const LayerPlan>& plan)
 {
     if (plan->laid.empty()) return nodes;

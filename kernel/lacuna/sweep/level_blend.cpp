@@ -29,8 +29,8 @@ LevelBlend::LevelBlend(const mesh::HexMesh& mesh)
 {
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads, mesh.nodes_per_layer);
     std::vector<std::uint8_t> seen(mesh.middles.sides.size(), 0);
-    // Directions of sides as their quads run: a side has the opposite direction in the neighbouring quad, so
-    // directions stay parallel from quad to quad.
+    // Directions of sides follow the direction of their quads. A side has the opposite direction in the
+    // neighbouring quad, so directions stay parallel from quad to quad.
     const auto walk = [&](std::size_t start) {
         const std::size_t begin = steps_.size();
         bool closed = false;

@@ -21,8 +21,9 @@ namespace {
 
 /// Maximum corner angle of a quad on either end; nodes with a larger one are moved inward. Not measured.
 constexpr double kWidest = 150 * kDegree;
-/// The shortfall from the angle that right-angled quads would fill: near 45° one quad fewer fits. A node with
-/// a larger shortfall than the first is moved inward until it is below the second. Not measured.
+/// Differences between an angle and the angle that right-angled quads would fill; near 45° one quad fewer
+/// fits. A node whose difference exceeds the first value is moved inward until it is below the second. Not
+/// measured.
 constexpr double kMayLack = 40 * kDegree, kLacks = 30 * kDegree;
 
 /// Interior angle at b [0, 2 π); the region lies to the left of a, b, c.

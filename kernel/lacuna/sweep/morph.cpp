@@ -15,8 +15,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A worst quad this much below the source's counts as equal. A higher value smooths less often. Not
-/// measured.
+/// A worst quad that is worse than the source's by at most this much counts as equal. A higher value smooths
+/// less often. Not measured.
 constexpr double kSameQuality = 0.01;
 /// Share of the source's worst quad below which the morphed mesh counts as bad, and other starting positions
 /// are tried. Not measured.
@@ -50,7 +50,8 @@ void put_rim(const RimColumns& columns, std::vector<Vec3>& nodes)
     for (std::size_t k = 0; k < high.size(); ++k) nodes[index(columns.rim[k])] = high[k];
 }
 
-/// The source mapped by `base`, with what the rim is then off its place spread harmonically over the inside.
+/// The source mapped by `base`. The distance of the mapped rim from its required position is spread
+/// harmonically over the inside.
 std::vector<Vec3> image_by(const std::function<Vec3(const Vec3&)>& base, const mesh::QuadMesh& source,
                            const RimColumns& columns, const AskSpreader& spreader, const RunContext& context)
 {
@@ -108,8 +109,8 @@ double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
     return largest;
 }
 
-/// The shape of a membrane in the rim under pressure, as high as the rim's radius; empty: the rim encloses no
-/// area.
+/// The shape of a membrane under pressure that is spanned by the rim; its height is the rim's radius. Empty
+/// if the rim encloses no area.
 std::vector<Vec3> membrane(const mesh::QuadMesh& source, const RimColumns& columns,
                            const AskSpreader& spreader)
 {
@@ -181,18 +182,20 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
             start = std::move(unprojected);
             result.report += words;
         };
-        // The source displaced like its rim suits a skin far from its rims, such as a bent tube swept through
-        // its thickness, for which an affine fit of the rims alone is meaningless.
+        // Start from the source displaced like its rim. This suits a skin far from its rims, such as a bent
+        // tube swept through its thickness, where an affine fit of the rims alone is meaningless.
         if (before < good_enough && !guess.affine)
             start_from(image_by([](const Vec3& p) { return p; }, source, columns, spreader, context),
                        ", from the source moved with its rim");
-        // If every inner node is the weighted mean of its neighbours, raised parts of the source (pockets,
-        // bosses, steps) are mapped side by side, where an affine map would overlap them.
+        // Start from the harmonic image, in which every inner node is the weighted mean of its neighbours. It
+        // maps raised parts of the source (pockets, bosses, steps) side by side, where an affine map would
+        // overlap them.
         if (found.worst < kStandsUp * good_enough && !columns.rim.empty())
             start_from(
                 image_by([](const Vec3&) { return Vec3(Vec3::Zero()); }, source, columns, spreader, context),
                 ", from its harmonic image");
-        // For a deep bowl above a flat rim, the closest points to the flat start crowd at the rim.
+        // Start from a membrane. For a deep bowl above a flat rim, the points closest to a flat start crowd
+        // at the rim.
         if (found.worst < kStandsUp * good_enough) {
             const std::vector<Vec3> flat = start, bulge = membrane(source, columns, spreader);
             for (const double height : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0}) {

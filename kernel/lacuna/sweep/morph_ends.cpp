@@ -63,8 +63,8 @@ Part part_of(const mesh::QuadMesh& whole, const std::vector<Quad>& quads,
     for (const Index node : rim) {
         const std::optional<Vec3>& place = places[index(part.node[index(node)])];
         if (!place) {
-            throw NotSweepable("sweep.imprint_torn", "an edge between faces of the target has nodes to which "
-                                                     "no edge imprinted on the source leads");
+            throw NotSweepable("sweep.imprint_torn", "an edge between faces of the target has nodes that "
+                                                     "no edge imprinted on the source reaches");
         }
         part.columns.points.push_back(*place);
     }

@@ -25,19 +25,19 @@ namespace {
 /// A gap wider than this share of the smaller member is intended, whatever the tolerance: half of the largest
 /// tolerance a model can have. A higher value reports more intended gaps. Not measured.
 constexpr double kWidest = 5e-3;
-/// Minimum share of the area within four windows that is within one: faces that diverge linearly have a
-/// quarter, faces that curve away from a contact a half.
+/// Minimum share of the area within four windows that is also within one window. Faces that diverge linearly
+/// have a quarter; faces that curve away from a contact have a half.
 constexpr double kStaysNear = 0.6;
 /// Minimum share of a face, or of an edge, that is near the other member. A smaller share counts only if the
-/// overlap is wider than the window on average, or longer than `kCorner` windows along an edge.
+/// overlap is wider on average than the window, or longer than `kCorner` windows along an edge.
 constexpr double kPart = 0.05;
-/// Vertices of two rims correspond if their distance is at most this factor times that of the rims: corners
-/// of 30° differ by twice the distance of their sides.
+/// Vertices of two rims correspond if their distance is at most this factor times the distance of the rims.
+/// At corners of 30°, vertices are twice as far apart as the sides.
 constexpr double kCorner = 4;
 /// If more than this share of the contact area is apart, the faces are joined only in part.
 constexpr double kApart = 0.05;
-/// If a face covers part of another, corners are moved onto it within the tolerance, and along its rim within
-/// the tolerance too, so they may be off by √2 times the tolerance.
+/// If a face covers part of another, its corners are moved onto that face and along its rim, each within the
+/// tolerance. The total may reach √2 times the tolerance.
 constexpr double kLaid = 1.5;
 /// A face lies entirely over another if at least this share of it does.
 constexpr double kWhole = 0.98;
@@ -113,7 +113,7 @@ public:
                                                  faces.second, pair_.tolerance);
             if (hinged)
                 throw InvalidInput(message_of(miss, "assembly.crack",
-                                              ". They have an edge in common, which would open as a crack"));
+                                              ". They share an edge, along which the mesh would crack"));
             if (miss.reach_in && overlap.depth > limit_of(faces))
                 throw InvalidInput(
                     message_of(miss, "assembly.overlap", ". Volumes of an assembly may touch, not overlap"));

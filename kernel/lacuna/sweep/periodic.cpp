@@ -23,7 +23,7 @@ using surface::FaceNames;
 
 namespace {
 
-/// Rounding of a rotated point, in steps of the grid: some ten operations on its coordinates.
+/// Rounding error of a rotated point, in grid steps: some ten operations on its coordinates.
 constexpr double kRounding = 16;
 
 /// A face of a member.
@@ -37,7 +37,7 @@ struct Side {
     std::vector<MemberFace> faces;
     std::vector<MemberEdge> edges;
     std::vector<Vec3> marks;    ///< ends and middles of edges, centres of closed ones
-    Vec3 centre = Vec3::Zero(); ///< of the edges
+    Vec3 centre = Vec3::Zero(); ///< mean point of the edges
     Vec3 normal = Vec3::Zero(); ///< sum of the area vectors
     double area = 0, reach = 0; ///< largest distance of a mark from the centre
 };
@@ -151,7 +151,7 @@ private:
                                .remedy("name faces of the same shape, or give 'translate' or 'rotate'"));
     }
 
-    /// The image of each edge of the first side; empty if one has none.
+    /// The image of each edge of the first side; empty if an edge has no image.
     std::vector<std::size_t> images(const Isometry3d& onto)
     {
         std::vector<std::size_t> image;
@@ -198,7 +198,7 @@ private:
         return std::abs(x.axis().dot(a.translation())) < std::abs(y.axis().dot(b.translation()));
     }
 
-    /// Rotations that take the centre and the normal to those of the other side, whose normal is reversed.
+    /// Rotations that take the centre and the normal to the other side's centre and reversed normal.
     [[nodiscard]] std::vector<Isometry3d> rotations() const
     {
         std::vector<Isometry3d> found;
@@ -214,7 +214,8 @@ private:
             found.push_back(motion);
         };
         add(tilt);
-        // The mark furthest from the normal through the centre may go to each that lies like it.
+        // Take the mark farthest from the axis (the normal through the centre) to each mark at the same
+        // distance from its axis.
         const auto across = [](const Vec3& p, const Vec3& centre, const Vec3& normal) {
             return Vec3(p - centre - normal * normal.dot(p - centre));
         };
@@ -230,7 +231,8 @@ private:
         return found;
     }
 
-    /// Fit a motion to the ends and centres of the edges that it takes to edges, and check that it takes all.
+    /// Fit a motion to pairs of edges: the ends and centres of edges, and those of their images under the
+    /// given motion. Empty unless the result maps all edges.
     std::optional<Isometry3d> refined(Isometry3d motion, bool turns)
     {
         std::vector<std::size_t> image = rough_images(motion);
@@ -248,10 +250,10 @@ private:
             points.push_back({own.to, along ? other.to : other.from});
         }
         if (!turns) {
-            // A difference of two vertices is exact more often than one of means.
+            // The difference of two vertices is exact more often than the difference of means.
             motion.translation() = points.front()[1] - points.front()[0];
         } else {
-            // Points of one line, or one point, leave the turn open: the normal fixes it.
+            // If all points lie on one line or coincide, the turn is undetermined; the normal fixes it.
             const Vec3 tip = a_.reach * a_.normal.normalized(), other = -b_.reach * b_.normal.normalized();
             points.push_back({a_.centre + tip, b_.centre + other});
             points.push_back({a_.centre - tip, b_.centre - other});
@@ -262,7 +264,7 @@ private:
                 to.col(static_cast<Eigen::Index>(i)) = points[i][1];
             }
             const Eigen::Matrix4d fit = Eigen::umeyama(from, to, false);
-            if (count > 4) motion.matrix() = fit; // else the given turn is as good
+            if (count > 4) motion.matrix() = fit; // with fewer points the given turn is as accurate
         }
         if (!fits(motion)) return std::nullopt;
         return motion;
@@ -351,7 +353,7 @@ private:
     std::span<const AssemblyMember> members_;
     double grid_, tolerance_ = 0;
     Side a_, b_;
-    double off_ = kInfinity; ///< of edges by the best motion so far
+    double off_ = kInfinity; ///< largest misfit of edges under the best motion so far
 };
 
 } // namespace
@@ -377,7 +379,9 @@ double grid_of(std::span<const AssemblyMember> members)
             largest = std::max(largest, p.cwiseAbs().maxCoeff());
     int exponent = 0;
     std::frexp(largest, &exponent);
-    return std::ldexp(1.0, exponent + 3 - std::numeric_limits<double>::digits); // 3: four times, and halves
+    return std::ldexp(1.0, exponent + 3 - std::numeric_limits<double>::digits); // 3 bits: two for four times
+                                                                                // the coordinates, one for
+                                                                                // halves
 }
 
 void tie_points(std::vector<Vec3>& places, const std::vector<char>& fixed, std::span<const Tie> ties,
@@ -412,7 +416,8 @@ void tie_points(std::vector<Vec3>& places, const std::vector<char>& fixed, std::
             if (done[way.to] != 0) continue;
             done[way.to] = 1;
             const Vec3 moved = way.onto * places[way.from];
-            // Nodes of edges were rotated already, in another order perhaps: neighbours have the same bits.
+            // Nodes of edges may have been rotated in another order already. Keep them, so that neighbours
+            // have the same bits.
             if (is_translation(way.onto) || (moved - places[way.to]).norm() > kRounding * grid)
                 places[way.to] = moved;
             add(way.to);

@@ -31,15 +31,15 @@ constexpr std::size_t kTurnChords = 8;
 /// Mean data of the columns between both rims.
 struct Columns {
     double length = 0;
-    double turning = 0; ///< from the source to the target [radian]
+    double turning = 0; ///< total turning from the source to the target [radian]
     double sides = 0;   ///< number of layers by the size in the middle of each column
     /// Layers required by the size from the source to evenly spaced positions; empty: the size is constant
     /// along the sweep.
     std::vector<double> wanted;
 };
 
-/// Turning angle of a column: bends between chords, with the bends at both ends estimated from their
-/// neighbours [radian].
+/// Turning angle of a column [radian]: the sum of the bends between chords. The bends at both ends are
+/// estimated from their neighbours.
 double turning_of(const std::vector<Vec3>& points)
 {
     const std::size_t step = (points.size() - 1) / kTurnChords;
@@ -184,7 +184,7 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
     return heights;
 }
 
-/// Move the layer nearest to each corner of a path onto it, and those between in proportion.
+/// Move the layer nearest to each corner of a path onto the corner, and the layers between in proportion.
 /// @throw NotSweepable  fewer layers than parts of the path.
 std::vector<double> through_corners(const std::vector<double>& heights, const std::vector<double>& levels)
 {

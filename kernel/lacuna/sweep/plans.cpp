@@ -79,8 +79,8 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
     return plans;
 }
 
-/// Factor on the sides per full turn when the plans are repeated at order 2: a quad with two sides on a round
-/// rim opens by nearly 180° between them, and sides of half the length give another layout there. Not
+/// Factor on the sides per full turn when the plans are repeated at order 2. A quad with two sides on a round
+/// rim has an angle of nearly 180° between them; sides of half the length change the layout there. Not
 /// measured.
 constexpr int kMoreSides = 2;
 

@@ -87,7 +87,7 @@ std::string in_words(const Improved& improved)
         "{:.3f}{}",
         improved.untangled ? "untangled" : "improved", improved.cells, improved.moved, improved.before,
         improved.after, improved.mean_before, improved.mean_after,
-        improved.unfinished ? "; ended before it was done: improve = { seconds = … } gives it more" : "");
+        improved.unfinished ? "; stopped by the limit of work, or by improve = { seconds = … }" : "");
 }
 
 } // namespace

@@ -168,7 +168,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
                 "{} {} not valid at order 2: the Jacobian is not positive everywhere in {} (layer {} of {}). "
                 "Its skin is straight",
                 count, cells, own, layer, mesh.layers)
-                .remedy("a smaller size may do, or order 1"));
+                .remedy("try a smaller size, or use order = 1"));
     Argument face = "the skin";
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
         const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
@@ -188,18 +188,18 @@ double valid_share(const std::array<Vec3, 27>& nodes)
     Message refusal(
         kCode,
         "{} {} not valid at order 2: the Jacobian is not positive everywhere in {} (layer {} of {}). "
-        "The middle node of a side on {} belongs at {}, {:.2g} off a side of {:.2g}",
+        "The middle node of a side on {} must lie at {}, {:.2g} off a side of length {:.2g}",
         count, cells, own, layer, mesh.layers, face, place_in_short(mesh.node(index(nodes.node[*worst]))),
         found(most), side);
     // If the straight cell is good, the bend is the cause, and the size that the bend requires will help.
     if (straight < kPoorCell)
         throw NotSweepable(std::move(refusal).remedy(
-            "the cell is poor with straight sides already: its scaled Jacobian is {:.2g}", found(straight)));
+            "the cell is already poor with straight sides: its scaled Jacobian is {:.2g}", found(straight)));
     if (*worst < kFirstUpright)
         throw NotSweepable(
-            std::move(refusal).remedy("by its bend a size of {:.2g} would do", needed(share * side)));
+            std::move(refusal).remedy("use a size of {:.2g}, which fits the bend", needed(share * side)));
     const int layers = share > 0 ? static_cast<int>(std::ceil(mesh.layers / share)) : 2 * mesh.layers;
-    throw NotSweepable(std::move(refusal).remedy("by its bend {} layers would do instead of {}",
+    throw NotSweepable(std::move(refusal).remedy("use {} layers, which fit the bend, instead of {}",
                                                  needed(layers), found(mesh.layers)));
 }
 

@@ -109,7 +109,7 @@ double area_under_arcs(std::span<const RimChord> one, std::span<const RimChord> 
     const auto sum = [&](std::span<const RimChord> own, std::span<const RimChord> there) {
         double area = 0;
         for (const RimChord& chord : own) {
-            const double whole = 2 * (chord.to - chord.from).norm() * chord.bulge.norm() / 3; // of a parabola
+            const double whole = 2 * (chord.to - chord.from).norm() * chord.bulge.norm() / 3; // a parabola
             if (whole > 0 && off_arcs(chord.from, there) <= tolerance &&
                 off_arcs(chord.to, there) <= tolerance)
                 area += whole;

@@ -20,7 +20,8 @@ struct SecondOrderOptions {
     bool serendipity = false;     ///< hex20 instead of hex27
     GivenMiddles given;           ///< null: none
     GivenCentres given_centres{}; ///< given centres for hex27; null: none
-    bool given_all_over = false;  ///< both are used on the whole skin, not only on faces with a given mesh
+    bool given_all_over = false;  ///< whether both apply to the whole skin, not only to faces with a given
+                                  ///< mesh
 };
 
 } // namespace lacuna::sweep

@@ -28,11 +28,11 @@ namespace {
 constexpr double kMostly = 0.5;
 /// Faces that share a smaller fraction only touch along their rims.
 constexpr double kNothing = 1e-3;
-/// Points of one rim may be off the chords of the other by this factor times their sag, because the sag is an
-/// estimate.
+/// Points of one rim may be off the chords of the other by this factor times the sag of the chords, because
+/// the sag is an estimate.
 constexpr double kRimSag = 1.5;
-/// Faces that touch along a rim and curve away from each other are within the facet error for a smaller
-/// share.
+/// Faces that touch along a rim and curve away from each other are within the facet error over less than this
+/// share of their area.
 constexpr double kAlongRim = 0.5;
 /// Points count as lying on a volume's skin within this share of its diagonal, because the facets of its
 /// curved faces and of the neighbour's may differ.
@@ -95,7 +95,8 @@ bool rim_lies_on(const Side& one, const Side& other, double tolerance)
 
 bool is_void(const Side& side) { return side.face_data().origin == Origin::made_void; }
 
-/// Whether faces in two boxes can share more than a line: the boxes do so if each is widened by a limit.
+/// Whether faces in two boxes can share more than a line. This holds if the boxes, each widened by a limit,
+/// overlap.
 bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double limit)
 {
     const Vec3 common = (a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min())).array() + limit;
@@ -106,10 +107,11 @@ bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, doub
 struct InCommon {
     bool any = false, whole = false;
     double limit = 0; ///< maximum distance of the facets of the same surface
-    /// Reason if a part is shared; if nothing is shared, the reason for overlapping volumes.
+    /// The reason to refuse the pair: a face that is shared in part or, if nothing is shared, overlapping
+    /// volumes.
     std::optional<Message> refusal;
     double apart = 0; ///< for one common face: distance of the arcs of both rims
-    double sag = 0;   ///< maximum distance of their chords from these
+    double sag = 0;   ///< maximum distance of the rims' chords from these arcs
 };
 
 /// One face in two members, whose rims may be apart. @return  whether they are the same face nevertheless
@@ -118,7 +120,7 @@ bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& 
 {
     RimOff off = rim_off(one, other);
     const RimOff back = rim_off(other, one);
-    // A rim that was laid onto facets is off the curve by as much as these.
+    // A rim that was projected onto facets is as far off the curve as these facets.
     const double slack = std::max(tolerance + kRimSag * std::max(off.sag, back.sag), common.limit);
     if (back.distance > off.distance) off = back;
     if (off.distance <= tolerance) return true;
@@ -148,7 +150,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
 {
     const double limit = tolerance + one.sag + other.sag;
     if (!share_area(one.box, other.box, limit)) return {};
-    // A face that closed an opening is the neighbour's given face in the same place.
+    // A void face is the same face as a neighbour's given face with the same rim.
     bool same = (is_void(one) || is_void(other)) && rim_lies_on(one, other, tolerance) &&
                 rim_lies_on(other, one, tolerance);
     if (!same && overlap == nullptr) return {};
@@ -161,7 +163,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                      whole_other = face_area(other.model(), other.face);
         const double there = overlap->a.on / whole, back = overlap->b.on / whole_other;
         if (there <= kNothing && back <= kNothing) return {};
-        // The faces lie on both sides of one curve, which they approximate by different chords.
+        // The faces lie on both sides of one curve and approximate it by different chords.
         if (std::max(there, back) < kMostly) {
             const double under = area_under_arcs(rim_chords(one.model(), one.face),
                                                  rim_chords(other.model(), other.face), tolerance);
@@ -199,7 +201,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
     return common;
 }
 
-/// Rims that agree within the sag of their chords but do not lie on one curve: the gap is closed.
+/// Report rims that agree within the sag of their chords but do not lie on one curve; the gap is closed.
 NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFace& faces,
                 const InCommon& common, double area, double tolerance)
 {
@@ -236,7 +238,7 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
     const Eigen::AlignedBox3d inner(box_of_b.min().array() + inside_by, box_of_b.max().array() - inside_by);
     if (inner.isEmpty() || !inner.intersects(box_of_a) || !free_edges(*b.volume).empty()) return;
     std::vector<Triangle> own, others;
-    std::vector<double> sag; // of the face of each of `own`
+    std::vector<double> sag; // sag of the face that each facet of `own` belongs to
     for (const Side& side : sides_of_a) {
         own.insert(own.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
         sag.resize(own.size(), side.sag);

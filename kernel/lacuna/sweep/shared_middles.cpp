@@ -9,7 +9,8 @@
 
 namespace lacuna::sweep {
 
-/// Add the middles of a quad or triangle of the skin. @param wanted  whether that of a side is, by its ends
+/// Add the middles of a quad or triangle of the skin. @param wanted  whether the middle of a side is added,
+/// by the side's ends
 template <class Mesh, class Wanted>
 bool SharedMiddles::add_quad(const Mesh& mesh, std::size_t i, const Wanted& wanted)
 {

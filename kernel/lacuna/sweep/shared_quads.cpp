@@ -52,7 +52,7 @@ std::vector<Index> same_places(std::span<const Vec3> a, std::span<const Vec3> b,
     std::vector<Index> twin(a.size(), -1);
     std::vector<char> used(b.size(), 0);
     std::size_t first = 0;
-    // Includes the rounding of positions along the line.
+    // The slack includes the rounding of positions along the line.
     const double slack = within +
                          1e-15 * std::max(std::abs(line_a.front().first), std::abs(line_a.back().first));
     for (const auto& [at, place] : line_a) {

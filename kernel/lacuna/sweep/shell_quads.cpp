@@ -112,7 +112,7 @@ ShellQuads shell_quads(const Model& model, const SweepOptions& options, const Ru
     for (std::size_t q = 0; q < order.size(); ++q) order[q] = q;
     std::ranges::stable_sort(order, {}, [&](std::size_t q) { return source.quads.face[q]; });
     for (const std::size_t q : order) {
-        const Quad quad = mesh::turned_over(source.quads.quads[q]); // whose normals are into a volume
+        const Quad quad = mesh::turned_over(source.quads.quads[q]); // its quads have normals into a volume
         mesh::CellNodes& own = shell.quads.emplace_back();
         own.count = mesh::corner_count(quad);
         std::copy_n(quad.begin(), own.count, own.node.begin());

@@ -35,8 +35,8 @@ public:
         EdgeId edge;
         double fraction = 0; ///< share of its length
     };
-    /// The position halfway between two points on the edges between two faces; empty if there is no such
-    /// edge, or if the side does not lie on it.
+    /// The position halfway between two points on an edge between two faces. Empty if the faces have no
+    /// common edge, or if the side does not lie on it.
     std::optional<Place> half_way(FaceId one, FaceId other, const Vec3& from, const Vec3& to)
     {
         const auto found = between_.find(std::minmax(one, other));
@@ -62,13 +62,13 @@ public:
     }
 
 private:
-    /// Nodes of an edge lie on it, and deviate from its chords by no more than their sag.
+    /// Nodes of an edge are at most as far from its chords as the sag of the chords.
     static constexpr double kNear = 0.1;
 
     struct Curve {
         geometry::FacetTree tree;
         std::vector<EdgeId> edge; ///< for each side
-        std::vector<double> arc;  ///< of the edge's start, for each edge
+        std::vector<double> arc;  ///< for each edge, the running length at its start
     };
 
     Curve& curve_of(const std::vector<EdgeId>& edges)
@@ -101,7 +101,7 @@ private:
     std::map<std::vector<EdgeId>, Curve> curves_;
 };
 
-/// A position on a side, exactly in its middle if it differs from that by rounding only.
+/// A position on a side, or exactly the side's midpoint if the difference is only rounding.
 Vec3 settled(const SideOfSkin& side, const Vec3& at)
 {
     const Vec3 straight = (side.from + side.to) / 2;

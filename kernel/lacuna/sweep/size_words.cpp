@@ -78,7 +78,7 @@ std::vector<std::string> sizes_in_words(const OpenVolume& volume, const OpenVolu
     if (options.layers.count == 0 && options.layers.heights.empty()) {
         lines.push_back(formatted("layer count: {} by default, {}", layers.count,
                                   layers.by_rows    ? "the rows of quads that walls came with"
-                                  : layers.by_bends ? "for the bends of the walls, as curvature says"
+                                  : layers.by_bends ? "for the bends of the walls, by 'curvature'"
                                   : !options.size && layers.count == kDefaultGap
                                       ? "about as high as the size, and three at least"
                                       : "about as high as the size"));

@@ -32,8 +32,8 @@ constexpr double kMostForWidth = 20000;
 /// workstation's memory in a solver, and often come from a length in the wrong unit. Not measured.
 constexpr double kMostUnasked = 50e6;
 
-/// Expected number of sides on faces of a role: quads with a power of 2, sides across them with 1. If some
-/// faces keep given quads, all count like these, otherwise by the size.
+/// Expected number on faces of a role: of quads if `power` is 2, of sides across them if it is 1. If some
+/// faces keep given quads, all faces are counted with the density of these, otherwise by the size.
 double sides_over(const OpenVolume& volume, Role role, const surface::SizeField& size, int power,
                   const SweepOptions& options)
 {
@@ -62,8 +62,8 @@ double sides_over(const OpenVolume& volume, Role role, const surface::SizeField&
     return given_area > 0 ? given * all_area / given_area : by_size;
 }
 
-/// Additional quads due to the curvature of the rims. If sides grow by 0.3 per length away from the rim, as
-/// in the paver, their number is the integral of the inverse square of the side.
+/// Additional quads due to the curvature of the rims. Sides grow by 0.3 per length away from the rim, as in
+/// the paver; the number of quads is then the integral of the inverse square of the side.
 double quads_by_turns(std::span<const surface::LinkingSurface> links, const Model& model,
                       const surface::SizeField& size, int per_turn)
 {
@@ -100,7 +100,7 @@ ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, c
                 found(quads), found(asked))
                 .remedy("use a larger 'size' or fewer 'layers'"));
     if (layers > 0 && options.size) return {quads * layers, 0};
-    if (layers == 0) { // the mean width of walls is that of both rims
+    if (layers == 0) { // the mean width of the walls is the mean length of both rims
         double width = 0;
         for (const Role end : {Role::source, Role::target})
             for (const Rim& rim : rims(volume.model, volume.faces(end)))

@@ -32,8 +32,8 @@ Vec3 along(const Vec3& move, const Vec3& normal)
     return squared > 0 ? Vec3(move - normal * (normal.dot(move) / squared)) : move;
 }
 
-/// Change the weights of the neighbours so that their mean is the node itself, seen along its normal; their
-/// sum is unchanged.
+/// Change the weights of the neighbours so that their weighted mean, projected along the node's normal, is
+/// the node itself. The sum of the weights is unchanged.
 void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbours, const Vec3& node,
                    const Vec3& normal, std::span<double> weights)
 {
@@ -60,7 +60,7 @@ void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbour
     std::vector<double> turned(weights.begin(), weights.end());
     const Vec2 pull = inverse * mean;
     for (std::size_t k = 0; k < neighbours.size(); ++k) turned[k] *= 1 - pull.dot(seen(neighbours[k]) - mean);
-    // Negative weights can fold the mesh; then the sides' own weights are used.
+    // Negative weights can fold the mesh; in that case the sides' own weights are kept.
     if (std::ranges::all_of(turned, [](double w) { return w > 0; })) {
         std::copy(turned.begin(), turned.end(), weights.begin());
     }

@@ -162,7 +162,8 @@ private:
         } catch (const NotSweepable& error) {
             const Message why = error.message().about(words);
             tried_.push_back(why.text());
-            const bool own = error.code() == kOwnTriangles; // any plan without wedges would have to keep them
+            const bool own = error.code() == kOwnTriangles; // without wedges, no plan could remesh the given
+                                                            // triangles
             if (own) left_[plan.wedges] = 0;
             refusal_ = refusal_ && !own ? refusal_->attempt(why) : error.message();
         }
@@ -196,7 +197,8 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
                                .remedy("leave one of them out"));
     }
     spec.count = layers->count;
-    // Edges run from the end at which the sweep starts; layers run from the source named by the user.
+    // The bias of an edge counts from the end at which the sweep starts; the bias of layers counts from the
+    // source named by the user.
     const bool turn = volume.turned_round && !layers->from_named_source;
     spec.bias = turn ? 1 / layers->bias : layers->bias;
     return options;
@@ -236,8 +238,8 @@ std::string volume_in_words(const Swept& swept)
     for (const Segment& side : swept.mesh.rim)
         length += (swept.mesh.nodes[index(side[1])] - swept.mesh.nodes[index(side[0])]).norm();
     return formatted(
-        "the mesh has {:.2g} % {} volume than what was sealed; by the sag of straight sides size = "
-        "{:.2g} and layers = {} keep it within 1 %",
+        "the mesh has {:.2g} % {} volume than the sealed shape; size = {:.2g} and layers = {} should keep "
+        "the difference within 1 %",
         100 * std::abs(lost), lost > 0 ? "less" : "more",
         part * length / static_cast<double>(swept.mesh.rim.size()),
         static_cast<int>(std::ceil(swept.mesh.layers / part)));
@@ -247,8 +249,8 @@ std::string volume_in_words(const Swept& swept)
 std::string poor_in_words(double least)
 {
     return formatted(
-        "the least scaled Jacobian is {:.2g}; look whether the shape has corners as sharp as that "
-        "there, ask for another 'size', or have such meshes refused by 'min_scaled_jacobian'",
+        "the least scaled Jacobian is {:.2g}; check the shape for a corner that sharp, try another 'size', "
+        "or set 'min_scaled_jacobian' to refuse such meshes",
         least);
 }
 

@@ -89,13 +89,13 @@ struct Beside {
 enum class Fallback {
     none,      ///< an error
     wedges,    ///< repeat with `SweepOptions::wedges`
-    leave_out, ///< mesh the other volumes of an assembly without it; alone it is an error
-    mixed      ///< likewise, for a caller that fills it with tetrahedra: `fill::sweep()`
+    leave_out, ///< leave it out and mesh the other volumes of an assembly; an error for a single volume
+    mixed      ///< as `leave_out`, for a caller that fills the volume with tetrahedra: `fill::sweep()`
 };
 
-/// Default number of quads across a narrow place of the source, and of layers. Paving meets a size on
-/// average: with three there are at least two across, with two half of the tested places had one (rings and
-/// channels 0.02 to 1 wide).
+/// Default number of quads across a narrow place of the source, and of layers. Paving meets a size only on
+/// average. With a default of three, all tested places had at least two quads across; with two, half of them
+/// had only one (rings and channels 0.02 to 1 wide).
 inline constexpr int kDefaultGap = 3;
 
 struct SweepOptions {
@@ -105,12 +105,14 @@ struct SweepOptions {
     /// If straight sides on bends change the mesh's volume by more than this share, bends get more sides as
     /// far as that helps [0, 1); 0: never.
     double volume_share = 0.02;
-    int gap = 0; ///< least quads across a narrow place of the source, >= 0; 0: none, without a size 3
+    int gap = 0; ///< least number of quads across a narrow place of the source, >= 0; 0: none, or 3 if no
+                 ///< size is given
     /// Allowed distance between the skins, >= 0 [model length]; 0: default of `FidelityOptions`.
     double max_deviation = 0;
     Quads quads = Quads::automatic;
     /// Given triangles of an end are kept and swept to wedges. If all sides of a rim are given and their
-    /// number is odd, one triangle compensates for it. Without: such an end is an error, or a side is split.
+    /// number is odd, one triangle is added. Without `wedges`, such triangles are an error, and a side of
+    /// such a rim is split.
     bool wedges = false;
     Fallback fallback = Fallback::none;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
@@ -155,7 +157,7 @@ struct Swept {
     std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
     std::vector<std::string> report; ///< a line for each stage: seeds, quads, walls, target, layers, shape
     /// The lines of the report on default sizes and layer counts, and on poor cells that result from them.
-    /// They are logged as well, once, for an assembly by the caller that sweeps the whole.
+    /// They are also logged once; for an assembly, by the caller that sweeps the whole.
     std::vector<std::string> defaults;
     std::vector<std::string> notes;    ///< lines on a changed volume; logged likewise, after "note: "
     std::vector<std::string> not_kept; ///< the lines of the report on given meshes that are not kept

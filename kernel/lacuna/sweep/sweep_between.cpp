@@ -40,8 +40,8 @@ using namespace topology;
 
 namespace {
 
-/// Whether walls are meshed in parallel with the source's quads: if these take long on one thread, and both
-/// do not use the same process.
+/// Whether walls are meshed in parallel with the source's quads. This pays if the quads take long on one
+/// thread; it is possible if both do not need the same CAD process.
 bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
                   const std::vector<surface::LinkingNodes>& rim, const std::vector<double>& heights)
 {
@@ -53,8 +53,9 @@ bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
     if (!free || std::ranges::any_of(volume.model.faces, exact) ||
         std::ranges::any_of(volume.model.edges, on_curve))
         return false;
-    // The time for quads grows with the square of the rim, that for walls with rim times layers; with many
-    // layers, walls would take longer on their one thread. Measured: 4 µs per quad, 0.6 µs per wall node.
+    // The time for quads grows with the square of the rim, the time for walls with rim times layers. With
+    // many layers the walls, which get one thread here, would take longer. Measured: 4 µs per quad, 0.6 µs
+    // per wall node.
     std::size_t round = 0;
     for (const surface::LinkingNodes& nodes : rim) round += nodes.source_at.size();
     return 2 * heights.size() <= round;
@@ -149,7 +150,8 @@ std::vector<std::pair<Index, Vec3>> in_order(std::vector<std::pair<Index, Vec3>>
     return {once.begin(), once.end()};
 }
 
-/// Move skin nodes onto the neighbours'. Layers whose cells are then poor are stored as nodes.
+/// Move skin nodes onto the neighbours' nodes. If cells of generated layers become poor, the nodes of the
+/// layers are stored.
 void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept,
                          std::optional<GoodLayers>& good, const SweepOptions& options,
                          const RunContext& context)
@@ -174,8 +176,8 @@ void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept
     good.reset();
 }
 
-/// Whether only the layer placement determines inner nodes. Neighbours look up each other's middle nodes in
-/// stored meshes.
+/// Whether only the layer placement determines inner nodes. At order 2, members with neighbours are excluded,
+/// because neighbours look up each other's middle nodes in stored meshes.
 bool may_be_layered(const SweepOptions& options)
 {
     return options.layered && (options.order == 1 || !options.beside.settle) &&
@@ -203,20 +205,20 @@ void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, 
             "{} has given quads, which are kept, so boundary layers cannot be placed along its rim",
             entity_of(volume.model, face));
         if (!options.beside.own_mesh) throw NotSweepable(std::move(refusal));
-        throw NotSweepable(std::move(refusal).remedy(
-            "quads = \"paved\" meshes it anew, as does loading with keep_mesh = false"));
+        throw NotSweepable(
+            std::move(refusal).remedy("remesh it with quads = \"paved\", or load with keep_mesh = false"));
     }
 }
 
-/// The motion that made the walls, if the target has a face for each of the source's; else null.
+/// The motion that made the walls, if the target has one face for each face of the source; else null.
 geometry::MotionPointer moving_faces(const OpenVolume& volume)
 {
     const bool alike = volume.faces(Role::source).size() == volume.faces(Role::target).size();
     return alike ? surface::swept_motion(volume) : nullptr;
 }
 
-/// Imprint of the target's inner edges on the source; empty if there are none, or if both ends have given
-/// meshes that may be the same graph.
+/// Imprint of the target's inner edges on the source. Empty if there are none, or if both ends have given
+/// meshes, which may have the same graph.
 std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
                                            const std::vector<surface::LinkingSurface>& links,
                                            const surface::SizeField& size, bool wedges)
@@ -305,7 +307,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const bool keeps_target = !given_target.face.empty();
     const bool moved = motion && !keeps_target;
     if (!keeps_target && !imprint && !moved && !surface::inner_edges(volume, Role::target).empty())
-        imprint = surface::imprint_target(volume, links, size); // refuses what keeps its quads, by name
+        imprint = surface::imprint_target(volume, links, size); // refuses faces that keep their quads, by
+                                                                // name
     EndFaces ends = end_faces(volume, source, imprint, motion != nullptr);
     if (keeps_target) ends.target = std::move(given_target.face);
     if (!given_target.why.empty()) {
@@ -366,7 +369,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         if (volume.model[wall].origin != Origin::given || std::ranges::find(faces, wall) != faces.end())
             continue;
         result.report.push_back(
-            formatted("walls: {} is smaller than the quads there and has none, nor a group",
+            formatted("walls: {} is smaller than the quads there, so it gets no quads and no group",
                       entity_of(volume.model, wall)));
     }
     report_progress(context, "proof of every cell");

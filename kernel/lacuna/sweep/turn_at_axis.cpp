@@ -25,7 +25,8 @@ using namespace topology;
 
 namespace {
 
-/// Least layers of a full turn, as of one of hexahedra alone: with fewer, a cell spans 120° or more.
+/// Least number of layers of a full turn, as for hexahedra alone: with fewer layers, a cell spans 120° or
+/// more.
 constexpr int kLeastPerTurn = 4;
 /// Angle of a layer with which chords lose 1 % of a circle's area [radian].
 const double kOnePercent = std::sqrt(0.06);
@@ -66,7 +67,7 @@ private:
         std::size_t quad;
     };
 
-    /// The face that stands for what parts share.
+    /// A face id that stands for the face between two parts.
     [[nodiscard]] FaceId between() const { return FaceId(flat_.model.faces.size()); }
 
     /// The mesh may have been swept from either end of the flat volume.
@@ -88,7 +89,7 @@ private:
         }
     }
 
-    /// Have the quads look along the turn.
+    /// Orient the quads in the direction of the turn.
     void orient()
     {
         const double sense = turn_.angle < 0 ? -1 : 1;
@@ -113,8 +114,9 @@ private:
     {
         const LayerSpec& spec = options_.layers;
         if (!spec.heights.empty() || spec.bias != 1)
-            throw InvalidInput(Message("sweep.axis_layers", "layers round an axis with wedges are even")
-                                   .remedy("give their number alone"));
+            throw InvalidInput(
+                Message("sweep.axis_layers", "layers around an axis with wedges have equal angles")
+                    .remedy("give only their number"));
         const double turn = std::abs(turn_.angle);
         const int least = static_cast<int>(std::ceil(kLeastPerTurn * turn / kFullTurn - kSamePlace));
         layers_ = spec.count;
@@ -158,8 +160,8 @@ private:
         for (const Index n : quad) centre += nodes_[index(n)] / 4;
         throw NotSweepable(
             Message("sweep.axis_corner",
-                    "a quad of the source, at {}, touches the axis with a corner alone, so that "
-                    "it sweeps to no cell",
+                    "a quad of the source, at {}, touches the axis with one corner only, which "
+                    "gives no valid cell",
                     place_with_digits(centre, 4))
                 .remedy("use another 'size', or quads = \"paved\""));
     }
@@ -186,7 +188,7 @@ private:
         return all;
     }
 
-    /// The place of a node of the source in a layer; those on the axis stay.
+    /// The place of a source node in a layer; a node on the axis stays.
     [[nodiscard]] Vec3 place(Index node, int layer) const
     {
         const Vec3& at = nodes_[index(node)];
@@ -196,7 +198,7 @@ private:
         return turn_.point + map * (at - turn_.point);
     }
 
-    /// The patches of a part, of which each is added when it is first used.
+    /// The patches of a part; a patch is added when it is first used.
     struct Patches {
         const Swept& base;
         FaceId between;
@@ -291,7 +293,8 @@ private:
         mesh.volume_groups = base_.mesh.volume_groups;
     }
 
-    /// Prove the parts, and compare their volume with that of the turned facets of the source.
+    /// Prove the parts, and compare their total volume with the volume that the source's facets sweep in the
+    /// turn.
     void measure()
     {
         double exact = 0, all = 0;
@@ -325,7 +328,7 @@ private:
                                    exact, radius_ * (1 - std::cos(half))));
         if (std::abs(all / exact - 1) <= kVolumeNoted) return;
         report.push_back(formatted(
-            "note: the mesh has {:.2g} % less volume than what was sealed; layers = {} keep it within 1 %",
+            "note: the mesh has {:.2g} % less volume than the sealed shape; layers = {} keep it within 1 %",
             100 * (1 - all / exact), static_cast<int>(std::ceil(std::abs(turn_.angle) / kOnePercent))));
         log_line(context_, report.back());
     }
@@ -335,9 +338,9 @@ private:
     const Swept& base_;
     const SweepOptions& options_;
     const RunContext& context_;
-    std::vector<Vec3> nodes_; ///< of the source
+    std::vector<Vec3> nodes_; ///< nodes of the source
     std::vector<Quad> quads_;
-    std::vector<char> on_axis_;      ///< nodes
+    std::vector<char> on_axis_;      ///< for each source node, whether it is on the axis
     std::vector<Index> start_, end_; ///< patch of each quad at both ends of the turn
     std::map<Segment, Index> wall_;  ///< patch of the wall of each side of the rim
     std::vector<std::size_t> rest_;  ///< quads away from the axis

@@ -23,17 +23,17 @@ using namespace topology;
 
 namespace {
 
-/// Allowed relative volume error with default numbers: in total, and the shares of the curvature of the ends
-/// and of the curvature along the sweep, where present. The total must stay below 1 %; the margin covers
+/// Allowed relative volume error with default numbers: in total, then the shares of the curvature of ends and
+/// of the curvature along the sweep, where these exist. The total must stay below 1 %; the margin covers
 /// effects that the model ignores.
 constexpr double kAllLost = 0.008, kLostByEnds = 0.002, kLostByLayers = 0.003;
 /// Upper bound of sides per full turn: the area of an inscribed polygon of 100 sides is off by 0.07 %.
 constexpr int kMostPerTurn = 100;
-/// Creases across an end are resolved up to this many sides per turn. More are fine facets, for which
-/// reducing the size is enough.
+/// Creases across an end are resolved up to this many sides per turn. If more are needed, the creases are
+/// only fine facets, and a smaller size is enough.
 constexpr int kMostForCreases = 40;
-/// Curvature of an end reduces its quad size to this fraction at least, and further as long as the end has no
-/// more than this many quads. Neither value is measured.
+/// The curvature of an end may reduce its quad size to the first value as a fraction, and further as long as
+/// the end has at most as many quads as the second value. Neither value is measured.
 constexpr double kLeastPart = 0.25, kMostForEnds = 2000;
 /// Quads inside ends are longer than the size. Measured on domes with six to twelve sides: their quad count
 /// is half to two thirds of their area divided by the squared size.
@@ -41,8 +41,8 @@ constexpr double kLonger = 1.35;
 /// Upper bound of the mean elongation of quads on an end, √(area / projected area): steeper ends, such as
 /// most of a ball, are not paved in one plane.
 constexpr double kSteepest = 2;
-/// Factor by which an end may have fewer rim sides than the size asks for, so that its grid closes: 16
-/// instead of 24.
+/// Factor by which an end may have fewer rim sides than the size requires, so that its grid closes: 16
+/// instead of 24, for instance.
 constexpr double kFewer = 1.5;
 /// Factor between the sizes that are tried.
 constexpr double kSmaller = 0.9;
@@ -63,7 +63,7 @@ double area_of(const OpenVolume& volume, Role end)
     return area;
 }
 
-/// The volume that an end loses by its own curvature, without creases between nodes of its rims.
+/// The volume that an end loses by its own curvature. Creases between nodes of its rims are not counted.
 double lost_on_end(const OpenVolume& volume, Role end, double scale, const SweepOptions& options,
                    const surface::SizeField& size, const std::set<Index>& kept)
 {
@@ -114,9 +114,10 @@ struct Sides {
     double part = 1;
 };
 
-/// Rows of points on the walls of each linking surface, many more than a mesh has; a mesh takes nodes from
-/// between them. The enclosed volume is summed over wall quads, plus cones that close the ends: from one apex
-/// over the rims of the target, and from the origin over those of the source.
+/// Rows of points on the walls of each linking surface, with many more columns and rows than a mesh. A mesh
+/// takes its nodes from positions between these points. The enclosed volume is summed over wall quads, plus
+/// cones that close the ends: one apex serves all rims of the target, and the origin serves the rims of the
+/// source.
 class Walls {
 public:
     Walls(const OpenVolume& volume, std::vector<surface::LinkingSurface> links, const SweepOptions& options,
@@ -199,7 +200,7 @@ public:
 private:
     struct Segment {
         int first = 0, fine = 1; ///< index of its first column, and number of its columns
-        bool fixed = false;      ///< one side, whatever the requested number
+        bool fixed = false;      ///< a single side, even if more are requested
         double by_size = 1;      ///< number of sides that the size asks for
         double turn = 0;         ///< turning angle of the rim [radian]
 
@@ -217,7 +218,7 @@ private:
         surface::LinkingNodes nodes;
         std::vector<std::vector<Vec3>> rows;
         double sign = 1;   ///< sign of its enclosed volume
-        double within = 0; ///< six times the volume within its walls
+        double within = 0; ///< six times the volume enclosed by its walls
     };
 
     /// Six times the volume that a mesh of the ring encloses.
@@ -294,7 +295,7 @@ public:
                 if (!is_enough(sides)) break;
             }
             if (ends_ > kLostByEnds) sides.per_turn = enough;
-        } else { // the walls bend more than their rims: sides per turn of the rims do not help
+        } else { // the walls bend more than their rims, so more sides on the rims do not help
             while (sides.part > least && !is_enough(sides)) sides.part *= kSmaller;
         }
         is_enough(sides);
@@ -304,9 +305,9 @@ public:
         return {sides.per_turn, sides.part, layers(sides, kLostByLayers)};
     }
 
-    /// If the requested sides lose too much, take sides that lose six tenths of the allowed share, which
-    /// leaves the rest for the layers. A polygon of n sides in a circle lacks about 2 π² / 3 n² of its area.
-    /// If that is not enough, sides are added as long as each step clearly helps.
+    /// If the requested sides lose too much, choose sides that lose six tenths of the allowed share; the rest
+    /// is left for the layers. A polygon of n sides in a circle lacks about 2 π² / 3 n² of its area. If that
+    /// is not enough, sides are added as long as each step clearly helps.
     VolumePlan by_numbers()
     {
         constexpr double kOfShare = 0.6, kHelps = 0.75;
@@ -350,7 +351,7 @@ private:
         walls_ = nullptr;
     }
 
-    /// The allowed error that remains after subtracting that of curvature along the sweep.
+    /// The allowed error minus the share reserved for curvature along the sweep.
     [[nodiscard]] double left() const { return kAllLost - (rims_->straight() ? 0 : kLostByLayers); }
 
     /// Whether the sides suffice on the rims and, if the walls bend between the rims, on the walls.
@@ -398,8 +399,9 @@ private:
     surface::RimFacets facets_{volume_, links_};
     std::vector<std::vector<std::pair<double, double>>> pairs_; ///< breaks that the model follows
     std::vector<char> on_crease_;
-    double on_ends_ = 0, ends_ = 0;       ///< lost on ends: without breaks, with current breaks
-    std::shared_ptr<Walls> rims_, walls_; ///< straight between the rims, and as given
+    double on_ends_ = 0, ends_ = 0;       ///< volume lost on ends: without breaks, and with the current
+                                          ///< breaks
+    std::shared_ptr<Walls> rims_, walls_; ///< wall models: straight between the rims, and as given
 };
 
 } // namespace

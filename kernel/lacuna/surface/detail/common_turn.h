@@ -14,11 +14,12 @@ namespace lacuna::surface {
 /// Position of a linking surface without side lines if all loops rotate as one rigid body.
 struct CommonTurn {
     double start = 0; ///< image of the source chain's start on the target chain [running length]
-    /// s of the target end of its shortest path, counting whole turns: see `LinkingSurface::branch`.
+    /// s of the target end of the shortest path up the walls, whole turns included: see
+    /// `LinkingSurface::branch`.
     double branch = 0;
 };
 
-/// Points around a ring: one every 4 degrees; a parabola interpolates the shift between them.
+/// Points around a ring: one every 3.75 degrees. A parabola interpolates the shift between them.
 inline constexpr std::size_t kRingPoints = 96;
 
 /// `kRingPoints` points at even steps of a closed chain.
@@ -29,12 +30,12 @@ std::vector<Vec3> round_points(const Chain& chain);
 /// @pre  `kRingPoints` points on both, at even steps.
 double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn);
 
-/// The rotations of linking surfaces without side lines; none for one that has them.
+/// The rotation of each linking surface without side lines; none for a linking surface with side lines.
 ///
-/// The rotation is the rigid motion that best fits the loops' centres and the points paired by side lines.
-/// Whole turns are those by which it differs least from the rotation of a loop's own walls. It is
-/// undetermined, and not returned, for a single loop, for concentric loops, for a loop with corresponding
-/// vertices, or if all linking surfaces have side lines.
+/// The rotation is that of the rigid motion that best fits the loops' centres and the points paired by side
+/// lines. Whole turns are added so that it differs as little as possible from the rotation that the loop's
+/// own walls give. The rotation is undetermined, and not returned, for a single loop, for concentric loops,
+/// for a loop with corresponding vertices, or if all linking surfaces have side lines.
 std::vector<std::optional<CommonTurn>> common_turns(std::span<const LinkingSurface> links);
 
 } // namespace lacuna::surface

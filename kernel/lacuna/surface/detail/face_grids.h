@@ -11,8 +11,8 @@
 /// Which source faces are mapped or submapped. Internal to this folder.
 namespace lacuna::surface {
 
-/// Mapped and submapped faces. In addition `Seeds::corners` has the mapped ones, and `Seeds::submapped` the
-/// others.
+/// Mapped and submapped faces. `Seeds::corners` lists the mapped faces too, and `Seeds::submapped` the
+/// submapped ones.
 struct FaceGrids {
     std::map<FaceId, std::vector<SidePair>> opposite; ///< pairs of sides that need equal counts
     std::map<FaceId, MappedFace> mapped;              ///< faces of four sides, with their grids

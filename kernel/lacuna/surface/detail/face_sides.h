@@ -33,9 +33,9 @@ std::optional<std::vector<std::size_t>> four_corners(const topology::Model& mode
 std::vector<SidePair> side_pairs(const topology::Model& model, FaceId face,
                                  const std::vector<std::size_t>& corners);
 
-/// The pairs of sides of a face whose loops turn by multiples of a right angle at vertices (rectilinear): of
-/// each loop the edges in one direction and those back. None if a vertex's angle does not fit a grid, or a
-/// loop does not turn exactly once.
+/// The pairs of sides of a rectilinear face, that is, of a face whose loops turn by multiples of a right
+/// angle at vertices. Each pair holds the edges of a loop that run in one direction, and those that run back.
+/// None if a vertex's angle does not fit a grid, or a loop does not turn exactly once.
 std::vector<SidePair> grid_sides(const topology::Model& model, FaceId face);
 
 /// Whether the lengths of opposite sides are similar.

@@ -11,10 +11,11 @@ namespace lacuna::surface {
 /// Curvature of a face at a vertex of its facets.
 struct PointCurvature {
     Vec3 point;
-    double most = 0;       ///< larger absolute principal curvature; 0: flatter than any size resolves
-    double sum = 0;        ///< of the absolute principal curvatures [1 / model length]
+    double most = 0;       ///< larger absolute principal curvature; 0: too flat to matter for any size
+    double sum = 0;        ///< sum of the absolute principal curvatures [1 / model length]
     double area = 0;       ///< a third of the facets at the point [model length²]
-    double least_size = 0; ///< half the shortest side of facets that are the shape; 0 with an exact surface
+    double least_size = 0; ///< lower bound of the size: half the shortest facet side at the point; 0 for a
+                           ///< face with an exact surface
 };
 
 /// The facets' curvature tensor (@cite cohensteiner_2003_tensor) over the facets at each vertex and at its

@@ -20,11 +20,12 @@ struct FineFacets {
 
     /// A point on an edge of the face.
     struct OnEdge {
-        double at = 0;    ///< side of the edge's own polyline, and share of it
+        double at = 0;    ///< number of the segment of the edge's polyline, plus the position within the
+                          ///< segment [0, 1]
         Index point = -1; ///< in `points`
     };
     std::map<EdgeId, std::vector<OnEdge>> edges; ///< in the direction of each edge, from end to end
-    /// Distance from the midpoint of each side to the exact face; on request.
+    /// Distance from the midpoint of each side to the exact face; only with `FineFacetOptions::bulges`.
     std::vector<std::array<Vec3, 3>> bulge;
 };
 
@@ -37,13 +38,12 @@ struct FineFacetOptions {
     bool bulges = false; ///< compute the bulges of the final facets
 };
 
-/// The facets of a face, refined where their deviation from the exact face is too large for quads of this
-/// size.
+/// The facets of a face, refined where they deviate too far from the exact face for quads of the given size.
 ///
-/// Facets made for display are large compared with fine quads: rim nodes, which lie on the exact edge, then
-/// stand up to a row's height off the facets. Midpoints lie on the exact edges and the exact surface; a facet
-/// with two sides to be bisected is split in four, with one in two. Without exact geometry the facets are not
-/// refined.
+/// Facets made for display are large compared with fine quads: rim nodes, which lie on the exact edge, would
+/// stand up to a row's height off the facets. Midpoints of bisected sides lie on the exact edges and the
+/// exact surface. A facet with one bisected side is split in two; with two bisected sides, the third is
+/// bisected as well and the facet is split in four. Without exact geometry the facets are not refined.
 FineFacets fine_facets(const topology::Model& model, FaceId face, const SizeField& size,
                        const FineFacetOptions& options = {});
 

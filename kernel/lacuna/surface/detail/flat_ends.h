@@ -41,7 +41,7 @@ struct FlatPiece {
     std::vector<double> at;
 };
 
-/// @param place  of each node.
+/// @param place  positions of the nodes.
 std::vector<FlatPiece> pieces_of(std::span<const FlatEdge> edges, std::span<const Vec2> place);
 
 /// Whether two pieces coincide: the same end nodes, and close to each other throughout.

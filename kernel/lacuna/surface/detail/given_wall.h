@@ -12,7 +12,8 @@ struct GivenWall {
     static constexpr Index kNotGiven = -1, kBetweenGiven = -2;
 
     std::size_t count = 0;   ///< nodes in a row
-    std::vector<Index> node; ///< model point of each node, by layer · count + node; or a constant
+    std::vector<Index> node; ///< model point of each node, by layer · count + node; or one of the constants
+                             ///< above
     std::vector<char> side;  ///< given quads, by layer · count + node
 
     [[nodiscard]] bool has_node(std::size_t layer, std::size_t at) const

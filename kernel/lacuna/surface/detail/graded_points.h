@@ -28,7 +28,7 @@ private:
         Eigen::AlignedBox3d box;
         double least = 0; ///< minimum over its points
         std::size_t begin = 0, end = 0;
-        std::size_t right = 0; ///< its second child; the first is the next node; 0: a leaf
+        std::size_t right = 0; ///< index of the second child; the first child follows its parent; 0: a leaf
     };
     std::size_t build(std::size_t begin, std::size_t end);
     void search(std::size_t node, const Vec3& place, double& least) const;

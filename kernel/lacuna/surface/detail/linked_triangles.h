@@ -21,14 +21,14 @@ public:
         Index twin = -1;
         Index line = -1;            ///< the line on which it lies; -1: inside a face
         double s = 0;               ///< position of `from` on that line
-        Vec3 normal = Vec3::Zero(); ///< of the face at `from`, unit
+        Vec3 normal = Vec3::Zero(); ///< unit normal of the face at `from`
     };
     struct Node {
         Vec3 at;
         double size = 0; ///< target length of the sides
         Index line = -1; ///< the line on which it may move; -1: in a face, or fixed
         bool fixed = false;
-        Index point = -1; ///< of the model; -1: new
+        Index point = -1; ///< point of the model; -1: a new node
         Index out = -1;   ///< a side that starts here
     };
     struct Owner {
@@ -75,7 +75,7 @@ public:
     /// Quality of a triangle: the tangent of its smallest angle; negative if it is turned away from the
     /// normals at its corners by more than 60°.
     [[nodiscard]] double quality(Index side) const;
-    /// The same with its node `moved` at another place.
+    /// The quality that the triangle would have with node `moved` at `place`.
     [[nodiscard]] double quality(Index side, Index moved, const Vec3& place) const;
 
     /// Insert a node on a side. @param normals  of the faces left and right of the side.

@@ -45,18 +45,22 @@ public:
     /// Strip coordinates of a model point of the walls; s modulo 1.
     [[nodiscard]] Vec2 place_of(Index point) const { return upright(strip_.row(point).transpose()); }
 
-    /// t at a share of the walls' length from source to target, averaged over the columns. With side lines t
-    /// is that share already; without them a harmonic t increases faster where the walls are narrow.
+    /// Convert a share of the walls' length from source to target, averaged over the columns, to t. With side
+    /// lines both are equal; without them the harmonic t increases faster where the walls are narrow.
     [[nodiscard]] double from_even(double height) const;
     /// s of the target end of the shortest path up a linking surface without side lines, counting whole
     /// turns.
     [[nodiscard]] double target_branch() const { return branch_; }
 
-    /// Rotation of the transported frames against the rims' segments: on the target, and the maximum over all
-    /// sections [turns].
+    /// Rotation of the transported frames against the rims' segments [turns]: on the target, and the maximum
+    /// over all sections.
     [[nodiscard]] double turn() const { return turn_; }
     [[nodiscard]] double most_turned() const { return most_turned_; }
-    [[nodiscard]] bool bends() const { return bends_; } ///< the line through the sections' centres
+    [[nodiscard]] bool bends() const
+    {
+        return bends_;
+    } ///< whether the line through the sections' centres
+      ///< bends
 
     /// A piece of an edge in the strip.
     struct Piece {
@@ -77,7 +81,8 @@ public:
         std::vector<Piece> pieces;
     };
     [[nodiscard]] const std::vector<Upright>& uprights() const { return uprights_; }
-    /// The strip's proportions: mean lengths in space of a whole s and a whole t.
+    /// The strip's proportions: its mean length in space around the walls (s from 0 to 1) and up the walls (t
+    /// from 0 to 1).
     [[nodiscard]] double width() const { return width_; }
     [[nodiscard]] double height() const { return height_; }
 
@@ -104,10 +109,10 @@ private:
     std::vector<Index> original_; ///< triangle of the linking surface behind each triangle of the tree
     double width_ = 1, height_ = 1;
     double branch_ = 0;
-    std::vector<double> even_; ///< share of the height at even steps of t; empty with side lines
+    std::vector<double> even_; ///< share of the walls' length at even steps of t; empty with side lines
     double turn_ = 0, most_turned_ = 0;
     bool bends_ = false;
-    std::vector<double> row_at_;               ///< t of rows of columns
+    std::vector<double> row_at_;               ///< t of each row of `columns_`
     std::vector<std::vector<double>> columns_; ///< for each row, harmonic s at even s; empty: identity
     geometry::FacetTree tree_;
     std::vector<Ring> rings_;

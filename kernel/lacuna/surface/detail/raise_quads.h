@@ -27,14 +27,14 @@ struct NodeFreedom {
     std::vector<OnFace> faces;
 };
 
-/// Move the nodes of poor quads, one at a time, to maximize the minimum sine of the corners around them, by
-/// pattern search on their edge or face.
+/// Move the nodes of poor quads, one at a time, to maximize the minimum sine of the corners around them. Each
+/// is moved by pattern search along its edge or on its face.
 ///
-/// Each face is meshed on its own, in a flat image and between prescribed nodes on shared edges; only here
-/// are the resulting poor quads seen in space. A node moves only if the worst corner around it improves, so
-/// the minimum over the mesh cannot fall. At the end nodes are projected onto the exact edges and faces; if
-/// the worst quad around them is then worse than before, all moves are undone.
-/// @return  of the edges with moved nodes, the new positions: as `OnEdge::at`.
+/// Each face was meshed on its own, in a flat image and between prescribed nodes on shared edges, so poor
+/// quads in space show only here. A node moves only if the worst corner around it improves, so the minimum
+/// over the mesh cannot fall. At the end nodes are projected onto the exact edges and faces; if the worst
+/// quad around the moved nodes is then worse than before, all moves are undone.
+/// @return  new positions of the nodes on edges with a moved node, as `OnEdge::at`.
 /// @note  Deterministic. O(quads), plus work for poor ones.
 std::map<EdgeId, std::vector<double>> raise_poor_quads(mesh::QuadMesh& mesh, const topology::Model& model,
                                                        const NodeFreedom& freedom,

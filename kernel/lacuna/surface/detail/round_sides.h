@@ -24,12 +24,12 @@ struct RoundSide {
 std::optional<RoundSide> bulge_of(const topology::Model& model, FaceId face,
                                   const std::vector<std::vector<EdgeId>>& sides, const SizeField& size);
 
-/// Add wishes for rows with a depth of a third of the radius along a round side, and for the number of sides
-/// on it that the length of the line behind the rows requires.
-/// @param parts  equal parts of the side, each with a corner of that line behind it
+/// Add two wishes for a face with a round side: rows a third of the radius deep along that side, and as many
+/// sides on it as the length of the line behind these rows requires.
+/// @param parts  number of equal parts of the side; behind each part, the line has a corner
 /// @param round  variables of the side
 /// @param rows   variable of the number of rows
-/// @return  wanted sides on half of the line behind a part
+/// @return  wanted number of sides on half of the line behind a part
 double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_t>& round, std::size_t rows,
                  IntervalProgram& program);
 

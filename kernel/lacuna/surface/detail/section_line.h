@@ -24,12 +24,14 @@ inline double height_of(std::size_t section)
 /// A piece of an edge as a curve over its sides, 0 at its start.
 struct SectionLine {
     SeedPiece* piece = nullptr;
-    std::array<std::vector<Vec3>, kSections> points; ///< evenly over the sides; above the source may be empty
+    std::array<std::vector<Vec3>, kSections> points; ///< at even steps of the sides; sections other than the
+                                                     ///< source may be empty
     std::vector<double> at;                          ///< positions of the nodes, ends included [sides]
     std::vector<double> above;                       ///< the same on the target; empty: as on the source
     std::vector<std::size_t> variable;               ///< for each node, for a solver
     std::vector<std::size_t> variable_above;
-    std::vector<double> steep; ///< with `above`: the side at each node over the length of its column
+    std::vector<double> steep; ///< mesh side at each node divided by the length of its column; used with
+                               ///< `above`
     bool on_rim = false;
 
     /// Position of a node's column in a section: linear from the source to the target.
@@ -77,7 +79,7 @@ struct SectionLine {
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<double>(i);
         return places;
     }
-    /// The side at each node over the length of its column, for evenly spaced nodes.
+    /// Mesh side at each node divided by the length of its column, for evenly spaced nodes.
     [[nodiscard]] std::vector<double> steepness() const
     {
         std::vector<double> steep_at;

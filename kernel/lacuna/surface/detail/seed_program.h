@@ -16,9 +16,9 @@ std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, co
                                 Seeds& seeds);
 
 /// Repair the counts with the least change, so that opposite sides of grids are equal and the total of each
-/// free face is even: as one program over all edges, as far as given numbers permit.
-/// @param alike    edges that a symmetry of a face maps onto others are changed last,
-/// @param settled  and so are edges with the counts of a grid.
+/// free face is even. One program covers all edges, as far as given numbers permit.
+/// @param alike    edges that a symmetry of a face maps onto each other; they are changed last.
+/// @param settled  edges with the counts of a grid; they are changed last too.
 void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike,
                const std::set<EdgeId>& settled, Seeds& seeds);
 

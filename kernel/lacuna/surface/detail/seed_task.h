@@ -36,7 +36,7 @@ int total(const Seeds& seeds, const std::vector<EdgeId>& edges);
 /// Number of sides on the loops of a face.
 int sides_of(const topology::Model& model, const Seeds& seeds, FaceId face);
 
-/// Number of quads by the sides wanted around a face.
+/// Number of quads that the wanted sides around a face imply.
 double quads_asked(const topology::Model& model, const Seeds& seeds, FaceId face);
 
 /// Whether all pieces of an edge are fixed.

@@ -13,7 +13,7 @@ namespace lacuna::surface {
 /// @throw NotSweepable "surface.layers_room".
 void end_rows(Seeds& seeds, const topology::Model& model, const RimRows& rows);
 
-/// Fix the nodes of requested numbers of sides.
+/// Fix the nodes on edges whose number of sides is requested.
 /// @throw NotSweepable "surface.sides_asked".
 void set_sides(Seeds& seeds, const topology::Model& model, std::span<const SidesAsked> sides);
 

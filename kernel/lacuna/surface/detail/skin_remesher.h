@@ -13,7 +13,8 @@ namespace lacuna::surface {
 /// Isotropic remeshing of linked triangles, as `triangulate_skin()` describes.
 class SkinRemesher {
 public:
-    /// @param lines   sampled. @param shapes  of each face of the model. All are read while this lives.
+    /// @param lines   already sampled; referred to, so they must outlive this.
+    /// @param shapes  one for each face of the model; referred to as well.
     SkinRemesher(LinkedTriangles& mesh, std::span<const SkinLine> lines,
                  std::span<const FaceShapeTree> shapes, const SizeField& size, const RunContext& context)
         : mesh_(mesh), lines_(lines), shapes_(shapes), size_(size), context_(context)
@@ -36,7 +37,8 @@ private:
     std::vector<Index> flip_from(std::vector<Index> open);
     [[nodiscard]] Vec3 centre_around(Index node) const;
     [[nodiscard]] const FaceShapeTree& shape_at(Index node) const;
-    /// Moves fail if they cause an angle below `least` and the smallest there, both as tangents.
+    /// A move fails if it makes an angle smaller than both `least` and the smallest angle at the node before
+    /// the move. Angles are given by their tangents.
     bool move_to(Index node, const Vec3& place, double least);
     bool move_along_line(Index node, double least);
     void smooth(double least);

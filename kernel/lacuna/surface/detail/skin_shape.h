@@ -14,8 +14,9 @@ namespace lacuna::surface {
 /// Whether a face has a given mesh.
 bool keeps_cells(const topology::Face& face);
 
-/// Unit normals of a face at the corners of its facets: the mean of the facets at the point whose normals are
-/// near that of the facet, so that tips and creases keep theirs. Facets without area have the mean of all.
+/// Unit normals of a face at the corners of its facets. Each is the mean of the facet normals at that point
+/// that are close to the facet's own, so that tips and creases stay sharp. A facet without area gets the mean
+/// of all normals at the point.
 std::vector<std::array<Vec3, 3>> corner_normals(std::span<const Vec3> points,
                                                 std::span<const Triangle> triangles);
 
@@ -45,7 +46,7 @@ struct SkinLine {
     EdgeId edge;               ///< not valid for a crease
     std::vector<Index> points; ///< of the model, from end to end
     std::vector<double> arc;   ///< running length at each of them
-    bool kept = false;         ///< its points are the nodes
+    bool kept = false;         ///< its points are mesh nodes that stay
     std::vector<double> s{};   ///< running lengths of `at`
     std::vector<Vec3> at{};    ///< points, on the exact curve if there is one
 

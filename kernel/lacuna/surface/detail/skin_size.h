@@ -10,13 +10,13 @@
 
 namespace lacuna::surface {
 
-/// Sizes of the triangles of a skin: the requested ones, reduced where the skin is curved, narrow or thin,
-/// and those of given nodes next to them.
+/// Sizes of the triangles of a skin: the requested sizes, reduced where the skin is curved, narrow or thin,
+/// and adapted to the given nodes nearby.
 ///
-/// - Curvature: a full turn has n sides, the least n >= 12 with which the skin loses at most half of
-///   `kSameVolume` of its volume. A side h along a curvature k is off by k h² / 12 on average.
+/// - Curvature: a full turn has n sides, where n >= 12 is the smallest number with which the skin loses at
+///   most half of `kSameVolume` of its volume. A side h along a curvature k is off by k h² / 12 on average.
 /// - Width: faces and edges as in `shape_size()`, down to a tenth of the requested size.
-/// - Thin places: where the opposite skin is w away, sides sag by at most a quarter of w.
+/// - Thin places: if the opposite skin is at distance w, sides sag by at most a quarter of w.
 /// - Short edges have one side.
 ///
 /// @param given  sides of given meshes: middle and length.

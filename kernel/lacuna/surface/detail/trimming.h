@@ -15,15 +15,15 @@ namespace lacuna::surface {
 /// owns.
 struct Projected {
     const geometry::FacetTree::Hit* from = nullptr; ///< the closest point on the facets
-    Index triangle = -1;                            ///< that facet, of the face
-    Vec3* at = nullptr;                             ///< on the exact surface
+    Index triangle = -1;                            ///< index of that facet in the face
+    Vec3* at = nullptr;                             ///< present position, on the exact surface
 };
 
-/// The border of a face with exact geometry; its surface extends beyond it.
+/// The border of a face with exact geometry. The exact surface extends beyond the border.
 ///
-/// Seams and poles are not part of the border. A point is inside or outside by the nearest side of the
-/// border's polyline, at its corners by the sum of the two inward directions (Bærentzen and Aanæs 2005), and
-/// within the curve's bulge by the exact curve.
+/// Seams and poles are not part of the border. The nearest side of the border's polyline decides whether a
+/// point is inside or outside. At a corner of the polyline, the sum of the inward directions of both sides
+/// decides (Bærentzen and Aanæs 2005). Within the curve's bulge, the exact curve decides.
 class Trimming {
 public:
     Trimming(const topology::Model& model, FaceId face);
@@ -64,7 +64,7 @@ private:
     const topology::Model* model_;
     FaceId face_;
     std::vector<Side> sides_;
-    geometry::FacetTree tree_; ///< a facet of no area for each side
+    geometry::FacetTree tree_; ///< one degenerate facet (without area) for each side
     double most_bulge_ = 0;
     mutable std::once_flag once_;
     mutable std::vector<Clearance> clearance_; ///< for each facet, computed on first use

@@ -8,10 +8,11 @@
 
 namespace lacuna::surface {
 
-/// The edges inside a linking surface as a net that the walls' nodes follow: long edges become columns, cross
-/// edges become levels, and a node lies where they meet, turn or end.
+/// The edges inside a linking surface as a net that the walls' nodes follow. Long edges, which run along the
+/// sweep, become columns; cross edges, which run around it, become levels. A node lies where they meet, turn
+/// or end.
 ///
-/// Side lines and rims are not part of it; edges that end on them end in their nodes.
+/// Side lines and rims are not part of the net; edges that end on them end in their nodes.
 struct WallNet {
     /// A vertex with a node.
     struct Stop {
@@ -28,7 +29,7 @@ struct WallNet {
         double low = 1, high = 0;                     ///< extent in t
         std::optional<std::size_t> line;              ///< the side line it coincides with
         std::optional<double> source_at, target_at{}; ///< running lengths of its ends on the rims
-        EdgeId edge;                                  ///< one of them, for messages
+        EdgeId edge;                                  ///< an edge of the column, for messages
     };
     /// Connected cross edges, or a vertex between long edges.
     struct Level {
@@ -37,12 +38,12 @@ struct WallNet {
         bool plain = false; ///< a ring that turns and ends on side lines only, and meets no long edge
         std::vector<std::size_t> stops;
         std::vector<std::size_t> lines; ///< side lines that the ring meets
-        EdgeId edge;                    ///< one of them, for messages
+        EdgeId edge;                    ///< an edge of the level, for messages
     };
     struct LongEdge {
         const LinkingMap::Upright* upright;
         std::size_t low, high; ///< stops
-        bool reversed;         ///< the edge runs down
+        bool reversed;         ///< the edge runs from target to source
     };
 
     std::vector<Stop> stops;
@@ -50,14 +51,14 @@ struct WallNet {
     std::vector<Level> levels;   ///< by rising height
     std::vector<LongEdge> long_edges;
 
-    /// Whether two levels overlap along the rim, so that they need two layers.
+    /// Whether two levels overlap along the rim, so that each needs its own layer.
     [[nodiscard]] bool over_each_other(const LinkingMap& map, std::size_t a, std::size_t b) const;
 
-    /// Of each level, the lower ones that need layers of their own.
+    /// For each level: the levels below it that overlap it and therefore need layers of their own.
     [[nodiscard]] std::vector<std::vector<std::size_t>> levels_below(const LinkingMap& map) const;
 };
 
-/// The most levels above each other. @param below  from `WallNet::levels_below()`
+/// The largest number of levels above each other. @param below  from `WallNet::levels_below()`
 int most_levels(const std::vector<std::vector<std::size_t>>& below);
 
 /// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross: round, slanted, or

@@ -49,9 +49,9 @@ struct RimRows {
     std::vector<std::vector<double>> heights; ///< for each table [model length]
     /// Of each edge of the source's rim: parts of its length, as it runs, and their tables.
     struct Part {
-        double from = 0, to = 1; ///< fractions of its length
+        double from = 0, to = 1; ///< fractions of the edge's length
         int table = -1;
-        FaceId wall; ///< whose table it is
+        FaceId wall; ///< the wall that the table belongs to
     };
     std::map<EdgeId, std::vector<Part>> parts;
     /// The end of an edge in a face's loop, for rows along the next edge of the loop.
@@ -62,7 +62,7 @@ struct RimRows {
         Vec3 inward;  ///< perpendicular to it, in the face
         VertexId corner;
     };
-    /// Rows that end on an edge: at its start, and at its end.
+    /// Rows that end on an edge, by the edge and whether they end at its end (true) or its start.
     std::map<std::pair<EdgeId, bool>, End> ends;
 
     [[nodiscard]] bool empty() const { return heights.empty(); }
@@ -78,9 +78,9 @@ struct RimRows {
 RimRows rim_rows(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                  const LayerTables& tables);
 
-/// Positions of rows on the edge where they end: fractions of its length in its direction, increasing; fewer
-/// than heights if the edge is too short.
-/// @param at_end   the rows end at its end, otherwise at its start.
+/// Positions of rows on the edge where they end: fractions of the edge's length in its direction, increasing.
+/// There are fewer positions than heights if the edge is too short.
+/// @param at_end   whether the rows end at the edge's end; otherwise at its start.
 /// @param heights  of the rows, over the edge they run along, rising [model length].
 std::vector<double> row_places(const topology::Model& model, EdgeId edge, bool at_end,
                                const RimRows::End& end, std::span<const double> heights);

@@ -15,8 +15,8 @@ struct DefaultSize {
 };
 
 /// Mean length of the facets' sides on the source's rims. On edges without kept nodes, facets show the
-/// accuracy of the shape, not the wanted mesh size: sides shorter than a twentieth of the diagonal of the
-/// rims' box are replaced by sides of that length.
+/// accuracy of the shape, not the wanted mesh size. There, sides shorter than a twentieth of the diagonal of
+/// the rims' box count as having that length.
 /// @note  O(points on the rims).
 DefaultSize default_size(const topology::OpenVolume& volume);
 

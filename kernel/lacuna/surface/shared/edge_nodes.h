@@ -28,7 +28,8 @@ public:
 
     [[nodiscard]] double length() const { return start_.back(); }
     [[nodiscard]] const std::vector<topology::EdgeUse>& uses() const { return uses_; }
-    /// A running length of a closed chain that may exceed its length by up to a turn, without that turn.
+    /// Subtract the whole turn from a running length of a closed chain that may exceed the chain's length by
+    /// up to one turn.
     [[nodiscard]] double wrapped(double s) const { return s >= length() ? s - length() : s; }
     /// Running length at the start of use i; one more for the end.
     [[nodiscard]] double start(std::size_t i) const { return start_[i]; }

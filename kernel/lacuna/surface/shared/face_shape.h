@@ -28,8 +28,8 @@ struct FaceShape {
     [[nodiscard]] double volume_integral(const Vec3& origin) const;
 };
 
-/// @param size  of the mesh to compare with: facets are bisected where they deviate from the exact face by
-///              more than a twentieth of it. The error of the patches is then far smaller.
+/// @param size  size of the mesh to compare with. A facet is bisected where it deviates from the exact face
+///          by more than a twentieth of the size; the error of the patches is then far smaller.
 FaceShape face_shape(const topology::Model& model, FaceId face, const SizeField& size);
 
 } // namespace lacuna::surface

@@ -74,8 +74,8 @@ struct KeptNodes {
     std::vector<std::string> notes{}; ///< a line for each rim whose nodes are not kept
 };
 
-/// Make the rim nodes of faces that keep their mesh nodes of the sweep: each becomes a break of the segments,
-/// and the interval between two breaks is one side of a quad.
+/// Use the rim nodes of faces that keep their mesh as nodes of the sweep: each becomes a break of the
+/// segments, and the interval between two breaks is one side of a quad.
 ///
 /// Nodes of columns correspond to each other. Other nodes of the two ends are paired in order if their
 /// numbers between side lines, or between corners, are equal; otherwise those of the source stay and a note

@@ -12,7 +12,8 @@ namespace lacuna::surface {
 
 /// The given mesh of the target, in the numbering of the source's.
 struct GivenTarget {
-    /// The difference if it is not kept although the target has given quads; the lists are then empty.
+    /// Why the target's given quads are not kept; the lists are then empty. Empty if they are kept, or if
+    /// there are none.
     std::string why{};
     std::vector<Vec3> nodes{};  ///< position of each source node: bit for bit the target's own
     std::vector<FaceId> face{}; ///< target face of each source quad
@@ -27,7 +28,8 @@ GivenTarget given_target(const topology::OpenVolume& volume, std::span<const Lin
                          const SourceMesh& source, bool wedges = false);
 
 /// If both ends have given quads with the same graph, rotate the loops whose walls do not fix their rotation
-/// (round, without columns or side lines) as the graph requires, starting from a loop whose walls do.
+/// (round, without columns or side lines). The rotation follows from the graph, starting from a loop whose
+/// walls fix its rotation.
 /// @param columns  of each linking surface.
 /// @note  O(quads of the ends); nothing is done where no loop needs it.
 std::vector<LinkingSurface> align_alike_ends(const topology::OpenVolume& volume,

@@ -19,8 +19,8 @@ struct EdgeImage {
     double from = 0, to = 1;
 };
 
-/// Chains of points within both ends that are known to be swept to each other, uniformly between the given
-/// shares of their lengths.
+/// Two chains of points, one inside each end, that are known to be swept to each other, uniformly between the
+/// given shares of their lengths.
 struct KnownLine {
     std::vector<Index> source, target;
     double source_from = 0, source_to = 1;

@@ -18,7 +18,8 @@ struct IntervalDemands {
         int count = 1;
         double bias = 1;                ///< last over first, from the source [-]
         Argument name;                  ///< origin, for messages
-        bool from_named_source = false; ///< `bias` counts from the source as named by the user
+        bool from_named_source = false; ///< whether `bias` counts from the end that the user named source,
+                                        ///< not from the end where the sweep starts
     };
     std::optional<Layers> layers;
 };

@@ -20,7 +20,8 @@ struct RimSegment {
     double target_from = 0, target_to = 0; ///< may exceed the target chain's length: modulo it
     std::size_t use = 0;                   ///< index of the use in the source chain
     bool given = false;                    ///< one side of a quad: it lies between given nodes
-    /// Its ends are vertices of the rim's facets, which bend no more between them than a straight side may.
+    /// Whether both ends of the segment are vertices of the rim's facets, and the rim bends no more between
+    /// them than a straight side may; on the source, and on the target.
     bool follows = false, target_follows = false;
     bool on_crease = false; ///< without side lines: the column at its start runs along a crease of the walls
 };
@@ -41,7 +42,7 @@ struct LinkingSurface {
     Chain source, target;
     std::vector<LinkingLine> lines;   ///< in walking order
     std::vector<RimSegment> segments; ///< in walking order, the first from source length 0
-    /// For a ring without side lines: the end on the target rim of the shortest path from the source's start,
+    /// For a ring without side lines: where the shortest path from the source's start ends on the target rim,
     /// as a number of turns around the ring. Not set if corresponding vertices of both rims are given.
     std::optional<double> branch{};
 };

@@ -16,7 +16,8 @@ namespace lacuna::surface {
 struct RimBreaks {
     /// Of each linking surface, running lengths on the source's and the target's chain; empty: no breaks.
     std::vector<std::vector<std::pair<double, double>>> pairs;
-    std::vector<char> on_crease; ///< for each linking surface: all its columns at breaks run along creases
+    std::vector<char> on_crease; ///< for each linking surface, whether all its columns at breaks run along
+                                 ///< creases
     std::map<EdgeId, std::vector<double>> edges; ///< edges with such vertices inside, and their fractions
     std::set<Index> points;                      ///< all such vertices
 };
@@ -30,10 +31,10 @@ struct Crease {
 /// Finds the vertices of coarse facets at which rims need nodes.
 ///
 /// On a rim of facets the breaks are the vertices that the Douglas-Peucker rule keeps (@cite
-/// douglas_1973_reduction) at the sag of an arc of the edge's length and turn. They help only if a crease
-/// leads from each of them to another rim: across an end as one facet side, or up the walls, so that a column
-/// runs along it. An edge gets no breaks if creases lead elsewhere, or if it has more such vertices than its
-/// arc has sides.
+/// douglas_1973_reduction). Its tolerance is the sag of one side of an arc with the edge's length and turn. A
+/// break helps only if a crease leads from it to another rim: across an end as one facet side, or up the
+/// walls, so that a column runs along it. An edge gets no breaks if creases lead elsewhere, or if it has more
+/// such vertices than its arc has sides.
 class RimFacets {
 public:
     RimFacets(const topology::OpenVolume& volume, std::span<const LinkingSurface> links);
@@ -70,7 +71,7 @@ private:
     std::map<Index, std::vector<Index>> creases_; ///< from rims, as far as computed; empty: none
 };
 
-/// The starts of segments with a mark, in order.
+/// The creases at the starts of segments with `on_crease`, in order.
 std::vector<Crease> creases_of(const topology::OpenVolume& volume, const LinkingSurface& link);
 
 /// Divide the segments of the rims at the breaks, and mark those that begin on creases.

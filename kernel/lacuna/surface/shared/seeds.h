@@ -67,7 +67,7 @@ struct SeedPiece {
 struct SidesAsked {
     struct Part {
         EdgeId edge;
-        double from = 0, to = 1; ///< fractions of its length, as it runs
+        double from = 0, to = 1; ///< fractions of the edge's length, in its direction
         bool reversed = false;   ///< the walk over the parts runs against the edge
     };
     std::vector<Part> parts;

@@ -12,8 +12,8 @@ namespace lacuna::surface {
 struct ShapeSizing {
     int curvature = 12; ///< sides for a full turn of an edge or a surface, >= 0; 0: the size alone
     int gap = 0;        ///< minimum number of quads across a narrow place, >= 0; 0: no minimum
-    /// A four-sided face that is to be mapped gets the gap's quads by its count across, without refinement
-    /// along. If nothing is narrow, faces of right angles are submapped.
+    /// Meet `gap` on a mapped four-sided face by its number of sides across; the sides along the narrow place
+    /// stay long. If no place is narrow, rectilinear faces are submapped.
     bool counts_across = false;
 };
 
@@ -23,7 +23,7 @@ struct SizeCause {
     FaceId face;                 ///< face of the source
     std::optional<EdgeId> edge;  ///< edge of its rim, one side of a narrow place; unset: curvature
     std::optional<EdgeId> other; ///< the edge opposite
-    double width = 0;            ///< between the two [model length]
+    double width = 0;            ///< distance between the two edges [model length]
 };
 
 /// Sizes over the source, and the causes of the reduction.

@@ -15,10 +15,10 @@ struct WallBreaks {
     int layers = 1;
 };
 
-/// Add rim nodes at both ends of every column that long edges of the walls require, by splitting the segments
-/// there. A break closer than a fraction of the size is used instead: the column bends.
-/// @return  the links, and the minimum number of layers for edges around the walls: one more than the most
-///          above each other.
+/// Split the segments so that both rims have a node at the ends of every column that the walls' long edges
+/// require. If an existing break is closer than a fraction of the size, the column bends to it.
+/// @return  the links, and the minimum number of layers for edges around the walls: one more than the largest
+///     number of such edges above each other.
 /// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross.
 /// @note  Maps the walls onto a strip only if they have edges besides side lines and whole rings.
 WallBreaks set_wall_breaks(const topology::OpenVolume& volume, const SizeField& size,

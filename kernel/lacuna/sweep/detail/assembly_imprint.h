@@ -30,14 +30,15 @@ struct FaceImprint {
 FaceImprint imprint_faces(std::span<topology::OpenVolume> volumes, std::span<const AssemblyMember> members,
                           std::span<const PartlyShared> pairs, const RunContext& context);
 
-/// The sag of all faces after an imprint: parts have that of the whole, which their facets no longer show.
-/// @param sag  for each member: of its faces before.
+/// The sag of all faces after an imprint. Parts get the sag of the whole face, because their own facets no
+/// longer show it.
+/// @param sag  for each member: sag of each of its faces before the imprint.
 std::vector<std::vector<double>> with_sag_of_parts(std::vector<std::vector<double>> sag,
                                                    const FaceImprint& imprint);
 
-/// Give swept members a vertex wherever an edge of a member that is not swept ends on the rim of a face that
-/// both share: the mesh of the face then has a node there, as the skin beside it needs.
-/// @param volumes  copies of the members' volumes, changed; no face gets another id.
+/// Give swept members a vertex wherever an edge of an unswept member ends on the rim of a face that both
+/// share. The mesh of that face then has the node that the unswept member's skin needs.
+/// @param volumes  copies of the members' volumes, changed; face ids stay the same.
 /// @note  O(vertices of shared rims × points of the edges of all members).
 void add_vertices_beside(std::span<topology::OpenVolume> volumes, std::span<const AssemblyMember> members,
                          std::span<const SharedFace> shared, const RunContext& context);

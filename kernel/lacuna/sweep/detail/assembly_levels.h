@@ -10,15 +10,15 @@
 #include <utility>
 #include <vector>
 
-/// Heights of layers of members whose walls touch in part. Internal to this folder.
+/// Heights of layers of members that share parts of walls. Internal to this folder.
 namespace lacuna::sweep {
 
-/// Levels of an assembly: heights at which a layer must end, since an edge runs around the walls there.
+/// Levels of an assembly: heights at which a layer must end, because an edge runs around the walls there.
 ///
-/// A pin stands out of a plate, and a band covers the middle of a pin: what they share is a wall of both, in
-/// which each must have the same rows. So the levels of one member within a shared wall are levels of the
-/// other, the parts between levels are paired, and paired parts get equal numbers of layers. Members that no
-/// such edge concerns have no heights from here.
+/// Examples are a pin that stands out of a plate, or a band around the middle of a pin. Both members must
+/// have the same rows on the wall that they share. So the levels of one member within a shared wall become
+/// levels of the other, the parts between levels are paired, and paired parts get equal numbers of layers. A
+/// member without such levels is not constrained.
 class AssemblyLevels {
 public:
     AssemblyLevels(std::span<const AssemblyMember> members, std::span<const SharedFace> shared);
@@ -44,8 +44,10 @@ private:
 
     std::span<const AssemblyMember> members_;
     std::span<const SharedFace> shared_;
-    std::vector<std::map<EdgeId, double>> height_; ///< for each member: of edges around its walls, in [0, 1]
-    std::vector<double> length_;                   ///< of each member's walls, up [model length]
+    std::vector<std::map<EdgeId, double>> height_; ///< for each member: heights of the edges around its
+                                                   ///< walls, in [0, 1]
+    std::vector<double> length_;                   ///< length of each member's walls along the sweep [model
+                                                   ///< length]
     std::vector<std::vector<double>> levels_;      ///< for each member, rising, from 0 to 1
 };
 

@@ -11,8 +11,8 @@
 /// Common node numbers of an assembly. Internal to this folder.
 namespace lacuna::sweep {
 
-/// Give coincident nodes of shared faces one number, and those on the borders of all faces and middle nodes,
-/// because volumes that touch along an edge share no face.
+/// Give coincident nodes one number: nodes of shared faces, nodes on the borders of all faces, and middle
+/// nodes. Borders are included because volumes that touch along an edge share no face.
 /// @post  `number` and `nodes` of the assembly are set.
 /// @note  O(nodes + skin nodes log).
 void number_nodes(SweptAssembly& assembly);

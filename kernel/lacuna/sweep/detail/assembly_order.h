@@ -14,8 +14,8 @@ namespace lacuna::sweep {
 /// Whether a member has faces with kept quads or triangles.
 bool came_with_mesh(const AssemblyMember& member);
 
-/// Of each member, those that must come before it: given faces come before their created counterparts.
-/// @throw NotSweepable "assembly.round"  volumes each of which lacks a face that the next one has
+/// For each member, the members that must come before it: a given face is meshed before its void counterpart.
+/// @throw NotSweepable "assembly.round"  volumes in a cycle, each of which lacks a face that the next one has
 std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember> members,
                                                   std::span<const SharedFace> shared);
 

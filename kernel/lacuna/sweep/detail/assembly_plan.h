@@ -16,7 +16,7 @@ namespace lacuna::sweep {
 struct AssemblyPlan {
     std::vector<std::vector<topology::EdgeNodes>> nodes; ///< for each member's shared edges
     std::vector<int> layers; ///< for each member with others beside it; 0: not constrained
-    /// For each member, from the source on: see `AssemblyLevels::heights()`.
+    /// For each member, heights of its layers from the source: see `AssemblyLevels::heights()`.
     std::vector<std::vector<double>> heights;
 };
 

@@ -18,8 +18,8 @@ struct CellEnergy {
     double sharpness = 0; ///< k of exp(-k s); 0: without that term
 };
 
-/// Mean edge lengths along u, v, w: the reference box of a cell. Of a wedge, the mean of its triangles' edges
-/// for u and v, and of its height.
+/// Mean edge lengths of a cell along u, v, w: its reference box. For a wedge, u and v are the mean of the
+/// triangles' edges, and w is the mean height.
 Vec3 mean_edges(const std::array<Vec3, 8>& corners, CellKind kind = CellKind::hex);
 
 /// Minimum determinant of a corner's edges relative to the box; negative if folded.
@@ -27,10 +27,10 @@ double least_determinant(const std::array<Vec3, 8>& corners, const Vec3& box, Ce
 
 /// Energy of a cell; its gradient by the corners is written to `slope`.
 ///
-/// With J the corner's edges over the box's: shape · (127/128 tr(JᵀJ)/χ^⅔ + 1/128 (1 + det²)/χ), χ = (D +
-/// √(ε² + D²))/2 (Garanzha et al. 2021), and exp(-k s), s the corner's scaled Jacobian.
-/// For a wedge the sum over a triangle's corners is minimal if the triangle is equilateral, because the sum
-/// of its angles is fixed.
+/// With J the corner's edges divided by the box's: shape · (127/128 tr(JᵀJ)/χ^⅔ + 1/128 (1 + det²)/χ), χ = (D
+/// + √(ε² + D²))/2 (Garanzha et al. 2021), plus exp(-k s) with s the corner's scaled Jacobian. In a wedge the
+/// sum over a triangle's corners is smallest for an equilateral triangle, because its angles have a fixed
+/// sum.
 double cell_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners, const Vec3& box,
                    std::array<Vec3, 8>& slope, CellKind kind = CellKind::hex);
 

@@ -19,7 +19,7 @@ namespace lacuna::sweep {
 struct CellRegion {
     std::vector<Hex> cells; ///< by the region's node numbers
     std::vector<Vec3> box;  ///< for each cell: its initial mean edges
-    /// Of each cell: the target scaled Jacobian, limited by its fixed nodes.
+    /// For each cell: the scaled Jacobian aimed at, limited by the cell's fixed nodes.
     std::vector<double> aim;
     std::vector<Index> node;    ///< mesh node of each node
     std::size_t free = 0;       ///< nodes that may move
@@ -27,8 +27,8 @@ struct CellRegion {
     mesh::Incidence uses;       ///< for each free node: 8 · cell + corner
 };
 
-/// Cells that are poor although their fixed nodes allow better, and `rings` of neighbours. A corner cannot be
-/// better than the angle between two of its edges that are fixed.
+/// Poor cells whose fixed nodes allow a better quality, and `rings` of their neighbours. A corner cannot be
+/// better than the angle between two fixed edges allows.
 CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
                        const RunContext& context);
 
@@ -44,12 +44,12 @@ struct RegionQuality {
 
 RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places, const RunContext& context);
 
-/// Sum of the cells' energies and its gradient by the free nodes, tangential to the surface for nodes that
-/// slide. Parallel; the order of summation does not depend on the number of threads.
+/// Sum of the cells' energies, and its gradient by the free nodes; for sliding nodes the gradient is
+/// tangential to the surface. Parallel; the order of summation does not depend on the number of threads.
 class RegionEnergy {
 public:
-    /// @param places  of the region's nodes; only those of fixed nodes are used, free ones are passed to each
-    ///                call.
+    /// @param places  positions of the region's nodes; only those of fixed nodes are used, because free ones
+    ///          are passed to each call.
     RegionEnergy(const CellRegion& region, std::vector<Vec3> places, const RunContext& context);
 
     CellEnergy energy;

@@ -13,8 +13,8 @@
 
 namespace lacuna::sweep {
 
-/// The quads of the skin on one face; at order 2 four for each quad or triangle of the mesh, by its middle
-/// nodes.
+/// The quads of the skin on one face. At order 2 each quad or triangle of the mesh counts as four, divided at
+/// its middle nodes.
 struct SkinOfFace {
     FaceId face;
     std::vector<Quad> quads;       ///< as points of the skin
@@ -23,13 +23,14 @@ struct SkinOfFace {
     double mean_side = 0;          ///< mean of `side` [model length]
 };
 
-/// The nodes of a mesh's skin only, which are few, with the quads of every face.
+/// The nodes on a mesh's skin, renumbered, with the quads of every face.
 struct Skin {
     std::vector<Vec3> points;      ///< in the mesh's order, so those of the source first [model length]
     std::vector<SkinOfFace> faces; ///< by their numbers in the model
 };
 
-/// @param faces  of each patch of the mesh. @param face_count  of the model. O(skin log).
+/// @param faces  face of each patch of the mesh. @param face_count  number of faces of the model. O(skin
+///          log).
 Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std::size_t face_count,
              const RunContext& context = {});
 
@@ -38,9 +39,9 @@ struct DeviationLimit {
     double length = 0; ///< the same for all quads; 0: a share of the side
     double share = 0;  ///< allowed distance as a share of the side of a quad
     double at_tip = 0; ///< that share within two sides of a tip, where at most four quads meet
-    double least = 0;  ///< lower bound of both, for short sides
-    /// Whether inverted quads are folds: on sharply twisted void walls, where neither skin is given, the
-    /// facet nearest to a quad may have any orientation.
+    double least = 0;  ///< lower bound of the allowed distance, for short sides [model length]
+    /// Whether inverted quads are reported as folds. False for sharply twisted void walls, where neither skin
+    /// is given: the facet nearest to a quad may then have any orientation.
     bool folds = true;
 };
 

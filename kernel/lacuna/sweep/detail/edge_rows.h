@@ -13,13 +13,13 @@ namespace lacuna::sweep {
 /// Rows that end on an edge at one of its ends: the required positions of its nodes.
 struct EdgeRows {
     std::vector<double> places; ///< running lengths from that end, rising [model length]; empty: none
-    FaceId face;                ///< whose rows they are
+    FaceId face;                ///< the face that the rows follow
 };
-/// Of each edge, at its start and its end.
+/// For each edge, the rows at its start and at its end.
 using RowsOfEdges = std::map<EdgeId, std::array<EdgeRows, 2>>;
 
-/// The rows of a member's boundary layers that end on edges of its source and target, and the layers at its
-/// ends on its side lines. Empty if the sweep will refuse them with a reason.
+/// The rows of a member's boundary layers that end on edges of its source and target, and the boundary layers
+/// of its ends on its side lines. Empty if the sweep will refuse the boundary layers.
 /// @note  O(edges + facets).
 RowsOfEdges edge_rows(const AssemblyMember& member);
 

@@ -31,7 +31,7 @@ struct FaceOverlap {
 
 using FaceOverlaps = std::map<std::pair<FaceId, FaceId>, FaceOverlap>;
 
-/// Faces are nearly parallel if most of the area within this many windows is also within one.
+/// Faces are nearly parallel if most of the area within this many windows is also within one window.
 inline constexpr double kAround = 4;
 
 /// Compute the overlap of faces of two volumes.

@@ -10,8 +10,8 @@
 
 namespace lacuna::sweep {
 
-/// Closest points on facets by walking from a nearby facet: a few operations per query if queries are sorted
-/// in space. Returns only certain answers; the others need a tree.
+/// Closest points on facets by walking from a nearby facet: a few operations per query if consecutive queries
+/// are close together. Answers that may be wrong are marked (`Foot::nearest`); a tree answers those.
 class FacetWalk {
 public:
     /// @param triangles  consistently oriented. O(triangles).
@@ -22,10 +22,10 @@ public:
         Index facet = -1;
         Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, 0 to 1 to rounding, sum 1
         double height = 0;               ///< over the facet, along its normal [model length]
-        /// Whether no other facet is closer: the sides of this facet are so far from the foot point that the
-        /// adjacent facets, at their angle to it, do not reach the point. This assumes that no facet further
-        /// away, within that height, has a sharper angle. If not set, the foot point is still an upper bound
-        /// of the distance.
+        /// Whether it is certain that no other facet is closer: the foot point is so far from the facet's
+        /// sides that the adjacent facets, at their angles, do not reach the point. This assumes that no
+        /// facet farther away, within that height, has a sharper angle. If false, the distance is still an
+        /// upper bound.
         bool nearest = false;
     };
     /// The facet below a point.

@@ -10,23 +10,23 @@
 
 namespace lacuna::sweep {
 
-/// Given meshes of faces that the sweep keeps.
+/// Given meshes of faces that the sweep keeps, as columns and layers.
 struct GivenMeshes {
     std::vector<surface::GivenColumns> columns; ///< for each linking surface
     std::vector<double> heights;                ///< heights of the layers; empty: not constrained
     std::vector<std::string> notes;
 };
 
-/// Read the meshes of walls and rims; the segments of `links` are broken at given nodes.
+/// Read the meshes of walls and rims, and split the segments of `links` at given nodes.
 /// @param asked  heights from the options; empty: none.
-/// @param size   divides the gap above walls that cover a part of the height.
+/// @param size   size of the layers above walls that cover only a part of the height.
 /// @throw NotSweepable "sweep.given_rows"  rows of quads on walls whose number differs from the requested
-///        layers; as `surface::given_columns()`.
+///     layers; as `surface::given_columns()`.
 GivenMeshes given_meshes(const topology::OpenVolume& volume, std::vector<surface::LinkingSurface>& links,
                          const std::vector<double>& asked, const surface::SizeField& size,
                          const SweepOptions& options);
 
-/// Add to `faces` the walls and targets with their own quads: their nodes are not moved by improvement.
+/// `faces`, and the walls and targets with quads of their own: improvement does not move their nodes.
 std::set<FaceId> given_faces(const topology::OpenVolume& volume, std::set<FaceId> faces, bool wedges);
 
 /// A line of the report for each face that keeps its nodes, with the number of nodes that the mesh contains.

@@ -19,9 +19,9 @@ using NodeGraph = mesh::Incidence;
 /// O(quads).
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes);
 
-/// Weight of each side, in the order of the graph's neighbours: the length of the dual side, between the
-/// centres of its quads, over its own. These are finite-volume weights: never negative, and insensitive to
-/// grading.
+/// Weight of each side, in the order of the graph's neighbours: the length of the dual side, which joins the
+/// centres of the adjacent quads, divided by the side's own length. These are finite-volume weights: never
+/// negative, and insensitive to grading.
 std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads,
                                  std::span<const Vec3> nodes);
 
@@ -34,8 +34,8 @@ public:
     /// Number of fields solved together, so that each entry of the factor is read once for 12 numbers.
     static constexpr int kFields = 4;
 
-    /// @param weights  of the graph's sides, equal both ways, above 0.
-    /// @param fixed    nodes whose values are given, each named once.
+    /// @param weights  of the graph's sides, equal in both directions, above 0.
+    /// @param fixed    nodes whose values are given, without duplicates.
     /// @throw Cancelled
     HarmonicSpread(const NodeGraph& graph, std::span<const double> weights, std::span<const Index> fixed,
                    const RunContext& context = {});
@@ -43,8 +43,8 @@ public:
     /// Fields after spreading.
     class Fields {
     public:
-        /// Of one node x, y and z of the first field, of the second and so on, followed by readable padding
-        /// for one number; null: the node is fixed, or connected to no fixed node.
+        /// The values at a node: x, y and z of the first field, of the second and so on, followed by one
+        /// unused number that may be read. Null if the node is fixed or connected to no fixed node.
         [[nodiscard]] const double* of(std::size_t node) const
         {
             return place_[node] < 0 ? nullptr : &rows_[static_cast<std::size_t>(place_[node]) * 3 * kFields];
@@ -61,20 +61,20 @@ public:
     /// @return  the fields; refers to this object
     [[nodiscard]] Fields spread(std::span<const Vec3> values) const;
 
-    /// Add the spread of each of `fields` fields to the nodes that are not fixed: out[f · stride + node] +=
+    /// Add fields, spread from the fixed nodes, to the nodes that are not fixed: out[f · stride + node] +=
     /// value.
     /// @param values  fields × fixed.size(), field-major.
     /// The result of a field does not depend on the other fields of the call, or on the number of threads.
     void add(std::span<const Vec3> values, std::size_t fields, Vec3* out, std::size_t stride,
              const RunContext& context = {}) const;
 
-    /// Solve for a given load at every free node with fixed nodes held at zero, in place: one Vec3 per node
+    /// Solve for a given load at every free node, with fixed nodes held at zero. In place: one Vec3 per node
     /// of the mesh; values of fixed nodes are ignored and set to zero.
     void solve(std::span<Vec3> load) const;
 
 private:
     struct RimSide {
-        Index row, fixed; ///< place in the factor; position in `fixed`
+        Index row, fixed; ///< row of the free node in the factor; index of the fixed node in `fixed`
         double weight;
     };
     std::size_t fixed_count_ = 0;

@@ -16,8 +16,8 @@ struct KeptThickness {
     std::vector<std::string> report; ///< a line for each table
 };
 
-/// Relative tolerance of a row's thickness after all moves. The remaining error is due to walls and ends that
-/// bend within a cell. Heuristic.
+/// Relative tolerance of a row's thickness after all moves. The remaining error comes from walls and ends
+/// that bend within a cell. Heuristic.
 inline constexpr double kThicknessOff = 0.02;
 
 /// Move nodes so that rows along walls, in every layer, and layers along ends have the requested thickness,

@@ -18,10 +18,10 @@ struct LayerMap {
 
 /// Compute nodes [begin, end) of some layers, with their residuals.
 ///
-/// The result is bit-identical for any vector width, and for any other layers in the call.
-/// @param maps       of up to `HarmonicSpread::kFields` layers
+/// A layer's result is bit-identical for any vector width, whatever other layers are in the call.
+/// @param maps       maps of up to `HarmonicSpread::kFields` layers
 /// @param residuals  null: none
-/// @param out        the first node of the first layer; of the next layer `stride` further
+/// @param out        the first node of the first layer; each next layer begins `stride` nodes later
 void map_nodes(std::span<const LayerMap> maps, const Vec3* source, const Vec3* target, std::size_t begin,
                std::size_t end, const HarmonicSpread::Fields* residuals, Vec3* out, std::size_t stride);
 

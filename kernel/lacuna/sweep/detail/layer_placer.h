@@ -14,8 +14,8 @@
 
 namespace lacuna::sweep {
 
-/// `place_layers()` a few layers at a time: fits and factors once, then places any layer on its own. Refers
-/// to the source, the target and the columns, which must outlive it.
+/// `place_layers()` for a few layers at a time: the fits and the factorisation are done once, then any layer
+/// can be placed on its own. Refers to the source, the target and the columns, which must outlive it.
 class LayerPlacer {
 public:
     /// @param room  memory for all layers: its pages are cleared during the factorisation, which uses one

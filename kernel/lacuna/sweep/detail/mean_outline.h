@@ -11,19 +11,19 @@ namespace lacuna::sweep {
 /// The outline in which the source's quads are laid out.
 enum class Outline {
     source, ///< the source's own outline
-    mean,   ///< halfway to the target's
+    mean,   ///< the mean of the source's and the target's outline
 };
 
-/// Lay out the source's quads in the outline halfway between both rims, and map them onto the source.
+/// Lay out the source's quads in the mean outline of both rims, and map them onto the source.
 ///
-/// In its own outline a source has one quad in a right angle, which becomes degenerate if the target's rim is
-/// straight there. The mean outline is the mean of the source's rim and the target's after the best rotation,
-/// scaling and translation. If the larger angle of both ends is too large for the number of quads that fit
-/// into the mean angle, the node is moved inward until one more fits. The quads are mapped to the source by
-/// `morph()`.
+/// If the source has a right angle in its own outline, one quad lies there; that quad degenerates if the
+/// target's rim is straight at this node. The mean outline is the mean of the source's rim and the target's
+/// after the best rotation, scaling and translation. If the larger angle of both ends is too large for the
+/// number of quads that fit into the mean angle, the node is moved inward until one more fits. The quads are
+/// mapped to the source by `morph()`.
 /// @param source  of a volume with one face on either end; rim nodes are kept, all others are new.
 /// @throw NotSweepable "sweep.mean_outline"  ends of several faces; a mean outline that intersects itself; as
-///        `mesher`.
+///     `mesher`.
 surface::SourceMesh laid_between(const topology::OpenVolume& volume, surface::SourceMesh source,
                                  const RimColumns& columns, const surface::SizeField& size,
                                  const quads::PlanarQuadMesher& mesher, const RunContext& context);

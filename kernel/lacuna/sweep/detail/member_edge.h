@@ -10,8 +10,8 @@
 /// Edges of members of an assembly. Internal to this folder.
 namespace lacuna::sweep {
 
-/// Edges of two members are the same if their midpoints differ by no more than this share of their length,
-/// besides matching ends: facets of different fineness have slightly different midpoints.
+/// Edges of two members with matching ends are the same if their midpoints differ by no more than this share
+/// of their length: facets of different fineness have slightly different midpoints.
 inline constexpr double kSameMiddle = 1e-2;
 
 /// An edge of a member.
@@ -20,7 +20,7 @@ struct MemberEdge {
     EdgeId edge;
     double length = 0;
     Vec3 from = Vec3::Zero(), middle = Vec3::Zero(), to = Vec3::Zero();
-    Vec3 centre = Vec3::Zero(); ///< mean point of it
+    Vec3 centre = Vec3::Zero(); ///< mean point of the edge
     double sag = 0;             ///< maximum distance of the curve from its chain of points
     Eigen::AlignedBox3d box;
     bool closed = false;
@@ -28,7 +28,7 @@ struct MemberEdge {
     Eigen::Isometry3d home = Eigen::Isometry3d::Identity();
 };
 
-/// @param by  the motion of the edge before it is read
+/// @param by  motion that is applied to the edge first
 MemberEdge member_edge(const topology::Model& model, std::size_t member, EdgeId edge,
                        const Eigen::Isometry3d& by = Eigen::Isometry3d::Identity());
 

@@ -43,14 +43,14 @@ private:
     SkinPlaces at_skin_{mesh_};
     LevelBlend blend_{mesh_};
     std::vector<std::uint8_t> rim_side_; ///< for each side of the source, whether it is on the rim
-    std::vector<std::uint8_t> rim_node_; ///< and of each node
-    /// The bends of the ends that are not explained by blending from the rim, and the relative height of each
-    /// level; empty: there are none.
+    std::vector<std::uint8_t> rim_node_; ///< for each node of the source, whether it is on the rim
+    /// The bends of both ends that blending from the rim does not explain, and the relative height of each
+    /// level; empty: no such bends.
     std::vector<Vec3> first_, last_;
     std::vector<double> share_;
     bool columns_bend_ = false;
     std::optional<HarmonicSpread> spread_; ///< spreads the walls' bends beyond the columns' cubics
-    std::vector<Vec3> beyond_;             ///< those bends of the rim, for each layer
+    std::vector<Vec3> beyond_;             ///< for each layer: those bends at the nodes of the rim
 };
 
 } // namespace lacuna::sweep

@@ -62,7 +62,7 @@ public:
         const std::size_t at = places_.of(place);
         return at == SkinPlaces::kInside ? Middle::inside : states_[at];
     }
-    /// As `SkinPlaces` has them.
+    /// The nodes by the compact indices of `SkinPlaces`.
     [[nodiscard]] const std::vector<Vec3>& nodes() const { return nodes_; }
 
 private:
@@ -87,13 +87,14 @@ class LevelBlend {
 public:
     explicit LevelBlend(const mesh::HexMesh& mesh);
 
-    /// Compute the bends of all sides on a level that are not `known` from those that are.
-    /// @param nodes  of the level.
-    /// @param bend   of each side, input and output [model length].
-    /// @param extra  of each side, local: added to the blended bends; empty: none.
+    /// Compute the bends of the sides on a level that are not `known` from the bends of the known ones.
+    /// @param nodes  nodes of the level.
+    /// @param bend   bend of each side, input and output [model length].
+    /// @param extra  added to the blended bend of each side, in local coordinates; empty: none.
     void blend(const Vec3* nodes, const std::vector<std::uint8_t>& known, std::vector<Vec3>& bend,
                const std::vector<Vec3>& extra = {}) const;
-    /// The difference of a level's bends from their blend of the `known` ones, local.
+    /// The difference between the bends of a level's sides and their blend from the `known` ones, in local
+    /// coordinates.
     [[nodiscard]] std::vector<Vec3> beyond(const Vec3* nodes, const std::vector<std::uint8_t>& known,
                                            const std::vector<Vec3>& bend) const;
 
@@ -115,28 +116,30 @@ private:
 
 /// The levels that determine how a column passes the middle of a layer.
 struct ColumnWindow {
-    static constexpr int kMost = 4; ///< for a cubic
+    static constexpr int kMost = 4; ///< four nodes define a cubic
 
     int first, count;
 };
 ColumnWindow column_window(int layers, int layer);
 
-/// Bend of a column of nodes at the middle of a side up the layers: a cubic through four nodes (fewer if
-/// there are fewer), over running lengths, minus the straight side. At most a fifth of the side.
-/// @param column  its nodes on the levels of a `column_window()`. @param low  which of them is below
+/// Bend of a column of nodes at the middle of a side between two layers: a cubic through four nodes (or
+/// through all, if there are fewer), over running lengths, minus the straight side. At most a fifth of the
+/// side.
+/// @param column  its nodes on the levels of a `column_window()`. @param low  index of the node below the
+///          side
 Vec3 column_bend(std::span<const Vec3> column, std::size_t low);
 
 /// The same for a column of the rim.
 Vec3 rim_bend(const mesh::SkinNodes& corners, Index node, int layer);
 
-/// The middle of a quad by the middles of its sides and its corners: transfinite.
+/// The middle of a quad from its corners and the middles of its sides: transfinite.
 inline Vec3 middle_of_quad(const std::array<Vec3, 4>& sides, const std::array<Vec3, 4>& corners)
 {
     return (sides[0] + sides[1] + sides[2] + sides[3]) / 2 -
            (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
 }
 
-/// The middle of a cell by those of its faces and sides and its corners: transfinite.
+/// The middle of a cell from its corners and the middles of its faces and sides: transfinite.
 inline Vec3 middle_of_cell(const std::array<Vec3, 6>& faces, const std::array<Vec3, 12>& sides,
                            const std::array<Vec3, 8>& corners)
 {
@@ -159,7 +162,8 @@ PlacedSkin place_skin(const topology::OpenVolume& volume, const mesh::SkinNodes&
                       const std::vector<FaceId>& faces, const SecondOrderOptions& options,
                       const RunContext& context);
 
-/// Move middle nodes until every cell is valid. @return  how many cells were not. @throw as `elevate()`
+/// Move middle nodes until every cell is valid. @return  number of cells that were invalid. @throw as
+/// `elevate()`
 std::size_t repair_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
                            const std::vector<FaceId>& faces, const SkinMiddles& skin,
                            const RunContext& context);

@@ -24,9 +24,9 @@ struct Morphed {
     std::string report; ///< one line for a person
 };
 
-/// Morph the source mesh onto the target: rim nodes go to the last row of the columns; the others follow the
-/// affine fit of the rims plus the residual, spread harmonically. Then they are projected onto the surface,
-/// and smoothed there if this improves the worst quad.
+/// Morph the source mesh onto the target. Rim nodes go to the last row of the columns. The other nodes follow
+/// the affine fit of the rims plus the residual, spread harmonically. They are then projected onto the
+/// surface, and smoothed there if this improves the worst quad.
 ///
 /// @param project  empty: nodes are not projected.
 /// @post  rim nodes are those of the columns, bit for bit.

@@ -11,13 +11,13 @@
 
 namespace lacuna::sweep {
 
-/// The face of each source quad, and the one it is swept to.
+/// For each source quad, its face and the target face that it is swept to.
 struct EndFaces {
     std::vector<FaceId> source, target;
 };
 
-/// @param imprint  none where the target is one face.
-/// @param moved    the target's faces are the source's moved, in the same order.
+/// @param imprint  empty if the target is one face.
+/// @param moved    the target's faces are images of the source's faces, in the same order.
 EndFaces end_faces(const topology::OpenVolume& volume, const surface::SourceMesh& source,
                    const std::optional<surface::Imprint>& imprint, bool moved);
 
@@ -25,9 +25,9 @@ EndFaces end_faces(const topology::OpenVolume& volume, const surface::SourceMesh
 Morphed morph_onto(const topology::OpenVolume& volume, const surface::SourceMesh& source,
                    const RimColumns& columns, const RunContext& context);
 
-/// Morph the source mesh onto the target, one face at a time: nodes of imprinted edges go to the target's
-/// edges exactly, with the spacing of the source's, and bound the inner nodes.
-/// @param face  the target's, of each quad.
+/// Morph the source mesh onto the target, one face at a time. Nodes of imprinted edges are placed first: on
+/// the target's edges exactly, with the spacing on the source. They then bound the inner nodes.
+/// @param face  target face of each quad.
 Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& columns,
                          const surface::Seeds& seeds, const surface::Imprint& imprint,
                          const std::vector<FaceId>& face, const RunContext& context);

@@ -7,9 +7,9 @@
 
 namespace lacuna::sweep {
 
-/// Place the layers as in the paper where no affine map exists: the inside of each layer is the layer below
-/// advanced along local normals, by steps spread harmonically from the rim's, and smoothed; its rim is that
-/// of the columns. The last layer is the target.
+/// Place the layers as in the paper where no affine map exists. The inside of each layer is the layer below,
+/// advanced along local normals by steps that are spread harmonically from the rim's steps, and smoothed. The
+/// rim of each layer is that of the columns. The last layer is the target.
 ///
 /// Kept for comparison: the layers are not guided to the target, so the drift accumulates in the last one,
 /// and sharply bent or concave sections fold where `place_layers()` does not. O(layers · nodes), sequential

@@ -10,7 +10,8 @@
 
 namespace lacuna::sweep {
 
-/// Heights, from 0 to 1 or a part of these, as seen from the other end.
+/// Reverse the heights, which run from 0 to 1 or cover a part of this range, so that they count from the
+/// other end.
 void reverse_heights(std::vector<double>& heights);
 
 /// Heights of layers, and whether only bends of the columns determined their number.

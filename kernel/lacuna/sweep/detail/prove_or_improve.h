@@ -9,12 +9,12 @@
 
 namespace lacuna::sweep {
 
-/// Prove the mesh; if cells are folded or poor, move nodes and prove it again. The actions are added to the
-/// report, and to the remaining finding.
+/// Prove the mesh; if cells are folded or poor, move nodes and prove it again. The attempts are added to the
+/// report, and to the finding if cells stay bad.
 ///
-/// @param faces  of each patch of the skin.
+/// @param faces  face of each patch of the skin.
 /// @param kept   faces that keep their own quads: their nodes are fixed.
-/// @param held   of each node, whether it is fixed; empty: none is.
+/// @param held   for each node, whether it is fixed; empty: none is.
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::set<FaceId>& kept, std::vector<char> held,
                                 const SweepOptions& options, const RunContext& context);

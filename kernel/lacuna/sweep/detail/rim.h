@@ -32,8 +32,8 @@ double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes);
 /// One end of the sweep with the data to map it onto other rims.
 ///
 /// The rim's points alone determine the map if they span its interior and the map is exact and right-handed,
-/// as for a skin between two circles. Otherwise (planar and nearly planar rims) the pseudo-normals are added,
-/// because small waves of the rim would move the map far off its plane.
+/// as for a skin between two circles. Otherwise, for planar and nearly planar rims, the pseudo-normals are
+/// added: without them small waves of the rim would tilt the map far off the rim's plane.
 class RimFitter {
 public:
     /// @param rim    the end's rim, in the order of the columns; must outlive the fitter.

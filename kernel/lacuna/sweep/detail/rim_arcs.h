@@ -31,14 +31,15 @@ struct RimChord {
 /// squared times the curvature, over eight. O(chords).
 std::vector<RimChord> rim_chords(const topology::Model& model, FaceId face);
 
-/// Distance of a position from the arcs of a rim, minus their uncertainty [model length]. O(chords).
+/// Distance of a position from the arcs of a rim, reduced by the uncertainty of the arcs [model length].
+/// O(chords).
 double off_arcs(const Vec3& p, std::span<const RimChord> rim);
 
 /// Maximum distance of the corners of two rims from each other's arcs [model length]. O(chords²).
 double arcs_apart(std::span<const RimChord> one, std::span<const RimChord> other);
 
-/// The area between chords and arcs if two rims approximate one curve: an upper bound for the overlap of two
-/// faces on both sides of it with different chords [model length²]. O(chords²).
+/// The area between chords and arcs, if two rims approximate one curve. Two faces on both sides of such a
+/// curve, with different chords, overlap by at most this area [model length²]. O(chords²).
 double area_under_arcs(std::span<const RimChord> one, std::span<const RimChord> other, double tolerance);
 
 } // namespace lacuna::sweep

@@ -22,9 +22,9 @@ struct SweptParts {
     std::span<const surface::WallMesh> walls;
     const EndFaces& ends;
     int layers = 1;
-    /// Images of edges inside the source that are edges.
+    /// For edges inside the source, the target edge that each is swept to.
     std::map<EdgeId, EdgeId> target_edges{};
-    bool source_stays = false, target_stays = false; ///< their nodes are given
+    bool source_stays = false, target_stays = false; ///< whether their nodes are given and must not move
 
     [[nodiscard]] std::size_t size_of(std::size_t link) const { return source.links[link].source_at.size(); }
     /// Source node of a node of a linking surface, cyclic.
@@ -39,13 +39,14 @@ struct SweptParts {
     }
 };
 
-/// A column of a source's row nodes over a node of its rim.
+/// A column of row nodes of the source, over a node of the source's rim.
 struct RowColumn {
     std::size_t link, node;
     bool before = false, after = false; ///< whether the sides before and after the node have rows
     int table = -1;
     std::vector<Index> nodes; ///< one per row
-    std::vector<double> lean; ///< tangential offset of each from the base, on the source [model length]
+    std::vector<double> lean; ///< tangential offset of each node from the base node, on the source [model
+                              ///< length]
 
     /// Unit directions along the rim at the base, from the positions of nodes.
     template <class At>
@@ -60,7 +61,7 @@ struct RowColumn {
     }
 };
 
-/// The rows over the rim sides of a wall with a table: found by walking over opposite sides of quads. The
+/// The rows over the rim sides of a wall with a table, found by walking over opposite sides of quads. The
 /// table of a side is that of the wall at its source or target end.
 /// @throw NotSweepable "sweep.layers_rows"  fewer rows than the table has; names the wall.
 std::vector<RowColumn> row_columns(const SweptParts& parts, const surface::LayerTables& tables);

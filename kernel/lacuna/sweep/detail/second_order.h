@@ -19,7 +19,7 @@ namespace lacuna::sweep {
 struct Elevated {
     quality::Quality quality; ///< quality of the cells of order 2
     std::string report;       ///< a line
-    /// Set if the nodes are generated on demand; empty: the mesh holds them all.
+    /// The layers, if their nodes are generated on demand; empty: the mesh holds all nodes.
     std::optional<PlacedLayers> layers;
 };
 

@@ -24,8 +24,8 @@ struct FacesInCommon {
     std::vector<std::vector<double>> sag; ///< for each member: of each face, as `facet_sag()`
 };
 
-/// @param sag  for each member: of its first faces, as `facet_sag()`, where that cannot be taken from their
-///        facets, because these were divided.
+/// @param sag  for each member, sag of its first faces, as from `facet_sag()`; given where the faces were
+///          divided, because their facets no longer show it.
 /// @throw InvalidInput "assembly.overlap", "assembly.rims_apart", "assembly.crack"  as `shared_faces()`
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
                               std::vector<std::vector<double>> sag = {});

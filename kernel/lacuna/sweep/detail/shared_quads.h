@@ -20,7 +20,7 @@ struct NodePair {
     Index own = -1, other = -1;
 };
 
-/// Quads with their nodes numbered from 0, in the order in which they are met, and those nodes.
+/// Quads whose nodes are numbered from 0 in order of first use, and the original nodes.
 struct QuadsAlone {
     std::vector<Quad> quads;
     std::vector<Index> nodes;
@@ -33,14 +33,14 @@ struct FaceMesh : QuadsAlone {
 };
 FaceMesh face_mesh(const mesh::SkinNodes& skin, std::span<const Quad> quads);
 
-/// For each place of `a` one of `b` within a distance, each used once; empty if there is none for one of
-/// them. Places are sorted along an oblique line, so that few have similar keys.
+/// For each place of `a`, one place of `b` within a distance, each used once; empty if some place has none.
+/// Places are sorted along an oblique line, so that few have similar keys.
 /// @param within  >= 0; 0: bit-identical [model length].
 /// @note  O(n log n) for n places.
 std::vector<Index> same_places(std::span<const Vec3> a, std::span<const Vec3> b, double within);
 
-/// The pairs of nodes of two meshes' quads on one face, if the quads are equal: each node within a distance
-/// of one of the other's, as `same_places()`, and a one to one map of the quads. Nothing if they differ.
+/// The pairs of nodes of two meshes on one face, if their quads are equal: each node has a counterpart within
+/// a distance, as in `same_places()`, and the quads correspond one to one. Nothing if they differ.
 std::optional<std::vector<NodePair>> same_quads(FaceMesh own, const FaceMesh& other, double within);
 std::optional<std::vector<NodePair>> same_quads(const mesh::SkinNodes& own, std::span<const Quad> own_quads,
                                                 const mesh::SkinNodes& other,

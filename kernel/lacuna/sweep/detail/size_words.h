@@ -16,7 +16,7 @@ namespace lacuna::sweep {
 /// Estimated number of cells of a sweep.
 struct ExpectedCells {
     double all = 0;
-    double unasked = 0; ///< number of cells of sweeps without both size and layers
+    double unasked = 0; ///< number of cells in sweeps for which size or layers are not given
 };
 
 /// The sizes of a sweep's quads, and their origin.
@@ -25,8 +25,8 @@ struct SourceSize {
     std::optional<surface::DefaultSize> by_default; ///< if no size is given
     surface::ShapeSizing sizing;
     surface::ShapeSize shape; ///< the requested size, reduced by the shape
-    surface::SizeField along; ///< size of the layers: without the default reduction in narrow places
-    /// A place too narrow for the default of `kDefaultGap` quads across, which would give too many quads in
+    surface::SizeField along; ///< size of the layers: not reduced by the default in narrow places
+    /// A place too narrow for `kDefaultGap` quads across, the default, which would give too many quads in
     /// total.
     std::optional<surface::SizeCause> too_narrow;
     std::function<int(int least)> layers{}; ///< layers as in `VolumePlan`
@@ -41,9 +41,9 @@ struct LayersTaken {
     bool by_bends = false;
 };
 
-/// Lines of the report on a default size, or a given one that the shape reduces, and on a default number of
+/// Lines of the report on a default size, on a given size that the shape reduces, and on a default number of
 /// layers, with their origin.
-/// @param volume  whose faces `sizes` names. @param split  whose edges `seeds` names.
+/// @param volume  the faces in `sizes` are its faces. @param split  the edges in `seeds` are its edges.
 std::vector<std::string> sizes_in_words(const topology::OpenVolume& volume, const topology::OpenVolume& split,
                                         const SourceSize& sizes, const surface::Seeds& seeds,
                                         const SweepOptions& options, const LayersTaken& layers);

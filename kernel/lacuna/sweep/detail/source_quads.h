@@ -15,7 +15,7 @@ namespace lacuna::sweep {
 surface::QuadStyle style_of(const SweepOptions& options, bool rows_along_walls);
 
 /// The mesher of source faces that are not mapped: the kernel's paver, or the given one.
-/// @param narrow  there may be narrow places with a minimum number of quads across.
+/// @param narrow  some narrow places may need a minimum number of quads across.
 quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
 
 /// The same for regions that may have an odd number of sides.

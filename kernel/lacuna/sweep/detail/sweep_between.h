@@ -22,7 +22,7 @@ struct ProvedSweep {
     std::set<FaceId> kept;     ///< source faces whose own quads are the mesh
 };
 
-/// The requested shape of the mesh: in an assembly, without the nodes and meshes of neighbours.
+/// The shape that the mesh must have: in an assembly, the volume without the nodes and meshes of neighbours.
 const topology::OpenVolume& shape_of(const topology::OpenVolume& volume, const SweepOptions& options);
 
 /// Seeds, quads, walls, target, layers and proof for linking surfaces with known correspondence.

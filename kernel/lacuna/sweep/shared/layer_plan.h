@@ -30,7 +30,7 @@ struct LayerPlan {
     std::vector<Vec3> target;
     RimColumns columns;
     PlacementOptions options;
-    /// Nodes of the skin that are moved after all are placed, increasing.
+    /// Nodes of the skin that are moved after all nodes are placed; sorted by node.
     std::vector<std::pair<Index, Vec3>> laid{};
     std::optional<MiddlePlan> middles{}; ///< middle nodes, if the mesh is of order 2
 };
@@ -38,7 +38,7 @@ struct LayerPlan {
 /// The cells over a source, without nodes and patches.
 mesh::HexMesh cells_over(const mesh::QuadMesh& source, int layers);
 
-/// The numbers of a plan's middle nodes, which are not stored; empty: it is of order 1.
+/// The numbers of a plan's middle nodes; their positions are not stored. Empty if the plan is of order 1.
 /// @param cells  quads, rim and layers of the plan's mesh
 mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells);
 
@@ -52,8 +52,8 @@ struct PlacedLayers {
 /// @throw  as `place_layers()`
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
 
-/// The same layers with some nodes of the skin moved. @param laid  increasing
-/// @pre  they have no middle nodes yet, which would have to move too.
+/// The same layers with some nodes of the skin moved. @param laid  sorted by node
+/// @pre  the layers have no middle nodes yet, because these would have to move too.
 PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid);
 
 /// The same layers with middle nodes.

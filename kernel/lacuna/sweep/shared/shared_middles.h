@@ -33,7 +33,7 @@ public:
 
 private:
     using Key = std::array<double, 6>;
-    using Places = std::map<Key, Vec3>; // zeros of both signs are one place
+    using Places = std::map<Key, Vec3>; // +0 and -0 are the same place
     template <class Mesh, class Wanted>
     bool add_quad(const Mesh& mesh, std::size_t i, const Wanted& wanted);
     static Key key_of(const Vec3& a, const Vec3& b);

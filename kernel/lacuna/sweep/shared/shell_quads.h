@@ -15,7 +15,7 @@ namespace lacuna::sweep {
 struct ShellQuads {
     std::vector<Vec3> nodes;            ///< corners, then middle nodes on exact edges and faces
     std::vector<mesh::CellNodes> quads; ///< of 4, 8 or 9 nodes, or kept triangles; normals as the faces'
-    std::vector<FaceId> face;           ///< of each of these
+    std::vector<FaceId> face;           ///< face of each quad
     double min_scaled_jacobian = 1, mean_scaled_jacobian = 1; ///< over the corners; the mean over the quads
     double area = 0;
     std::vector<std::string> report;

@@ -23,8 +23,8 @@ struct SkinCounts {
     std::size_t given = 0, exact = 0, facets = 0;
 };
 
-/// The middles of sides that lie on edges of a model, halfway along the edge; empty for the others. Sides
-/// that are straight but for rounding have exactly the middle of their ends, here and in the next.
+/// The middles of sides that lie on edges of a model, halfway along the edge; empty for other sides. A side
+/// that is straight up to rounding gets exactly the mean of its ends, here and in `middles_on_faces()`.
 std::vector<std::optional<Vec3>> middles_on_edges(const topology::Model& model,
                                                   std::span<const SideOfSkin> sides, SkinCounts& counts,
                                                   const RunContext& context = {});

@@ -15,17 +15,17 @@ struct AxisTurn {
     bool is_full = false;
 };
 
-/// Turn the quads of a source round an axis that some of them have a side on. These become wedges, the others
-/// hexahedra.
+/// Revolve the quads of a source around an axis that contains sides of some quads. These quads become wedges,
+/// the others hexahedra.
 ///
-/// The wedges at one segment of the axis are triangles round it, swept along it; the hexahedra beside are
-/// those of a sweep, in two halves for a full turn. So the parts are meshes like all others. Nodes lie
-/// exactly on their circles.
-/// @param flat  the source, sealed with a target that it was moved to
-/// @param base  the mesh of that, of one layer
-/// @throw NotSweepable "sweep.axis_corner"  a quad touches the axis with a corner alone. As
-///        `quality::prove()`. NotClosed "closure.along_folds"  the source does not advance everywhere.
-///        InvalidInput "sweep.axis_layers"  layers of given heights, or too few of them. Cancelled
+/// The wedges at one segment of the axis are triangles around it, swept along the axis. The hexahedra are
+/// those of a sweep, in two halves for a full turn. So all parts are structured like other swept meshes.
+/// Nodes lie exactly on their circles.
+/// @param flat  the source, sealed with a moved copy of it as the target
+/// @param base  the mesh of `flat`, with one layer
+/// @throw NotSweepable "sweep.axis_corner"  a quad touches the axis with one corner only. As
+///     `quality::prove()`. NotClosed "closure.along_folds"  the source does not advance everywhere.
+///     InvalidInput "sweep.axis_layers"  layers of given heights, or too few of them. Cancelled
 SweptAssembly turn_at_axis(const AxisTurn& turn, const topology::OpenVolume& flat, const Swept& base,
                            const SweepOptions& options, const RunContext& context);
 
