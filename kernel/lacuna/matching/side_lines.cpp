@@ -145,7 +145,7 @@ struct Rise {
 };
 using Rises = std::map<VertexId, std::vector<Rise>>;
 
-/// Edges between two walls that may climb.
+/// Wall edges that may climb: those on neither end.
 std::set<EdgeId> edges_between(const OpenVolume& volume)
 {
     std::set<EdgeId> between = edges_of(volume.model, volume.faces(Role::wall));
