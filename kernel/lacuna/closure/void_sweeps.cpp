@@ -109,7 +109,8 @@ std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
     return same->value == VolumeClass::V ? 0 : same->value == VolumeClass::IV ? 1 : 2;
 }
 
-/// Remove and return the best sweep; the candidates are sorted by quality.
+/// Remove and return the best sweep: of those with the fewest irregular nodes, the one with the lowest
+/// `openness()`. At most `kMostOthers` others are kept. @pre sorted by irregular nodes
 RoleCandidate take_best(std::vector<RoleCandidate>& sweeps,
                         const std::function<Ends(const RoleCandidate&)>& ends_of,
                         const std::vector<RoleCandidate>& ways)

@@ -15,8 +15,8 @@ std::vector<std::size_t> sharp_corners(const topology::Model& model, const topol
 
 /// The four sides of a loop with exactly four sharp corners, in walking order; otherwise empty.
 ///
-/// Of the two ways to pair opposite sides, the one for which moving the first side along the second and
-/// fourth brings it closest to the third: round an axis, these two are then arcs about it.
+/// The first side is the one of the first two that, moved along the second and fourth, comes closer to the
+/// third. On a face round an axis, the second and fourth side are then arcs about it.
 std::vector<std::vector<topology::EdgeUse>> four_corners(const topology::Model& model,
                                                          const topology::Loop& loop);
 
