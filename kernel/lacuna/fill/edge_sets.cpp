@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    /// Add a side of an element, if it has the dimension.
+    /// Add a side of an element, if the element has the given dimension.
     void add(io::DeckTag tag, int dimension, int side, const std::string& name)
     {
         const auto known = element_.find(tag);

@@ -39,7 +39,7 @@ std::unique_ptr<KeptMesh> keep(const sweep::Swept& swept, const std::string& nam
     return kept;
 }
 
-/// Move nodes of copies onto those that rounding separates from them.
+/// Move nodes of copies onto the nodes that differ from them by rounding only.
 void settle(std::span<KeptMesh* const> meshes, const RunContext& context)
 {
     if (std::ranges::none_of(meshes, &KeptMesh::copied)) return;

@@ -31,7 +31,7 @@ class CellsOfFace {
 public:
     explicit CellsOfFace(FaceId own) : fixed_{own, {}, {}} {}
 
-    /// @param side  of the neighbour's skin, so that it is turned over
+    /// @param side  a side of the neighbour's skin; it is turned over
     template <class Place>
     void add(Quad side, const Place& place)
     {
@@ -67,7 +67,7 @@ void require_shape(const sweep::Fidelity& shape, const sweep::SweepOptions& opti
     log_line(context, "note: " + message.text());
 }
 
-/// Name the options given for sweeps that tetrahedra do not follow.
+/// Report the given options that only sweeps follow.
 void tell_idle_options(const sweep::SweepOptions& options, FilledTets& tets, const RunContext& context)
 {
     const std::pair<bool, const char*> given[] = {
@@ -87,7 +87,7 @@ void tell_idle_options(const sweep::SweepOptions& options, FilledTets& tets, con
 
 // --- cells and skin ---------------------------------------------------------------------------------------
 
-/// The part of the whole mesh, from the cells that filled a skin.
+/// Make the part of the whole mesh from the cells that fill a skin.
 void take_cells(const ToFill& what, const surface::SkinMesh& skin, mesh::TetMesh made, FilledTets& tets)
 {
     mesh::TetPart& part = tets.mesh;
@@ -114,7 +114,7 @@ void take_cells(const ToFill& what, const surface::SkinMesh& skin, mesh::TetMesh
     for (mesh::SkinPatch& patch : part.patches) patch.groups = groups_in_assembly(name, patch.groups);
 }
 
-/// @throw NotSweepable  the cells are no valid mesh, or their skin is another than the one to be filled
+/// @throw NotSweepable  the cells are no valid mesh, or their skin differs from the one to be filled
 void prove(FilledTets& tets, const RunContext& context)
 {
     quality::CellsProof proved = quality::prove_cells(tets.mesh.nodes, tets.mesh.cells, context);
