@@ -151,7 +151,9 @@ void write_faces(const Model& model, const closure::ModelFacts& found,
             for (const Index point : triangle) box.extend(model.at(point));
     const Grid grid = grid_over(box);
     std::vector<Vec3> points = model.points;
-    for (Vec3& point : points) point = point.cwiseMax(box.min()).cwiseMin(box.max()); // some are unused
+    for (Vec3& point : points)
+        point = point.cwiseMax(box.min()).cwiseMin(box.max()); // unused ones may lie
+                                                               // outside
 
     Json json;
     json.begin_object().member("kind", "faces");

@@ -163,7 +163,7 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
                            found(from), found(to), needed(most));
 }
 
-/// Of each part the number of its region: parts of one name, such as copies, are one.
+/// For each part, the number of its region. Parts of one name, such as copies, form one region.
 template <class Regions>
 std::vector<std::size_t> numbers_by_name(const Regions& regions)
 {

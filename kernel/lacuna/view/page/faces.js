@@ -320,7 +320,7 @@ class FacesPage {
         this.stage.flyTo(centre, Math.max(0.05 * this.data.radius, 0.9 * face.reach), from);
     }
 
-    // "radius 3", or the surface that a face of no such kind lies on.
+    // "radius 3". A face of another kind also gets the surface that it lies on: "a cylinder of radius 3".
     round(face) {
         const size = `radius ${digits(face.radius)}`;
         return [face.fits, "torus"].includes(face.kind) ? size : `a ${face.fits} of ${size}`;
