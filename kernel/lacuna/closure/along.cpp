@@ -379,10 +379,10 @@ Closed close_along(const SweptSource& swept, const CloseOptions& options, const 
                                : options.holes != Holes::automatic          ? "holes"
                                                                             : nullptr;
     if (unused)
-        throw InvalidInput(Message("closure.along_options",
-                                   "close: '{}' shapes what is missing, and 'along' determines all of it",
-                                   unused)
-                               .remedy("leave it out"));
+        throw InvalidInput(
+            Message("closure.along_options",
+                    "close: '{}' cannot be used with 'along', which determines all missing faces", unused)
+                .remedy("leave it out"));
     refuse_edges_on_axis(swept);
     return AlongCloser(swept, context).run();
 }

@@ -51,8 +51,8 @@ std::function<double(double)> sampled(const Along::Profile& profile, double firs
         const double height = static_cast<double>(k) / kProfileSteps;
         values.push_back(profile.at(height));
         if (!std::isfinite(values.back()))
-            throw InvalidInput("closure.along_profile", "along: '{}' is no number at the height {}", name,
-                               found(height));
+            throw InvalidInput("closure.along_profile", "along: '{}' is not a finite number at the height {}",
+                               name, found(height));
     }
     if (std::abs(values.front() - first) > kSamePlace)
         throw InvalidInput(Message("closure.along_profile",
@@ -175,7 +175,7 @@ std::vector<geometry::PathPart> path_of_function(const std::function<Vec3(double
     for (int k = 0; k <= kPathSteps; ++k) {
         part.push_back(curve(static_cast<double>(k) / kPathSteps));
         if (!part.back().allFinite())
-            throw InvalidInput("closure.along_path", "along: the path is no point at {}",
+            throw InvalidInput("closure.along_path", "along: the path has no finite point at {}",
                                found(static_cast<double>(k) / kPathSteps));
     }
     const auto parts = cut_at_corners(part);
@@ -192,8 +192,8 @@ std::vector<geometry::PathPart> parts_of(const Along::Path& path, const Model& m
     if (path.curve) return path_of_function(path.curve);
     if (!path.edges.empty()) return path_of_edges(model, path.edges, source);
     if (path.points.size() < 2)
-        throw InvalidInput("closure.along_path", "along: a path has {} points or more, found {}", needed(2),
-                           found(path.points.size()));
+        throw InvalidInput("closure.along_path", "along: a path needs at least {} points, but has {}",
+                           needed(2), found(path.points.size()));
     std::vector<geometry::PathPart> parts;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
         parts.push_back({path.points[i], path.points[i + 1]});
@@ -205,7 +205,7 @@ std::vector<geometry::PathPart> parts_of(const Along::Path& path, const Model& m
 Vec3 unit(const Vec3& direction, const char* name)
 {
     if (!(direction.stableNorm() > 0))
-        throw InvalidInput("closure.along_direction", "along: '{}' has a direction of no length", name);
+        throw InvalidInput("closure.along_direction", "along: the direction of '{}' has no length", name);
     return direction.stableNormalized();
 }
 
@@ -388,7 +388,8 @@ std::vector<double> thickness_at(const Model& model, const std::function<double(
         for (const Index p : corners_of(face)) {
             at[index(p)] = thickness(model.at(p));
             if (!std::isfinite(at[index(p)]))
-                throw InvalidInput("closure.along_thickness", "along: the thickness at {} is no number",
+                throw InvalidInput("closure.along_thickness",
+                                   "along: the thickness at {} is not a finite number",
                                    place_with_digits(model.at(p), 4));
         }
     note_coarse_facets(model, thickness, at, context);
@@ -493,8 +494,10 @@ struct MotionMaker {
         const double angle = along.angle * kDegree;
         constexpr double kWhole = 360;
         if (!(std::abs(along.angle) > 0) || std::abs(along.angle) > kWhole)
-            throw InvalidInput("closure.along_angle", "along: 'angle' is {} degrees, and a turn has up to {}",
-                               found(along.angle), needed(kWhole));
+            throw InvalidInput(
+                "closure.along_angle",
+                "along: 'angle' is {} degrees; it must be other than 0 and at most {} either way",
+                found(along.angle), needed(kWhole));
         if (by.twist || by.scale)
             check_axis(swept.source.model, along.point, axis);
         else if (has_edges_on_axis(swept.source.model, along.point, axis))

@@ -182,9 +182,9 @@ std::optional<Reading> read_walls_alone(const Model& model, const std::vector<Fa
     if (readings.size() != 1 || readings.front().no_roles || !(take_guess || !readings.front().guess))
         return std::nullopt;
     const RoleCandidate& roles = readings.front().roles;
-    log_line(context, formatted("note: the walls, named without ends, are no tube between two missing ends; "
-                                "taken as {}",
-                                in_words(model, roles.roles, roles.value)));
+    log_line(context,
+             formatted("note: the named walls form no tube between two missing ends; they are taken as {}",
+                       in_words(model, roles.roles, roles.value)));
     return std::move(readings.front());
 }
 

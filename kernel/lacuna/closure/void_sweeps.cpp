@@ -67,10 +67,9 @@ std::vector<FaceId> rising(std::vector<FaceId> faces)
 
 std::string ways_in_words(const Reading& reading)
 {
-    return formatted(
-        "{} readings enclose the same volume, {:.4g}; this one is swept, with the fewest irregular "
-        "nodes, {} or more on its source, and the most even cells",
-        reading.ways, reading.enclosed, reading.roles.irregular);
+    return formatted("{} readings enclose the same volume, {:.4g}; this one is swept, because it has the "
+                     "fewest irregular nodes (at least {} on its source) and the most even cells",
+                     reading.ways, reading.enclosed, reading.roles.irregular);
 }
 
 /// Make the reading an open volume with these roles of the model's faces.

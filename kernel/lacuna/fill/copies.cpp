@@ -232,7 +232,7 @@ FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const 
                     const RunContext& context)
 {
     if (options.count < 1)
-        throw InvalidInput("fill.pattern_count", "a pattern has {} copy or more, but {} are asked for",
+        throw InvalidInput("fill.pattern_count", "a pattern needs at least {} copy, but {} are requested",
                            needed(1), found(options.count));
     const std::size_t parts = mesh.regions.size();
     const auto count = static_cast<std::size_t>(options.count);

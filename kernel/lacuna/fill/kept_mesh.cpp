@@ -35,7 +35,7 @@ std::unique_ptr<KeptMesh> keep(const sweep::Swept& swept, const std::string& nam
     kept->material = material;
     kept->copied = copied;
     remove_name(kept->swept.mesh, name);
-    kept->swept.report.emplace_back(formatted("kept as it came: {} cells", swept.mesh.cell_count()));
+    kept->swept.report.emplace_back(formatted("kept unchanged: {} cells", swept.mesh.cell_count()));
     return kept;
 }
 

@@ -100,7 +100,7 @@ void check_known_faces(const std::vector<Part>& all)
         if (known) return;
         Message message("surface.no_such_face", "sweep: option '{}'{} names {}, which {}", option,
                         own ? " of " + by.asked_name : "", what,
-                        own ? by.asked_name + " has not" : "no volume of the assembly has");
+                        own ? by.asked_name + " does not have" : "no volume of the assembly has");
         std::string nearest;
         if constexpr (std::is_same_v<std::decay_t<decltype(face)>, std::string>)
             nearest = nearest_face_name(all, face, of);
@@ -143,7 +143,7 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
     if (layers.count == 0) return;
     if (layers.count < kLeastPerTurn)
         throw InvalidInput("sweep.full_turn_layers",
-                           "a full turn needs at least {} layers, but {} are asked for",
+                           "a full turn needs at least {} layers, but {} are requested",
                            needed(kLeastPerTurn), found(layers.count));
     const auto until = [&](double turn) { return static_cast<int>(std::lround(turn * layers.count)); };
     layers.count = std::max(1, until(volume.turn_to) - until(volume.turn_from));

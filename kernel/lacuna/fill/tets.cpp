@@ -125,7 +125,8 @@ void prove(FilledTets& tets, const RunContext& context)
                       std::ranges::all_of(tets.mesh.skin,
                                           [&](const Quad& side) { return skin.contains(face_key(side)); });
     if (!same)
-        throw NotSweepable("fill.skin_differs", "{}: the cells that fill the skin have another skin",
+        throw NotSweepable("fill.skin_differs",
+                           "{}: the skin of the tetrahedra differs from the skin that they should fill",
                            tets.region);
     tets.quality = std::move(proved.quality);
 }
@@ -168,7 +169,7 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
     if (!options.tet_mesher)
         throw InvalidInput(
             Message("fill.no_tets",
-                    "{}: it must be filled with tetrahedra, and this host gives no mesher for them",
+                    "{}: it must be filled with tetrahedra, but this host has no mesher for them",
                     what.region)
                 .remedy("set SweepOptions::tet_mesher, for example to cad::fill_skin"));
     FilledTets tets;
@@ -297,7 +298,7 @@ void number_nodes(FilledParts& mesh)
             tets.mesh.skin, [&](const Quad& side) { return is_known(side, tets.number); });
         if (static_cast<std::size_t>(shared) != tets.shared)
             throw NotSweepable("fill.not_shared",
-                               "{}: {} of its sides are those of its neighbours, where {} should be",
+                               "{}: {} sides of its skin are shared with its neighbours, but {} should be",
                                tets.region, found(shared), needed(tets.shared));
     }
 }

@@ -303,8 +303,8 @@ private:
                 if (const std::size_t s = source_.first[l] + i; partner_[s] != partner(i))
                     others.push_back(entity_of(model_, source_.vertex[s]));
             result_.notes.push_back({"matching.nearest_taken",
-                                     "{}: the target vertices nearest to {} are taken by others; they "
-                                     "follow the other vertices of the loop",
+                                     "{}: the target vertices nearest to {} have other partners, so these "
+                                     "vertices are paired in the order of the loop",
                                      source_loop(l), others});
             result_.confidence = std::min(result_.confidence,
                                           static_cast<double>(way.agree) / static_cast<double>(n));

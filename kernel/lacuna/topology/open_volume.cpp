@@ -217,7 +217,7 @@ void check_override(const OpenVolume& volume, const Classification& found)
                     .remedy("leave it out"));
         break;
     case VolumeClass::zero:
-        refuse("it needs a path, which its faces do not tell");
+        refuse("it needs a path: open_volume{{ along = … }}");
         break;
     }
 }

@@ -31,7 +31,7 @@ const char* word(topology::Geometry geometry)
                                       "flat",
                                       "between its sides",
                                       "a strip between two loops",
-                                      "as the walls lead",
+                                      "following the given walls",
                                       "parallel to the other end"};
     static_assert(std::size(kWords) == static_cast<std::size_t>(topology::Geometry::parallel) + 1);
     return kWords[static_cast<std::size_t>(geometry)];

@@ -57,7 +57,7 @@ class FacesPage {
                 className: "quiet",
                 textContent:
                     "A second click takes a face out. Keys 1 to 4 change the role. " +
-                    "Of faces alone likely roles are found.",
+                    "If you choose faces alone, their likely roles are found.",
             }),
         );
         this.recipe = el("textarea", { readOnly: true, spellcheck: false, id: "recipe" });
@@ -276,7 +276,7 @@ class FacesPage {
                       )} without a wall.`
                     : freeCount > 0
                       ? `${things(freeCount, "edge")} of one face alone.`
-                      : "No free edge: the faces close round.",
+                      : "No free edge: the faces form a closed skin.",
             }),
         );
         const hatched = data.faces.some(face => face.void);
