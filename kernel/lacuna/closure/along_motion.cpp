@@ -477,7 +477,7 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
 
 /// Visitor of `Along::course`: makes the motion for each of its alternatives.
 struct MotionMaker {
-    const Model& model; ///< of the edges of a path
+    const Model& model; ///< contains the edges of a path
     SweptSource& swept;
     geometry::Distortion by;
     Vec3 centre;

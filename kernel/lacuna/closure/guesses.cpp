@@ -129,8 +129,9 @@ bool is_straight_sided(const Model& model, const Loop& loop)
                                [&](const EdgeUse& use) { return is_straight_between_kinks(model, use); });
 }
 
-/// Whether a polygonal rim is too far off a plane. Compared with the enclosed volume is the volume under a
-/// roof: half of the face's projected area times the largest distance of a rim point from the plane.
+/// Whether a polygonal rim is too far off a plane. The measure is the volume under a roof (half of the face's
+/// projected area times the largest distance of a rim point from the plane), compared with the enclosed
+/// volume.
 bool is_rim_far_off_plane(const Model& model, double enclosed, FaceId face, const Loop& loop)
 {
     const double furthest = off_one_plane(loop_places(model, loop.uses));

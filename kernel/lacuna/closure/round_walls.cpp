@@ -416,7 +416,7 @@ std::optional<VoidFilling> fill_round_patch(const Model& model, const Loop& loop
     Outline outline;
     outline.add_loop(unrolled, loop_points(model, loop.uses));
     if (geometry::find_crossing(outline.flat, outline.loops)) return std::nullopt;
-    constexpr double kFacets = 64; // largest number along the diagonal of the outline
+    constexpr double kFacets = 64; // largest number of facets along the diagonal of the outline
     Eigen::AlignedBox2d box;
     for (const Vec2& place : outline.flat) box.extend(place);
     geometry::TriangulateOptions fine;

@@ -216,7 +216,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
         Void now;
         now.sealed = {{Closed(std::move(one)), {}}, one.enclosed};
         now.filled = formatted("sealed with the shape of {} at the other end", entity_of(model, one.from));
-        now.first.roles.walls = faces; // in the numbering of its volume
+        now.first.roles.walls = faces; // face i of its volume is faces[i] of the model
         const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };
         if (std::ranges::any_of(ends, is_same)) continue;
         told = told && !one.through;

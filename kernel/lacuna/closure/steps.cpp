@@ -548,7 +548,7 @@ bool is_stepped(const OpenVolume& volume, const RunContext& context)
                                [](const Steps& steps) { return is_stepped(steps); });
 }
 
-/// Cut in the planes of all flat steps. Empty if that fails too.
+/// Cut in the planes of all flat steps. Empty if a cut fails or a piece still has steps.
 std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<Steps, 2>& steps,
                                      const RunContext& context)
 {

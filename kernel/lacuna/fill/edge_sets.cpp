@@ -72,7 +72,7 @@ private:
 
     const io::Deck& deck_;
     NamedSides& found_;
-    std::unordered_map<Index, Index> point_; ///< model point of a deck's node
+    std::unordered_map<Index, Index> point_; ///< by node of the deck: the model's point
     std::unordered_map<io::DeckTag, std::pair<const io::DeckBlock*, std::size_t>> element_;
 };
 

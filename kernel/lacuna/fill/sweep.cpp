@@ -110,7 +110,8 @@ Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request
 
 // --- a source with edges on its axis ----------------------------------------------------------------------
 
-/// Turn a source with edges on its axis: it is meshed as the end of a plate, and its quads are turned.
+/// Revolve a source with edges on its axis: it is meshed as the end of a plate, whose quads are then
+/// revolved.
 Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const RunContext& context)
 {
     sweep::SweepOptions options = request.options;
@@ -147,7 +148,7 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
                      {},
                      {}};
     const std::string name = volume.name.empty() ? "volume" : volume.name;
-    for (const sweep::Swept& part : mesh.swept.parts) // wedges have layers along the axis
+    for (const sweep::Swept& part : mesh.swept.parts) // no hexahedra: the wedges along the axis
         mesh.regions.push_back(part.mesh.hex_count() > 0 ? name : name + "_axis");
     mesh.materials.assign(mesh.swept.parts.size(), volume.material);
     Filled filled{{}, std::move(mesh)};

@@ -212,7 +212,7 @@ namespace {
 /// Numbers of the middle nodes of skins, by the numbers of the corners of their sides and quads.
 class MiddleNumbers {
 public:
-    /// Add those of a mesh. @param number  of each of its nodes
+    /// Add the numbers of a mesh's middle nodes. @param number  of each node of the mesh
     template <class Mesh>
     void add(const Mesh& mesh, const std::vector<Index>& number)
     {

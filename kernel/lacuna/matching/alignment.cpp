@@ -21,7 +21,7 @@ constexpr int kSections = 30;
 
 using Hard = std::map<VertexId, VertexId>;
 
-/// True if the hard pairs of two loops with as many vertices allow the alignment.
+/// True if the hard pairs of two loops with equal numbers of vertices allow the alignment.
 bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target, std::size_t shift,
              bool backward)
 {

@@ -2,7 +2,6 @@
 //
 // All positions are shares of the source loop's length. Target vertices are mapped to them by scaling the arc
 // length between pairs.
-// pairs.
 #include <lacuna/matching/detail/arc_pairs.h>
 
 #include <lacuna/core/shared/constants.h>
@@ -294,7 +293,7 @@ private:
     std::vector<std::size_t> partner_; ///< target of each source vertex
     std::vector<std::size_t> taken_;   ///< source of each target vertex
     std::optional<ShareMap> shares_;
-    std::vector<double> place_; ///< share of the source of each target vertex
+    std::vector<double> place_; ///< by target vertex: its share of the source loop
 };
 
 } // namespace

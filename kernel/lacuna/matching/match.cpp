@@ -187,7 +187,7 @@ private:
     }
 
     /// Shift a loop that is paired by length to the best common fit with all others, unless its samples are
-    /// given nodes. Of other loops that can still shift only the centroids count, each with the weight of a
+    /// given nodes. Of other loops that can still shift, only the centroids count, each with the weight of a
     /// loop.
     void slide(std::size_t s)
     {

@@ -17,7 +17,7 @@ using namespace topology;
 
 namespace {
 
-/// The loop with each vertex.
+/// Finds the loop that contains a vertex.
 class LoopsAt {
 public:
     explicit LoopsAt(const std::vector<LoopShape>& loops)

@@ -383,7 +383,7 @@ private:
 
     // --- costs of ends alone ----------------------------------------------------------------------
 
-    /// The free loops if all patches are walls.
+    /// Number of free loops if all patches are walls.
     [[nodiscard]] std::size_t free_loops()
     {
         std::vector<WallPart> all(1);
@@ -409,7 +409,8 @@ private:
         });
     }
 
-    /// Whether two patches have as many rims and no vertex in common. @pre the vertices of `a` are marked.
+    /// Whether two patches have equal numbers of rims and no vertex in common. @pre the vertices of `a` are
+    /// marked.
     [[nodiscard]] bool are_apart(std::size_t a, std::size_t b) const
     {
         const SmoothPatch &s = map_.patches[a], &t = map_.patches[b];
@@ -645,7 +646,7 @@ private:
     const Model& model_;
     bool flat_alone_;
     const RunContext& context_;
-    std::vector<double> angle_; ///< for each edge between its faces [degrees]
+    std::vector<double> angle_; ///< by edge: angle between its two faces [degrees]
     std::vector<EdgeId> sharp_; ///< edges between two patches
     PatchMap map_;
     std::vector<SteppedEnds> stepped_; ///< by stepped candidate

@@ -106,7 +106,7 @@ Nearest nearest_on(const Model& model, std::span<const Index> points, std::span<
 /// points move to the nearest node.
 class EdgeRemesher {
 public:
-    /// @param given  as it was before any change.
+    /// @param given  the model before any change.
     EdgeRemesher(const Model& given, ModelBuilder& model) : given_(given), model_(model) {}
 
     /// @param at     running lengths of the edge's points.

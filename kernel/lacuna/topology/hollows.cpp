@@ -143,8 +143,7 @@ std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<
         const geometry::FacetTree tree(model.points, facets_of(model, parts[o]), context);
         for (std::size_t p = 0; p < parts.size(); ++p) {
             if (p == o) continue;
-            const Vec3 at = facet_centre(model, parts[p].front()); // no corner, which the other part may
-                                                                   // share
+            const Vec3 at = facet_centre(model, parts[p].front()); // corners may be shared by both parts
             if (tree.bounds().contains(at) && std::abs(tree.winding_number(at)) > kInside)
                 inner[p] = !inner[p];
         }

@@ -15,8 +15,8 @@ std::vector<std::size_t> sharp_corners(const topology::Model& model, const topol
 
 /// The four sides of a loop with exactly four sharp corners, in walking order; otherwise empty.
 ///
-/// The first side is the one of the first two that, moved along the second and fourth, comes closer to the
-/// third. On a face round an axis, the second and fourth side are then arcs about it.
+/// The list starts with that one of the first two sides which, moved along its two neighbours, comes closer
+/// to the side opposite. On a face round an axis, these neighbours are then arcs about it.
 std::vector<std::vector<topology::EdgeUse>> four_corners(const topology::Model& model,
                                                          const topology::Loop& loop);
 

@@ -37,8 +37,8 @@ std::vector<MovedEnd> move_ends(const topology::Model& model, const std::vector<
                                 const std::function<bool(const std::vector<Vec3>&)>& known,
                                 const RunContext& context);
 
-/// The same if the user named the given end as the source and the given walls; empty if these do not
-/// determine the missing end.
+/// As `move_ends()`, for an end that the user named as the source, with the given walls. Empty if these do
+/// not determine the missing end.
 /// @pre  `open` has no target
 std::optional<MovedEnd> move_source(const topology::OpenVolume& open, const RunContext& context);
 

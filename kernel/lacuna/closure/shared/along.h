@@ -28,7 +28,7 @@ struct SweptSource {
 };
 
 /// Give a source the motion along a path.
-/// @param model  of the edges of a path.
+/// @param model  contains the edges of a path.
 /// @throw InvalidInput "closure.along_…"  a path without length or with an unknown edge; a source that
 ///                     touches the axis at a point, has several parts or is closed; a section that shrinks to
 ///                     nothing; a place of the source whose ray meets the face nowhere or twice. As

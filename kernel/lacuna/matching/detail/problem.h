@@ -55,7 +55,7 @@ struct Problem {
     [[nodiscard]] bool has_hard(std::size_t s) const;
 };
 
-/// @param match  its loops are set; receives its side lines.
+/// @param match  with its loops set; its side lines are added.
 /// @throw InvalidInput, NotClosed  user pairs or walls that contradict each other; names tags and loops.
 Problem problem_of(const topology::OpenVolume& volume, const MatchOptions& options, Match& match,
                    const RunContext& context);

@@ -20,8 +20,8 @@ int next_tag(const std::vector<Entity>& all, Origin origin, std::size_t first = 
     return tag;
 }
 
-/// The parts of an edge that is split at inner points. These ascend, each with the vertex that it becomes.
-/// All parts have the edge's tag.
+/// The parts of an edge that is split at some of its inner points. All parts have the edge's tag.
+/// @param at  indices of these points, ascending, each with the vertex that the point becomes.
 std::vector<Edge> divided(Edge whole, const std::vector<std::pair<std::size_t, VertexId>>& at);
 
 /// Result of `split_edge()`.
