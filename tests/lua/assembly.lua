@@ -111,7 +111,7 @@ for _, option in ipairs { "boundary_layers", "intervals" } do
   check.fails(function() assembly:sweep { size = 0.4, [option] = of "wal_1" } end,
     option, '"wal_1"', 'nearest is "wall_1"', "no volume", "surface.no_such_face")
   check.fails(function() assembly:sweep { size = 0.4, [a] = { [option] = of "typo" } } end,
-    option .. "' of core", "core has not", "surface.no_such_face")
+    option .. "' of core", "core does not have", "surface.no_such_face")
 end
 check.fails(function()
   assembly:sweep { size = 0.4, boundary_layers = { walls = 77, first = 0.01, count = 2 } }

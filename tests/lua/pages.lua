@@ -532,7 +532,7 @@ if lacuna.gmsh_version ~= "none" then
     say(page.data.edges.length, page.state.textContent);
     say(page.over(...findPixel(page, side => page.data.faces[page.faceOf[side]].kind, "cylinder")).join("|"));
   ]=])
-  check.equal(pin[1], "3 No free edge: the faces close round.")
+  check.equal(pin[1], "3 No free edge: the faces form a closed skin.")
   check.that(pin[2]:find("radius 1|", 1, true) and pin[2]:find("3 edges, 1 loop|", 1, true), pin[2])
 end
 

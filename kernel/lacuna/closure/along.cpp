@@ -26,7 +26,7 @@ using namespace topology;
 
 namespace {
 
-/// The sets of the source's edges, assigned to the images of these edges after half a turn.
+/// The sets of the source's edges, assigned to the images of these edges halfway along the motion.
 std::map<EdgeId, std::vector<std::string>> sets_above(const SweptSource& swept, const Model& moved)
 {
     std::map<EdgeId, std::vector<std::string>> sets;
@@ -113,7 +113,7 @@ private:
         return places;
     }
 
-    /// Rows of facets from one level to the next, the levels included.
+    /// First and last row of facets between a level and the next.
     [[nodiscard]] std::pair<std::size_t, std::size_t> rows_between(std::size_t level) const
     {
         const auto row = [&](double height) {
@@ -195,7 +195,7 @@ private:
                 if (index(a) < given_facets && index(b) < given_facets) return true;
                 const auto shared = std::ranges::count_if(
                     one, [&](Index p) { return std::ranges::find(other, p) != other.end(); });
-                if (shared >= 2) return true; // neighbours: folds are found by their advance
+                if (shared >= 2) return true; // neighbours: check_advance() finds their folds
                 if (!geometry::triangles_cross(corners(one), corners(other), model.tolerance)) return true;
                 const Vec3 middle = (model.at(one[0]) + model.at(one[1]) + model.at(one[2])) / 3;
                 throw NotClosed(Message("closure.along_crosses",
@@ -241,7 +241,7 @@ private:
         return result;
     }
 
-    /// The vertex above a vertex of the source.
+    /// The image of a source vertex in a row.
     VertexId vertex_at(VertexId vertex, std::size_t row)
     {
         if (row == 0 || (row == last() && swept_.full_turn)) return vertex;
@@ -251,7 +251,7 @@ private:
         return known.first->second;
     }
 
-    /// The edge above an edge of the source.
+    /// Add the image of a source edge in a row.
     EdgeId edge_at(EdgeId edge, std::size_t row)
     {
         const Edge& own = given_[edge];
@@ -264,7 +264,7 @@ private:
         return made;
     }
 
-    /// Add the void edge of a vertex between two levels, unless it is there.
+    /// Add the void edge of a source vertex from a level to the next, unless it exists.
     void add_path_edge(VertexId vertex, std::size_t level)
     {
         if (!paths_.insert({vertex, level}).second) return;
@@ -365,7 +365,7 @@ private:
     std::map<std::pair<VertexId, std::size_t>, VertexId> vertices_;
     std::set<std::pair<VertexId, std::size_t>> paths_; ///< vertices and levels that have their void edge
     std::vector<FaceId> walls_;
-    std::vector<Vec3> reach_; ///< of each point of the source, where it moves by a vector of its own
+    std::vector<Vec3> reach_; ///< by point of the source: the vector it moves by, if each point has its own
     double sense_ = 0;        ///< sign of the advance of the source's facets along their normals
 };
 
@@ -379,10 +379,10 @@ Closed close_along(const SweptSource& swept, const CloseOptions& options, const 
                                : options.holes != Holes::automatic          ? "holes"
                                                                             : nullptr;
     if (unused)
-        throw InvalidInput(Message("closure.along_options",
-                                   "close: '{}' shapes what is missing, and 'along' determines all of it",
-                                   unused)
-                               .remedy("leave it out"));
+        throw InvalidInput(
+            Message("closure.along_options",
+                    "close: '{}' cannot be used with 'along', which determines all missing faces", unused)
+                .remedy("leave it out"));
     refuse_edges_on_axis(swept);
     return AlongCloser(swept, context).run();
 }
@@ -394,7 +394,7 @@ std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& 
     SweptSource half{swept.source, geometry::part_of_motion(swept.motion, 0, kHalf), false, swept.sets};
     StepPiece first{.volume = close_along(half, {}, context).volume, .turn_to = kHalf};
     const Model& model = first.volume.model;
-    // Edges of the target have the order of the source's, to which it is moved.
+    // The second half starts from the target of the first, whose edges have the order of the source's.
     half.source.model = extract(model, first.volume.faces(Role::target));
     half.source.role.assign(half.source.model.faces.size(), Role::source);
     half.motion = geometry::part_of_motion(swept.motion, kHalf, 1);

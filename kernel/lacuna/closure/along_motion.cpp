@@ -28,17 +28,18 @@ using namespace topology;
 
 namespace {
 
-/// Intervals at which functions of the height are read; a cubic joins the values. A choice: a wave of a sine
-/// over the whole height is met to one part in a million.
+/// Number of intervals at which functions of the height are sampled; cubics join the values. A choice: one
+/// period of a sine over the whole height is reproduced to one part in a million.
 constexpr int kProfileSteps = 128;
-/// Intervals at which a path given as a function is read: one turn in five is met to 1e-6 of its radius.
+/// Number of intervals at which a path given as a function is sampled. A path of five turns is reproduced to
+/// 1e-6 of their radius.
 constexpr int kPathSteps = 1024;
-/// Points between two of a CAD curve's facets, at which the curve is read for a path.
+/// Number of samples of a CAD curve on each of its chords, if it is used as a path.
 constexpr int kCurveSteps = 8;
 
 // --- twist and scale ---------------------------------------------------------------------------------------
 
-/// A profile read at even heights, between which a cubic runs.
+/// A profile: linear, or a function that is sampled at even heights and interpolated by cubics.
 std::function<double(double)> sampled(const Along::Profile& profile, double first, const char* name)
 {
     if (!profile.at) {
@@ -50,8 +51,8 @@ std::function<double(double)> sampled(const Along::Profile& profile, double firs
         const double height = static_cast<double>(k) / kProfileSteps;
         values.push_back(profile.at(height));
         if (!std::isfinite(values.back()))
-            throw InvalidInput("closure.along_profile", "along: '{}' is no number at the height {}", name,
-                               found(height));
+            throw InvalidInput("closure.along_profile", "along: '{}' is not a finite number at the height {}",
+                               name, found(height));
     }
     if (std::abs(values.front() - first) > kSamePlace)
         throw InvalidInput(Message("closure.along_profile",
@@ -97,7 +98,7 @@ geometry::Distortion distortion_of(const Along& along)
 
 // --- paths -------------------------------------------------------------------------------------------------
 
-/// The line of an edge; on its curve, if it has one.
+/// Points along an edge, on its exact curve if it has one.
 std::vector<Vec3> line_of(const Model& model, const Edge& edge)
 {
     std::vector<Vec3> points;
@@ -115,7 +116,7 @@ std::vector<Vec3> line_of(const Model& model, const Edge& edge)
     return points;
 }
 
-/// The line cut where it turns by the angle of a crease or more.
+/// A line, cut where it turns by the crease angle or more.
 std::vector<geometry::PathPart> cut_at_corners(const std::vector<Vec3>& line)
 {
     std::vector<geometry::PathPart> parts{{line.front()}};
@@ -128,8 +129,8 @@ std::vector<geometry::PathPart> cut_at_corners(const std::vector<Vec3>& line)
     return parts;
 }
 
-/// The parts of a path along edges, each from its end next to the part before, the first from the end of the
-/// whole that is nearer to the source.
+/// The parts of a path along edges. Each edge starts where the one before it ends, and the path starts at its
+/// end nearer to the source.
 std::vector<geometry::PathPart> path_of_edges(const Model& model, const std::vector<int>& tags,
                                               const Vec3& source)
 {
@@ -174,7 +175,7 @@ std::vector<geometry::PathPart> path_of_function(const std::function<Vec3(double
     for (int k = 0; k <= kPathSteps; ++k) {
         part.push_back(curve(static_cast<double>(k) / kPathSteps));
         if (!part.back().allFinite())
-            throw InvalidInput("closure.along_path", "along: the path is no point at {}",
+            throw InvalidInput("closure.along_path", "along: the path has no finite point at {}",
                                found(static_cast<double>(k) / kPathSteps));
     }
     const auto parts = cut_at_corners(part);
@@ -191,8 +192,8 @@ std::vector<geometry::PathPart> parts_of(const Along::Path& path, const Model& m
     if (path.curve) return path_of_function(path.curve);
     if (!path.edges.empty()) return path_of_edges(model, path.edges, source);
     if (path.points.size() < 2)
-        throw InvalidInput("closure.along_path", "along: a path has {} points or more, found {}", needed(2),
-                           found(path.points.size()));
+        throw InvalidInput("closure.along_path", "along: a path needs at least {} points, but has {}",
+                           needed(2), found(path.points.size()));
     std::vector<geometry::PathPart> parts;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
         parts.push_back({path.points[i], path.points[i + 1]});
@@ -204,7 +205,7 @@ std::vector<geometry::PathPart> parts_of(const Along::Path& path, const Model& m
 Vec3 unit(const Vec3& direction, const char* name)
 {
     if (!(direction.stableNorm() > 0))
-        throw InvalidInput("closure.along_direction", "along: '{}' has a direction of no length", name);
+        throw InvalidInput("closure.along_direction", "along: the direction of '{}' has no length", name);
     return direction.stableNormalized();
 }
 
@@ -272,7 +273,7 @@ bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
     return true;
 }
 
-/// Direction in which a turn moves a place.
+/// Direction in which a rotation moves a place.
 Vec3 start_of_turn(const Vec3& point, const Vec3& axis, const Vec3& place)
 {
     const Vec3 way = axis.cross(place - point);
@@ -350,8 +351,8 @@ std::vector<Vec3> unit_offsets(const Model& model)
     return offsets;
 }
 
-/// Between the corners of facets the thickness is linear: report where a function is off that by more than a
-/// hundredth, a choice, of its largest value.
+/// Report a thickness function that differs from its linear interpolation on the facets by more than a
+/// hundredth (a choice) of its largest value.
 void note_coarse_facets(const Model& model, const std::function<double(const Vec3&)>& thickness,
                         const std::vector<double>& at, const RunContext& context)
 {
@@ -387,14 +388,15 @@ std::vector<double> thickness_at(const Model& model, const std::function<double(
         for (const Index p : corners_of(face)) {
             at[index(p)] = thickness(model.at(p));
             if (!std::isfinite(at[index(p)]))
-                throw InvalidInput("closure.along_thickness", "along: the thickness at {} is no number",
+                throw InvalidInput("closure.along_thickness",
+                                   "along: the thickness at {} is not a finite number",
                                    place_with_digits(model.at(p), 4));
         }
     note_coarse_facets(model, thickness, at, context);
     return at;
 }
 
-/// Move the source's points and forget the exact geometry, which they leave.
+/// Move the source's points and drop the exact geometry, on which they no longer lie.
 void shift_points(Model& model, const std::vector<Vec3>& by)
 {
     ModelBuilder builder(std::move(model));
@@ -429,7 +431,7 @@ geometry::Motion motion_along_normals(OpenVolume& source, const Along::Normals& 
                     round](const Vec3& place) -> Vec3 {
         const Vec3 vector = (*vectors)(place);
         if (!round) return vector;
-        // On a cylinder or a sphere the normal is exact, and facets tell the thickness.
+        // On a cylinder or a sphere the normal is exact; the vector only gives the thickness.
         const Vec3 normal = round_normal(*round, place);
         return (normal.dot(vector) < 0 ? -vector.norm() : vector.norm()) * normal;
     };
@@ -468,14 +470,14 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
     motion.reach = [tree, way, vectors = std::make_shared<const PointVectors>(model, std::move(reach))](
                        const Vec3& place) -> Vec3 {
         const geometry::FacetTree::RayHit hit = tree->first_along(place, way);
-        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way); // rounding at the rim misses
+        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way); // rounding may miss at the rim
     };
     return motion;
 }
 
 /// Visitor of `Along::course`: makes the motion for each of its alternatives.
 struct MotionMaker {
-    const Model& model; ///< of the edges of a path
+    const Model& model; ///< contains the edges of a path
     SweptSource& swept;
     geometry::Distortion by;
     Vec3 centre;
@@ -492,8 +494,10 @@ struct MotionMaker {
         const double angle = along.angle * kDegree;
         constexpr double kWhole = 360;
         if (!(std::abs(along.angle) > 0) || std::abs(along.angle) > kWhole)
-            throw InvalidInput("closure.along_angle", "along: 'angle' is {} degrees, and a turn has up to {}",
-                               found(along.angle), needed(kWhole));
+            throw InvalidInput(
+                "closure.along_angle",
+                "along: 'angle' is {} degrees; it must be other than 0 and at most {} either way",
+                found(along.angle), needed(kWhole));
         if (by.twist || by.scale)
             check_axis(swept.source.model, along.point, axis);
         else if (has_edges_on_axis(swept.source.model, along.point, axis))
@@ -513,7 +517,7 @@ struct MotionMaker {
         if (along.turns == 0)
             throw InvalidInput("closure.along_turns", "along: a helix needs 'turns' other than {}", found(0));
         check_axis(swept.source.model, along.point, axis);
-        // A screw that is turned back goes down: the same helix.
+        // With the pitch as it is, negative turns would go down along the same right-handed helix.
         const double pitch = along.turns < 0 ? -along.pitch : along.pitch;
         return distorted(geometry::screw(along.point, axis, along.turns * kFullTurn, pitch), centre,
                          start_of_turn(along.point, axis, centre), by);
@@ -546,8 +550,8 @@ struct MotionMaker {
     }
 };
 
-/// Divide closed edges of the rim: the walls of their halves meet in two edges along the path, which tell how
-/// the source's rim corresponds to the target's. A seam within one wall would not.
+/// Divide closed edges of the rim in two. The walls of the halves then meet in two edges along the path,
+/// which fix how the rims of source and target correspond. The seam of a single wall would not fix that.
 void divide_closed_edges(Model& model)
 {
     constexpr double kMiddle = 0.5;

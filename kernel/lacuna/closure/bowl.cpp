@@ -73,7 +73,7 @@ bool has(const std::vector<FaceId>& faces, FaceId face)
     return std::ranges::find(faces, face) != faces.end();
 }
 
-/// Depth of the bottom's end below the mouth; empty if there is none.
+/// Depth below the mouth at which the walls end and the bottom begins; empty if there is no such depth.
 std::optional<double> parting_depth(const Model& model, const Mouth& mouth)
 {
     double depth = 0;

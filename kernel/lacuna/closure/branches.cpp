@@ -33,7 +33,8 @@ namespace {
 /// Angle by which walls turn inward at a mouth [degrees]: above the angle between facets of a bent wall,
 /// below that of a branch that leaves obliquely.
 constexpr double kConcave = 15;
-/// Largest depth of the dip as a share of the distance to the opposite wall: for equal tubes, the axis.
+/// Largest depth of a dip (the line across a mouth in which the cut faces meet, see `add_dip()`), as a share
+/// of the distance to the opposite wall. For equal tubes the dip then reaches the axis.
 constexpr double kDeepest = 0.5;
 /// Branches leave to one side if the cosine of the angle between their directions, or opposite directions, is
 /// above this (30°); an edge this close to the axis runs along it. A higher value adds planes at small angles
@@ -48,7 +49,7 @@ constexpr double kBeside = 0.1;
 /// Number of chords of the dip, a parabola: each has a sag of 1/256 of its depth.
 constexpr int kChords = 16;
 
-/// A closed line of concave edges.
+/// A closed line of concave edges between a branch and its main body.
 struct Mouth {
     std::vector<EdgeId> edges;
     std::size_t host = 0, branch = 0; ///< skin regions on its two sides
@@ -182,7 +183,7 @@ private:
     const OpenVolume& volume_;
     const Model& model_;
     const RunContext& context_;
-    std::vector<FaceId> ends_; ///< the faces of both
+    std::vector<FaceId> ends_; ///< faces of source and target
     Branching result_;
 };
 
@@ -304,8 +305,8 @@ private:
             refuse(mouth, formatted("the main body has {} ends, so its direction is ambiguous", ends.size()));
     }
 
-    /// Planes along the main body through the centre of each mouth and of each line across its ends, if these
-    /// leave to several sides; empty if all leave to one side.
+    /// Planes along the main body, through the centre of each mouth and of each edge across its ends. Empty
+    /// if all branches leave to one side.
     [[nodiscard]] std::vector<geometry::Plane> planes_along(const std::vector<const Mouth*>& mouths) const
     {
         const Model& model = volume_.model;
@@ -354,8 +355,8 @@ private:
         return planes;
     }
 
-    /// Split the walls of the main body along some planes: the lines determine the correspondence between the
-    /// ends of arms whose rims are bent at mouths on several sides.
+    /// Split the walls of the main body along some planes, then cut the branches. The new lines determine how
+    /// the ends of arms correspond if mouths on several sides bend their rims.
     std::vector<StepPiece> with_lines(const std::vector<geometry::Plane>& planes) const
     {
         OpenVolume lined = volume_;
@@ -435,8 +436,9 @@ private:
         return result;
     }
 
-    /// Positions of planes along the sides of a mouth that are normal to the axis, as of a square duct on a
-    /// flat wall: the part between them is swept along the axis, with the duct's sides as parts of its ends.
+    /// Heights of the two sides of a mouth that are normal to the axis, such as those of a square duct on a
+    /// flat wall; empty if there are not two. The part between them is swept along the axis, with the duct's
+    /// sides as parts of its ends.
     [[nodiscard]] std::vector<double> sides_across(const Mouth& mouth) const
     {
         const Model& model = volume_.model;
@@ -498,8 +500,8 @@ private:
         return own;
     }
 
-    /// Add the faces that meet in a line across each mouth: two from the line to the halves of the mouth, and
-    /// one between the lines across the main body.
+    /// Add the cut faces, which meet in a dip across each mouth: two from the dip to the halves of the mouth,
+    /// and one across the main body between the dips.
     std::vector<StepPiece> fork(const std::vector<const Mouth*>& mouths)
     {
         check_cancelled(context_);
@@ -517,7 +519,7 @@ private:
             if (found_.region[made.parent[f].index()] == mouths.front()->host) host.emplace_back(f);
 
         Partition middle;
-        std::map<VertexId, EdgeUse> onward; // by start vertex: from the end of a walk across its mouth
+        std::map<VertexId, EdgeUse> onward; // by start vertex: the dip that continues a walk which ends there
         for (const Mouth* mouth : mouths) {
             // The void faces of earlier mouths come after the faces of the skin.
             std::vector<FaceId> branch;
@@ -603,7 +605,8 @@ private:
         return {use_from(model, halves[0].front()), use_to(model, halves[0].back())};
     }
 
-    /// A parabola across the mouth that dips into the main body as deep as the mouth is wide along the axis.
+    /// Add the dip: a parabola across the mouth into the main body. It goes down by half of the mouth's width
+    /// along the axis, counted from the mouth's widest place, but at most half way to the opposite wall.
     EdgeId add_dip(Model& model, const Mouth& mouth, const geometry::Plane& plane,
                    std::pair<VertexId, VertexId> ends)
     {

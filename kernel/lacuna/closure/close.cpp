@@ -132,8 +132,8 @@ bool asks_for_shape(const CloseOptions& options)
            options.cap != Cap::automatic;
 }
 
-/// Note an assumption about walls missing next to a missing end. It matters if a face that bulges over their
-/// rims by a quarter of their width, 4 area / perimeter, would change the volume enough.
+/// Note an assumption about missing walls next to a missing end. Its share of the volume is that of a bulge
+/// over these walls by a quarter of their width (4 area / perimeter).
 void assume_walls(const OpenVolume& sealed, const Message& note, Closure& closure)
 {
     const double taken = enclosed_volume(sealed);
@@ -148,7 +148,7 @@ void assume_walls(const OpenVolume& sealed, const Message& note, Closure& closur
     assume(closure, {note.code(), "{}; this encloses {:.4g}", note.parts(), taken}, open / taken);
 }
 
-/// For each edge of the source's rims, the share of its length without a wall.
+/// For each rim of the source, the share of its edges without a wall.
 std::vector<double> shares_without_walls(const OpenVolume& volume)
 {
     std::vector<double> shares;
@@ -165,7 +165,7 @@ struct Asked : CloseOptions {
     bool trial = false;
 };
 
-/// Seals a volume as one of a class, trying several methods.
+/// Seals a volume of a class; tries several methods.
 class Sealer {
 public:
     /// @param lines  of the volume, if they are known
@@ -253,8 +253,7 @@ private:
         if (!options_.trial) instead = volume_sealed_as({other}, match);
         const double share = share_between(taken, instead);
         if (leads() && !(share > kSameVolume))
-            return; // inclined ends are reported whatever the volume is, walls that bend
-                    // only if it differs
+            return; // bent walls are reported only if the volume differs, inclined ends always
         const std::string text =
             follows
                 ? "a loop of the source has no wall, and void faces there follow the walls of another loop"
@@ -306,13 +305,13 @@ private:
         return {std::move(sealed), std::move(closure)};
     }
 
-    /// The volume enclosed if it is sealed in a way; empty if that fails.
+    /// The volume enclosed if it is sealed with a method; empty if that fails.
     std::optional<double> volume_sealed_as(const Way& way, const matching::Match& match) const
     {
         return unless_refused([&] { return enclosed_volume(seal_as(way, match).volume); });
     }
 
-    /// A failure with the option that was found to seal; options that also failed are not suggested.
+    /// An error whose remedy is an option that was tried and seals the volume, if there is one.
     Message with_what_helps(const Message& failed, const matching::Match& match)
     {
         const auto otherwise = [&]() -> Message {
@@ -351,8 +350,8 @@ private:
     std::optional<Follower> follower_;
 };
 
-/// Whether side lines run up along open rims, where adjacent walls end at different heights. Their open rim
-/// is no loop to match, but the side lines give the correspondence.
+/// Whether side lines run up along open rims, where adjacent walls end at different heights. There is then no
+/// loop to match, but the side lines give the correspondence.
 bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 {
     const std::vector<EdgeId> free = free_edges(volume);
@@ -374,7 +373,7 @@ void refuse_guess(const Closed& closed, const CloseOptions& options)
         enclosed_volume(closed.volume)));
 }
 
-/// Seal a volume as one of a class, and check it.
+/// Seal a volume of a class, and check it.
 Closed seal(const OpenVolume& volume, const matching::Match& match, VolumeClass value, const Asked& options,
             const RunContext& context)
 {
@@ -424,7 +423,7 @@ matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options
 Closed close_rest(const OpenVolume& volume, const matching::Match& match, VolumeClass whole,
                   const Asked& options, const RunContext& context)
 {
-    // Trials of candidates move ends themselves.
+    // Trials skip this: the search for candidates moves ends itself.
     if (whole == VolumeClass::IV && !options.trial && lacks_walls(volume)) {
         if (auto closed = seal_as_source_tells(volume, options, context)) return std::move(*closed);
     }

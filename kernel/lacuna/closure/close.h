@@ -83,7 +83,7 @@ struct Along {
     };
     /// Along the mean normal of the source to a face.
     struct ToFace {
-        const topology::Model* model = nullptr; ///< that the face belongs to
+        const topology::Model* model = nullptr; ///< model that `face` belongs to
         FaceId face;
     };
     /// A value that changes along the sweep: linear from its value at the source to `last` at the other end,

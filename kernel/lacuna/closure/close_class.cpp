@@ -87,7 +87,7 @@ void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
     }
 }
 
-/// Eq. (2): V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi, one wall v-TopoFace per free loop.
+/// Add a void wall for each free loop: eq. (2) of the paper, V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi.
 void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     std::vector<std::vector<Loop>> walls;
@@ -116,8 +116,9 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
     }
 }
 
-/// The paper has no algorithm for class I; its walls are made as in class II without given walls. Class III
-/// likewise, with every vertex on a wall: void edges only where that wall does not reach the other end.
+/// Close classes I to III. The paper has no algorithm for class I; it is closed as class II without given
+/// walls. In class III every vertex is on a wall, so void edges are added only where that wall does not reach
+/// the other end.
 void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& tools, Closure& closure)
 {
     if (closure.value == VolumeClass::II) note(closure, "Algorithm 8");
@@ -158,8 +159,8 @@ bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
     return beside > kBetween * all;
 }
 
-/// Eq. (3) and (4): the free loops of source and walls are those of the target. Departure: where walls have
-/// holes as well, these become walls.
+/// Close class IV by eq. (3) and (4) of the paper: the free loops of source and walls bound the target.
+/// Departure: holes in walls are closed by void walls.
 void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 10");
@@ -203,8 +204,9 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     add_faces(volume, closure, {loops}, Role::target, tools);
 }
 
-/// Eq. (5) to (8): the free loops, sorted into two sets, are those of source and target. Departure: a floor
-/// round a loop becomes part of that end; as a wall it would get cells of zero thickness.
+/// Close class V by eq. (5) to (8) of the paper: the free loops, sorted into two sets, bound source and
+/// target. Departure: a floor round a loop becomes part of that end, because as a wall it would get cells of
+/// zero thickness.
 void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 11");

@@ -61,9 +61,9 @@ public:
     /// A region of the plane by its loops, in plane coordinates.
     using Region = std::vector<std::vector<Vec2>>;
 
-    /// @param suits  which regions of the plane inside the volume are cut; empty: all.
-    /// @param straight  whether lines across flat faces have no points inside, for cuts that are found: sizes
-    ///                  of their pieces are unknown.
+    /// @param suits     whether to cut a region of the plane inside the volume; empty: cut all.
+    /// @param straight  whether to remove the inner points of cut lines across flat faces. Cuts found by a
+    ///                  search do this, because the sizes of their pieces are not known yet.
     std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits, bool straight)
     {
         find_walks();
@@ -94,8 +94,8 @@ private:
             const double area = signed_area(outline(walk));
             if (std::abs(area) > std::abs(most)) most = area;
         }
-        // Walks round the inside of the skin are clockwise. Otherwise the skin faces inward, and facets in
-        // the plane would be assigned to the wrong side.
+        // The outer walk is clockwise if the skin faces outward. Otherwise flip the skin: facets in the plane
+        // would be assigned to the wrong side.
         if (most > 0) {
             flip_faces(model_, all_faces(model_));
             walks_ = section_walks(model_, all_faces(model_), plane_, tolerance_);
@@ -132,7 +132,7 @@ private:
                            found(least), found(most));
     }
 
-    /// Keep the walks round some regions.
+    /// Keep the walks round the regions that `suits` accepts.
     void choose(const std::function<bool(const Region&)>& suits)
     {
         std::vector<std::vector<Vec2>> loops;
@@ -152,7 +152,7 @@ private:
         walks_ = std::move(kept);
     }
 
-    /// Lines across flat faces have no points inside.
+    /// Remove the inner points of cut lines across flat faces.
     void straighten_flat_faces(const WalkImprint& made)
     {
         std::map<FaceId, std::vector<FaceId>> parts;
@@ -384,7 +384,7 @@ std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plan
 {
     const auto walks = section_walks(volume.model, all_faces(volume.model), plane, volume.model.tolerance);
     if (std::ranges::any_of(walks, [](const SectionWalk& walk) { return !walk.closed; })) {
-        // The missing faces then have the shape of the closed whole, including its corners.
+        // With the whole closed first, the missing faces have its shape, including its corners.
         if (const std::optional<OpenVolume> whole = sealed(volume, context))
             return PlaneCutter(*whole, plane, context).run(suits, straight);
     }

@@ -52,7 +52,7 @@ std::optional<Bend> round_bend(const Model& model, FaceId face, bool faces_void)
     return Bend{{}, face, turned * (1 - mean_normal / kQuarterTurn), shape->axis};
 }
 
-/// A bend as far as it lies on one side of a plane.
+/// The part of a bend on one side of a plane.
 struct Share {
     double length;
     const std::optional<Vec3>* axis;
@@ -117,7 +117,7 @@ private:
         }
     }
 
-    /// The feature of each bend: those whose faces are the same or share an edge are one.
+    /// Find the feature of each bend: bends whose faces are the same or share an edge form one feature.
     void find_features()
     {
         std::vector<bool> bent(model_.faces.size(), false);

@@ -49,7 +49,8 @@ std::vector<Coplanar> by_plane(const Model& model, const std::vector<Loop>& loop
     return planes;
 }
 
-/// Loops that pass no vertex twice. Where two missing faces touch in a vertex, one loop runs round both.
+/// Divide loops so that none passes a vertex twice: where two missing faces touch in a vertex, one free loop
+/// runs round both.
 std::vector<Rim> simple_loops(const Model& model, const std::vector<Rim>& loops)
 {
     std::vector<Rim> simple;
@@ -170,7 +171,7 @@ bool prove(FlatFilling& filling, const RunContext& context)
 /// [degrees]. Below it, chamfers and roof slopes belong to the end; above it are the risers of steps.
 constexpr double kSlope = 60;
 
-/// Assign roles to the new faces.
+/// Make the new faces that face away from the source its target; the others stay walls.
 void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source)
 {
     const Model& model = filling.volume.model;

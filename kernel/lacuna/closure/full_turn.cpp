@@ -23,8 +23,8 @@ using namespace topology;
 
 namespace {
 
-/// Planes tried through each principal axis. Straight rings with up to as many sides are cut near the middle
-/// of a side.
+/// Number of planes tried through each principal axis. Straight rings with up to this number of sides are cut
+/// near the middle of a side.
 constexpr int kDirections = 8;
 /// Section lengths that differ by less than this share count as equal, and the plane found first is tried
 /// first. Otherwise the sag of facets would decide between planes through a round wall.
@@ -33,7 +33,7 @@ constexpr double kAsShort = 0.02;
 /// Sections used to measure the length of the turn. With these, the chords of a half circle are short by
 /// 0.2 %; each section costs a pass over the walls.
 constexpr std::size_t kSections = 16;
-/// Share of a piece whose length cannot be measured.
+/// Share of the turn of a piece if the lengths cannot be measured.
 constexpr double kHalf = 0.5;
 
 struct Candidate {
@@ -69,7 +69,7 @@ double section_length(const Model& model, const std::vector<FaceId>& faces, cons
     return length;
 }
 
-/// Planes that cross the walls, ordered by the length of the lines in which they do.
+/// Planes that cross the walls, ordered by the length of their section.
 std::vector<Candidate> candidates_of(const Model& model, const RunContext& context)
 {
     const std::vector<FaceId> faces = all_faces(model);

@@ -34,9 +34,9 @@ namespace {
 /// shape of the face may change the volume by about as much.
 constexpr double kDoubt = 0.05;
 /// A missing end is ambiguous if more than this share of the enclosed volume lies between it and another
-/// smooth face over its rim. Measured on 893 ends over twelve outlines, of which 131 are refused, including
-/// those with straight rims: of the 762 accepted ends, 12 have a volume error above 3 % and 719 one below
-/// 1 %; of the refused ends, 41 and 70.
+/// smooth face over its rim. Measured on 893 ends over twelve outlines. Of the 762 accepted ends, 12 have a
+/// volume error above 3 % and 719 an error below 1 %. Of the 131 refused ends, which include those with
+/// straight rims, 41 have an error above 3 % and 70 an error below 1 %.
 constexpr double kBendDoubt = 0.03;
 /// A rim is rough, not bent, if its points deviate from a plane by at most this share of its diameter, as in
 /// scans of cut bones.
@@ -111,9 +111,9 @@ std::vector<double> turns_of(const std::vector<Vec3>& chain)
 /// Whether an edge is straight between a few kinks.
 bool is_straight_between_kinks(const Model& model, const EdgeUse& use)
 {
-    // An edge is straight between kinks if so many of them make at least this share of its turn: a ridge, a
-    // chamfer or a notch has up to three. With three, a curve of four facets counts as such; with more, finer
-    // curves would.
+    // An edge is straight between kinks if its `kKinks` sharpest kinks make at least the share `kTurnedThere`
+    // of its turn. A ridge, a chamfer or a notch has up to three kinks. A curve of four facets counts too;
+    // with more kinks, finer curves would.
     constexpr std::size_t kKinks = 3;
     constexpr double kTurnedThere = 0.9;
     if (is_straight(model, {use})) return true;
@@ -129,17 +129,17 @@ bool is_straight_sided(const Model& model, const Loop& loop)
                                [&](const EdgeUse& use) { return is_straight_between_kinks(model, use); });
 }
 
-/// Whether a polygonal rim is too far off a plane, compared with the enclosed volume: by half of the face's
-/// projected area times the distance of the furthest rim point from the plane, the volume under a roof.
+/// Whether a polygonal rim is too far off a plane. The measure is the volume under a roof (half of the face's
+/// projected area times the largest distance of a rim point from the plane), compared with the enclosed
+/// volume.
 bool is_rim_far_off_plane(const Model& model, double enclosed, FaceId face, const Loop& loop)
 {
     const double furthest = off_one_plane(loop_places(model, loop.uses));
     return furthest * face_area_vector(model, face).norm() / 2 >= kDoubt * enclosed;
 }
 
-/// Whether a smooth face over the rim of a missing end is ambiguous. Straight sides in several planes suggest
-/// several flat faces, as does a rim that folds in its plane, round the mouth of a slot; for curved sides the
-/// ambiguity is the volume between two smooth faces.
+/// Whether the shape of a missing end is ambiguous. A rim of straight sides that is far off a plane suggests
+/// several flat faces. For other rims, the volume between two smooth faces over the rim decides.
 bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
 {
     for (const Loop& loop : model[face].loops)
@@ -149,7 +149,7 @@ bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
     return beside_thin_plate(model, face).all >= kBendDoubt * enclosed;
 }
 
-/// Whether a missing end was blended between four sides without two straight opposite ones.
+/// Whether a missing end was blended between four sides, of which no two opposite ones are straight.
 bool is_end_between_bent_sides(const OpenVolume& sealed, FaceId face)
 {
     const Model& model = sealed.model;
@@ -222,7 +222,7 @@ std::optional<FaceId> face_round_hole(const Model& model, FaceId filler)
     return *round.begin();
 }
 
-/// Whether a void face has no vertex in common with a given one.
+/// Whether some void face has no vertex in common with a given face.
 bool is_end_away_from(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
     const std::set<VertexId> own = vertices_of(model, std::vector{face});
@@ -370,15 +370,17 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                    .remedy("if the true face bulges otherwise, give it"),
                std::abs(beside_thin_plate(model, face).above) / enclosed);
     for (const FaceId face : closure.void_faces) {
-        // Named roles tell that one wall is missing there. Without them it may stand for several faces.
+        // If roles are named, one wall is missing there. Otherwise the void face may stand for several faces.
         if (by == RolesBy::finding && !is_membrane(model, face) &&
             (is_untold(model, face) || closes_hole_in_bent_face(model, face)))
-            assume(closure,
-                   Message("closure.wall_assumed",
-                           "{} stands for all that is missing beside {}, which its rim does not determine",
-                           entity_of(model, face), given_beside(model, face))
-                       .remedy("if several faces or a whole part are missing there, give them"),
-                   1);
+            assume(
+                closure,
+                Message(
+                    "closure.wall_assumed",
+                    "the rim of {} does not determine what is missing beside {}; one face is assumed there",
+                    entity_of(model, face), given_beside(model, face))
+                    .remedy("if several faces or a whole part are missing there, give them"),
+                1);
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
         assume(closure,
                Message("closure.rough_rim", "the rim of {} is rough and is closed by a smooth face",

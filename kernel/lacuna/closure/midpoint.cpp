@@ -50,7 +50,7 @@ bool has_simple_faces(const Model& model)
     });
 }
 
-/// By vertex of a skin of simple faces; empty if a vertex has other than three edges.
+/// The net of each vertex of a skin of simple faces; empty if some vertex does not have three edges.
 std::vector<Net> net_of(const Model& model)
 {
     struct Turn {
@@ -92,7 +92,8 @@ Vec3 centroid(const Model& model)
     return origin + sum / volume;
 }
 
-/// The corners of a block: along axis k from corner c is the corner c ^ (1 << k), the vertex is corner 0.
+/// The corners of a block. Corner 0 is the vertex;
+/// the neighbour of corner c along axis k is corner c ^ (1 << k).
 using Block = std::array<std::size_t, 8>;
 
 /// The places of vertices, middles of edges, middles of faces and the middle of the volume, in this order.
@@ -133,8 +134,8 @@ public:
         return least;
     }
 
-    /// Move the middles of faces, unless these are fixed, and of the volume by ever shorter steps along the
-    /// axes while the blocks at them become better.
+    /// Move the middles of faces (unless `fixed`) and of the volume along the coordinate axes, by shorter and
+    /// shorter steps, where this improves the blocks at them.
     void improve(bool fixed, const RunContext& context)
     {
         constexpr double kFirst = 0.25, kShorter = 0.8,
@@ -170,7 +171,8 @@ private:
         return std::popcount(corner) % 2 == 0 ? volume : -volume;
     }
 
-    /// The sum of high powers of what the corners of the blocks at a place lack: the worst corner counts.
+    /// Sum of a high power of 1 − scaled Jacobian over the corners of the blocks at a place: the worst corner
+    /// dominates.
     [[nodiscard]] double loss_at(std::size_t place) const
     {
         constexpr int kPower = 8;
@@ -225,7 +227,7 @@ protected:
         }
         model_ = std::move(builder).finish();
         const Vec3 middle = model_.at(centre);
-        std::vector<SectionWalk> walks; // the earlier ones run along edges and separate parts all the same
+        std::vector<SectionWalk> walks; // earlier walks run along edges by now, but still separate parts
         std::vector<std::vector<EdgeUse>> lines;
         for (const Index start : from) {
             const geometry::Plane plane = geometry::plane_across(middle,
@@ -356,13 +358,13 @@ private:
     std::vector<FaceId> between_; ///< by edge: the face between the blocks at its ends
 };
 
-/// Divides a volume into cones from its middle over three-sided faces and the parts of others, which are
-/// split from their vertices to their middles.
+/// Divides a volume into cones from its middle. Their bases are the three-sided faces and the triangles of
+/// the other faces, which are split by lines from their vertices to their middles.
 class ConeMaker : Splitter {
 public:
     ConeMaker(const OpenVolume& volume, const RunContext& context) : Splitter(volume, context) {}
 
-    /// @return  empty if there would be more than so many, or a line leaves its face.
+    /// @return  empty if there would be more than `most` cones, or a line leaves its face.
     std::vector<OpenVolume> run(std::size_t most)
     {
         const Vec3 place = centroid(model_);

@@ -33,13 +33,14 @@ using namespace topology;
 
 namespace {
 
-/// Tolerance of the motion, as a share of the end's width: by this much may a moved foot of a wall miss the
-/// wall's top, and points of a straight side their line. It exceeds the sag of round sides.
+/// Tolerance of the motion, as a share of the end's width: the largest distance of a moved foot of a wall
+/// from the wall's top, and of the points of a straight side from a line. It exceeds the sag of round sides.
 constexpr double kOnTop = 0.01;
 /// Number of sample points along each wall's foot, at which the fit is made and tested.
 constexpr int kSamples = 8;
 
-/// A segment of an end's rim between two places where walls lead up, or without walls.
+/// A segment of an end's rim between two vertices from which wall edges lead up, with walls along it or
+/// without.
 struct Stretch {
     std::vector<EdgeUse> foot; ///< as used by the end
     std::vector<EdgeUse> top;  ///< as used by the walls, from above the foot's start; empty: no wall here
@@ -158,7 +159,8 @@ private:
         return true;
     }
 
-    /// The walls' free uses from one vertex to another that pass no vertex of the end.
+    /// The walls' free edges from one vertex to another; empty if they pass a vertex of the end or do not
+    /// lead there.
     [[nodiscard]] std::vector<EdgeUse> top_between(VertexId from, VertexId to) const
     {
         std::vector<EdgeUse> top;
@@ -258,7 +260,8 @@ private:
         return known.size() == free_count_;
     }
 
-    /// Fit the motion of the end; false if it does not move every foot onto its top.
+    /// Fit the motion of the end. False if no motion moves every foot onto its top and the missing sides are
+    /// not straight lines either.
     bool fit()
     {
         if (from_.empty()) return false;
@@ -288,7 +291,7 @@ private:
         motion_ = geometry::fit_rigid(from_, to_, true);
         if (fits()) return true;
         motion_ = geometry::fit_affine(from_, to_);
-        if (above_.size() > 3 && fits()) return true; // three corners fit any affine map
+        if (above_.size() > 3 && fits()) return true; // an affine map fits any three corners
         return goes_straight(width) && moves_all(width);
     }
 
@@ -321,7 +324,7 @@ private:
         });
     }
 
-    /// Whether no part of the rim without walls stays in place, where the ends would coincide.
+    /// Whether every part of the rim without walls moves; where it stays in place, the ends would coincide.
     [[nodiscard]] bool moves_all(double width) const
     {
         return std::ranges::all_of(rims_ | std::views::join, [&](const Stretch& stretch) {
@@ -403,7 +406,7 @@ private:
     std::vector<Rim> free_rims_;          ///< free rims of walls
     std::size_t free_count_ = 0;          ///< number of free edges of walls
     std::map<VertexId, VertexId> above_;  ///< by vertex of the end, the vertex of the moved end
-    std::set<EdgeId> accounted_;          ///< free edges that lead up to those
+    std::set<EdgeId> accounted_;          ///< free wall edges that lead up to the vertices of `above_`
     std::vector<std::vector<Stretch>> rims_;
     std::vector<Vec3> from_, to_; ///< points on feet and on tops
     std::function<Vec3(const Vec3&)> motion_;

@@ -33,7 +33,7 @@ constexpr std::size_t kMostPlanes = 8;
 /// Number of faces that a message lists for a recipe.
 constexpr std::size_t kMostTyped = 6;
 
-/// A list of faces in recipe syntax; a long one is left to the user.
+/// A list of faces in recipe syntax; `{ … }` for a long one.
 std::string in_braces(const Model& model, const std::vector<FaceId>& faces)
 {
     if (faces.size() > kMostTyped) return "{ … }";
@@ -41,7 +41,7 @@ std::string in_braces(const Model& model, const std::vector<FaceId>& faces)
                      full_list(faces, [&](FaceId face) { return formatted("{}", model[face].tag); }));
 }
 
-/// A cut in recipe syntax, with digits far below the tolerance, a millionth of the diagonal.
+/// A cut in recipe syntax. Nine digits are far finer than the tolerance, a millionth of the diagonal.
 std::string cut_in_words(const Model& model, const Vec3& point, const Vec3& normal)
 {
     const Vec3 place = (point.array().abs() < model.tolerance / 1000).select(0.0, point.array());
@@ -49,8 +49,8 @@ std::string cut_in_words(const Model& model, const Vec3& point, const Vec3& norm
                      place.x(), place.y(), place.z(), normal.x(), normal.y(), normal.z());
 }
 
-/// The plane of a flat face at a concave edge that cuts a volume into pieces with two ends each; empty if
-/// there is none.
+/// A cut, in recipe syntax, by the plane of a flat face at a concave edge, if its pieces have two ends each;
+/// empty if there is none.
 std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
@@ -182,9 +182,9 @@ std::optional<Reading> read_walls_alone(const Model& model, const std::vector<Fa
     if (readings.size() != 1 || readings.front().no_roles || !(take_guess || !readings.front().guess))
         return std::nullopt;
     const RoleCandidate& roles = readings.front().roles;
-    log_line(context, formatted("note: the walls, named without ends, are no tube between two missing ends; "
-                                "taken as {}",
-                                in_words(model, roles.roles, roles.value)));
+    log_line(context,
+             formatted("note: the named walls form no tube between two missing ends; they are taken as {}",
+                       in_words(model, roles.roles, roles.value)));
     return std::move(readings.front());
 }
 

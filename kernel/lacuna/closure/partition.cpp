@@ -31,11 +31,11 @@ namespace {
 
 /// Bounds of the search, so that a part with hundreds of features ends in seconds.
 constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
-/// Of the cuts that leave the least to cut, those whose pieces are searched for ends, which costs more than
-/// the cut; and of the planes between features, those that are tried.
+/// Number of cuts whose pieces are searched for ends, those that leave the least to cut: the search costs
+/// more than the cut. Also the number of planes between features, and of axes for steps, that are tried.
 constexpr std::size_t kMostRead = 6;
 
-/// A piece, and what is left to cut of it if it has no ends.
+/// A piece and, if it has no ends, the bends and the length that are left to cut.
 struct CutPart {
     StepPiece piece;
     std::vector<Bend> bends;
@@ -72,7 +72,7 @@ bool find_ends(StepPiece& piece, const CanSweep& can_sweep, const RunContext& co
     return false;
 }
 
-/// The pieces of one cut, and what is left to do.
+/// The pieces of one cut, and the length that is left to cut.
 struct CutTried {
     std::vector<CutPart> parts;
     double left = 0; ///< of pieces without ends [model length]
@@ -99,7 +99,7 @@ std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const Ru
     return cuts;
 }
 
-/// The best cut of a piece; empty if none reduces what is left to cut in pieces without ends.
+/// The best cut of a piece; empty if none reduces the length that is left to cut in pieces without ends.
 std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const CanSweep& can_sweep,
                               const RunContext& context)
 {
@@ -131,7 +131,8 @@ class Cutter {
 public:
     Cutter(const CanSweep& can_sweep, const RunContext& context) : can_sweep_(can_sweep), context_(context) {}
 
-    /// The parts of a part without ends; itself if its parts have neither ends, nor nothing left to cut.
+    /// Cut a part without ends, and its parts in turn. Returns the part itself unless one of its parts has
+    /// ends or has nothing left to cut.
     std::vector<CutPart> cut(CutPart part)
     {
         check_cancelled(context_);
@@ -146,7 +147,7 @@ public:
             else
                 std::ranges::move(cut(std::move(own)), std::back_inserter(all));
         }
-        // What has nothing left to cut may still be divided at its middle.
+        // A part with nothing left to cut may still be divided at its middle.
         const auto helps = [](const CutPart& own) { return own.has_ends || !(own.left > 0); };
         if (std::ranges::none_of(all, helps)) {
             pieces_ -= all.size() - 1;
@@ -215,8 +216,9 @@ std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const Ca
     return std::nullopt;
 }
 
-/// Cut a volume at the steps between all its faces that face one way and all that face the other, as foam
-/// around a product, which may be tilted; empty if no axis gives pieces that can be swept.
+/// Cut a volume at its steps along an axis. All faces that face one way form one end, all that face the other
+/// way the other, as in foam around a product, which may be tilted. Empty if no axis gives pieces that can be
+/// swept.
 std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
                                     const RunContext& context)
 {

@@ -54,7 +54,7 @@ void for_each(FaceSet set, const Do& use)
     for (; set != 0; set &= set - 1) use(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-/// Pairs of faces beside successive edges of a face that run in one line.
+/// By pair: the two faces beside successive edges of a face that run in one line.
 using Beside = std::vector<std::pair<FaceId, FaceId>>;
 
 Beside faces_in_line(const Model& model, FaceId face)
@@ -168,7 +168,7 @@ public:
         return fits && rims_of(source) == rims_of(target) && rims_of(source) == parts_of(walls);
     }
 
-    /// 0: ends that are flat, alike and square to their walls.
+    /// Cost of two ends: 0 if they are flat, alike and square to their walls.
     [[nodiscard]] double cost(FaceSet source, FaceSet target) const
     {
         return cost_of_end(source) + cost_of_end(target) +

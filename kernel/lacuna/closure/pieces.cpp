@@ -31,7 +31,7 @@ constexpr double kAcross = 0.9;
 /// A piece, in the common model.
 struct Part {
     std::vector<FaceId> skin, partitions;
-    std::vector<FaceId> behind; ///< partitions in front of it
+    std::vector<FaceId> behind; ///< partitions that it lies behind
 };
 
 class Parter {
@@ -149,7 +149,7 @@ private:
         return best;
     }
 
-    /// Whether some faces share an edge or a vertex with faces of a role.
+    /// Whether some faces share a vertex with other faces.
     [[nodiscard]] bool touches(const std::vector<FaceId>& faces, const std::vector<FaceId>& ends) const
     {
         const std::set<VertexId> met = vertices_of(model_, faces), own = vertices_of(model_, ends);

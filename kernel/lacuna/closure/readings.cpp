@@ -32,8 +32,8 @@ constexpr std::size_t kMostSealed = 24;
 /// Number of candidates checked if none of the likeliest seals. A lower number may find no void; a higher one
 /// costs time in proportion.
 constexpr std::size_t kMostTried = 50;
-/// Cost of closing by flat faces that are not one per free loop, compared with candidates of the given faces:
-/// as for a missing end in `topology::role_candidates()`.
+/// Cost of closing by flat faces, but not by one for each free loop. It equals the cost of missing ends in
+/// `topology::role_candidates()`.
 constexpr double kFilled = 0.1;
 
 /// Whether a void edge is further from its chord than a half circle.
@@ -56,8 +56,9 @@ double void_area(const Model& model, const Closure& closure)
     return area;
 }
 
-/// Drop the voids whose new faces are larger than a flat face in each free loop, if these close the faces:
-/// they are bent, or lead from loop to loop. Flat faces are likelier, even if no sweep fills what they close.
+/// Drop the voids whose new faces have more area than a flat face in each free loop, if such flat faces close
+/// the volume. The larger faces are bent, or lead from loop to loop. Flat faces are likelier, even if the
+/// volume that they close cannot be swept.
 /// @return  whether some were dropped
 bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& filled,
                  const RunContext& context)
@@ -78,8 +79,8 @@ bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& fil
            }) > 0;
 }
 
-/// The void that flat faces close, if these are not simply one per free loop, or if the ends are congruent.
-/// @param told  whether a void without ambiguous bends is known; then the faces are not taken for a channel
+/// The void that flat faces close, unless there is one for each free loop.
+/// @param told  whether a void without ambiguous bends is known; a channel is then not closed
 std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vector<FaceId>& faces, bool told,
                               const RunContext& context)
 {
@@ -99,7 +100,8 @@ std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vect
     return found;
 }
 
-/// A sealed void without ends. @return  empty if it encloses nothing, as a face that is closed by itself.
+/// A sealed void as a reading without ends. @return  empty if it encloses nothing, like a face that is closed
+/// by itself.
 std::optional<Reading> without_ends(FlatFilling filled, const RunContext& context)
 {
     Reading reading;
@@ -113,7 +115,7 @@ std::optional<Reading> without_ends(FlatFilling filled, const RunContext& contex
     return reading;
 }
 
-/// The void that is closed at each free loop as its rim tells. Its skin is then read as a whole body.
+/// The void whose missing faces all follow from their rims. The sealed skin is then read as a whole body.
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
@@ -128,7 +130,7 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     if (!reading) return std::nullopt;
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
     if (!reading->guess) reading->guess = untold_face(reading->volume, *reading->closure);
-    if (whole.empty() || whole.front().closure) { // the latter parts faces, see read_bowl()
+    if (whole.empty() || whole.front().closure) { // a reading by read_bowl() splits faces
         reading->no_roles = why_no_roles(model, faces, context);
         return reading;
     }
@@ -154,8 +156,8 @@ std::optional<Closed> sealed_state(const Reading& reading)
     return std::nullopt;
 }
 
-/// Take the void closed as its rims tell instead of an ambiguous one, or one with a void face that its rim
-/// does not determine.
+/// If a reading is ambiguous, or has a void face that its rim does not determine, replace it by the reading
+/// of `read_filled()`, provided that this one is unambiguous.
 void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& reading,
                  const RunContext& context)
 {
@@ -167,7 +169,7 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& 
     if (reading.holed.valid() || (!untold && !reading.guess)) return;
     auto told = read_filled(model, faces, context);
     const bool is_sure = told && !told->guess && told->closure->assumptions.empty();
-    // Without a guess the void is one body, which must not be closed as several.
+    // A reading without `guess` is one body, which must not be closed as several.
     if (is_sure &&
         (reading.guess || connected_parts(told->volume.model, all_faces(told->volume.model)).size() == 1))
         reading = std::move(*told);
@@ -181,7 +183,8 @@ bool closes_flat(const Reading& reading)
                                [&](FaceId face) { return has_flat_loops(model, face); });
 }
 
-/// A closed skin without ends: a ring, which is swept as a full turn, or one for pieces or tetrahedra.
+/// The reading of faces without ends: a ring, which is swept as a full turn, or a closed skin, to be cut or
+/// filled with tetrahedra.
 Reading read_skin(const Model& model, const std::vector<FaceId>& faces, const RunContext& context)
 {
     OpenVolume open = open_volume(model, {{}, {}, faces}, context);

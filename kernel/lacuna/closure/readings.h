@@ -85,7 +85,7 @@ std::vector<Reading> find_readings(const topology::Model& model, const std::vect
 /// @return  the void. One without ends to sweep between, whose rims determine its missing faces, has
 ///          `no_roles`. If `number` is 0 and only holes without walls make it ambiguous: a class IV volume
 ///          whose source is the face with these holes; close() then needs `CloseOptions::holes`.
-/// @throw InvalidInput "topology.no_roles", or "topology.sphere", "topology.torus", "topology.cone",
+/// @throw InvalidInput "topology.no_roles", or "topology.sphere", "topology.cone",
 ///        "topology.crossing_bores" for these shapes, "topology.roles_ambiguous" (lists the enclosed
 ///        volumes), "topology.shape_open" (names the faces next to the missing one),
 ///        "topology.no_such_reading". Cancelled.

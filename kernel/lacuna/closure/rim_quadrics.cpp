@@ -152,7 +152,7 @@ double off_cylinder(const Eigen::Matrix4d& form)
     return std::sqrt(std::max(squares(0), 0.0) / squares(2));
 }
 
-/// The forms cos t · a + sin t · b with zero deviation.
+/// The forms cos t · a + sin t · b at which the deviation has a minimum of at most `kSpecial`.
 std::vector<Eigen::Matrix4d> special_forms(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b,
                                            const std::function<double(const Eigen::Matrix4d&)>& off)
 {
@@ -249,8 +249,8 @@ RimShapes shapes_through(std::span<const Vec3> rim, const geometry::Plane& plane
     return result;
 }
 
-/// Whether a given face at the edges of some loops lies on a quadric: if the quadric is a pair of planes, the
-/// missing face cannot lie on the given face's plane too.
+/// Whether a given face at the edges of some loops lies on a quadric. If the quadric is a pair of planes, the
+/// missing face cannot lie on it then.
 bool holds_given_face(const Model& model, const std::vector<Loop>& loops, const Quadric& quadric)
 {
     std::set<EdgeId> rim;

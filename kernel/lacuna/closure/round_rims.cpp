@@ -22,7 +22,7 @@ using namespace topology;
 
 namespace {
 
-/// Cosine between a facet's normal and the end's outward direction where a round is as steep as flat.
+/// Cosine between a facet's normal and the end's outward direction where a round is inclined by 45°.
 constexpr double kHalfway = std::numbers::sqrt2 / 2;
 
 /// A facet seen along the end's outward direction.
@@ -62,7 +62,8 @@ public:
 private:
     bool divide(const std::vector<FaceId>& rounds)
     {
-        // Rounds of a product in a box lie beyond its top, those of a body before it.
+        // Along the end's normal, the rounds of a product in a box lie beyond its top, those of a body behind
+        // its end.
         const Vec3 from_end = centroid_of(volume_.model, rounds) - centroid_of(volume_.model, part_);
         const Vec3 way = from_end.dot(out_) < -volume_.model.tolerance ? Vec3(-out_) : out_;
         const std::optional<double> height = halfway_height(rounds, way);
@@ -80,7 +81,7 @@ private:
         return true;
     }
 
-    /// Connected sets of rounds in this part of the end, or that it turns into smoothly.
+    /// Connected sets of rounds that are in this part of the end or meet it smoothly.
     std::vector<std::vector<FaceId>> rounds_at_rim() const
     {
         const std::set<FaceId> own(part_.begin(), part_.end());
@@ -111,7 +112,7 @@ private:
         return sets;
     }
 
-    /// Is a face partly flatter and partly steeper than halfway?
+    /// Whether a face is flatter than 45° in places and steeper in others, and has no given quads.
     [[nodiscard]] bool is_round(FaceId face) const
     {
         double least = 1, most = -1;

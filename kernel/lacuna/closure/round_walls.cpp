@@ -43,7 +43,7 @@ struct RoundRim {
     double along = 0;        ///< position on the axis of its group
 };
 
-/// Turn of a place round the axis of a rim [radian].
+/// Angle of a place round the axis of a rim [radian].
 double angle_at(const geometry::Plane& base, const Vec3& place)
 {
     const Vec2 flat = geometry::to_plane(base, place);
@@ -67,7 +67,7 @@ double distance_to_axis(const geometry::Plane& base, const Vec3& place)
     return geometry::to_plane(base, place).norm();
 }
 
-/// Whether all places have one distance from the axis.
+/// Whether all places are at a given distance from the axis.
 bool is_round(const geometry::Plane& base, double radius, const std::vector<Vec3>& places)
 {
     return std::ranges::all_of(places, [&](const Vec3& p) {
@@ -292,12 +292,13 @@ Rim add_walls_to(FlatFilling& filling, const Rim& rim, const geometry::Plane& pl
 struct RoundWall {
     geometry::Plane base; ///< across the axis
     double radius = 0, slope = 0;
-    double step = 0; ///< length of the facets' sides that its arc has [model length]
+    double step = 0; ///< mean segment length of the arc that it was found from [model length]
 
     [[nodiscard]] double radius_at(double height) const { return radius + slope * height; }
 };
 
-/// The round wall on which all of a loop lies, and one of its edges as an arc round the axis.
+/// The round wall that contains a whole loop, and one of its edges as an arc round the axis; empty if there
+/// is none.
 std::optional<RoundWall> wall_through(const Model& model, const Loop& loop)
 {
     const std::vector<Vec3> places = loop_places(model, loop.uses);
@@ -374,7 +375,7 @@ std::vector<Rim> add_straight_walls(FlatFilling& filling, std::vector<Rim> loops
     }
     for (const std::size_t l : needy) {
         check_cancelled(context);
-        std::optional<std::size_t> end; // the nearest rim that the image of this one lies in, or round
+        std::optional<std::size_t> end; // the nearest rim that the image of this one lies in or encloses
         const auto distance = [&](std::size_t o) {
             return std::abs(geometry::height(plane[o], places[l].front()));
         };
@@ -415,7 +416,7 @@ std::optional<VoidFilling> fill_round_patch(const Model& model, const Loop& loop
     Outline outline;
     outline.add_loop(unrolled, loop_points(model, loop.uses));
     if (geometry::find_crossing(outline.flat, outline.loops)) return std::nullopt;
-    constexpr double kFacets = 64; // at most so many along the diagonal of the outline
+    constexpr double kFacets = 64; // largest number of facets along the diagonal of the outline
     Eigen::AlignedBox2d box;
     for (const Vec2& place : outline.flat) box.extend(place);
     geometry::TriangulateOptions fine;

@@ -107,7 +107,8 @@ bool is_settled(const Void& v)
                                [&](FaceId face) { return is_about_flat(v.sealed.volume.model, face); });
 }
 
-/// Keep the about likeliest voids. Those with an ambiguous bend are dropped in favour of settled ones.
+/// Keep the voids that cost at most `RoleOptions::margin` more than the cheapest. Those with an ambiguous
+/// bend are dropped if there are settled ones.
 void keep_likely(std::vector<Void>& found)
 {
     if (std::ranges::any_of(found, is_settled)) std::erase_if(found, &Void::untold);
@@ -210,12 +211,12 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
     };
     std::vector<MovedEnd> moved = move_ends(model, faces, known, context);
     std::vector<Void> ends;
-    bool told = true; // all follow from the given faces
+    bool told = true; // no rim without walls was extended
     for (MovedEnd& one : moved) {
         Void now;
         now.sealed = {{Closed(std::move(one)), {}}, one.enclosed};
         now.filled = formatted("sealed with the shape of {} at the other end", entity_of(model, one.from));
-        now.first.roles.walls = faces; // in the numbering of its volume
+        now.first.roles.walls = faces; // face i of its volume is faces[i] of the model
         const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };
         if (std::ranges::any_of(ends, is_same)) continue;
         told = told && !one.through;

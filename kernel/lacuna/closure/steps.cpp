@@ -35,12 +35,12 @@ using namespace topology;
 
 namespace {
 
-/// An end turns into the walls at a step by more than half of a right angle, or smoothly into walls that lead
-/// away from the opposite end at more than this angle to the level: those of a round that was divided do so
-/// at half of a right angle, up to its facets [degrees].
+/// At a step, the skin turns from the end to the walls towards the void by more than `kStep`. Or it turns
+/// little, and the walls lead away from the opposite end at more than `kLeadsAway` to the level: the walls of
+/// a divided round do so at about 45° [degrees].
 constexpr double kStep = 45, kLeadsAway = 30;
 
-/// Each cut reduces the number of steps; more rounds than this indicate an error.
+/// Each cut reduces the number of steps; more cuts in a row than this indicate an error.
 constexpr int kRounds = 64;
 
 /// A rim of an end where the walls lead away from the opposite end.
@@ -56,8 +56,8 @@ struct Steps {
     std::vector<FaceId> risers;             ///< walls at steps that end at other walls
 };
 
-/// Does a wall lead away from the opposite end at an edge?
-/// @param out  away from the opposite end.
+/// Whether the walls at an edge lead away from the opposite end.
+/// @param out  direction away from the opposite end.
 bool leads_away(const OpenVolume& volume, EdgeId edge, const Vec3& out)
 {
     const Model& model = volume.model;
@@ -162,7 +162,7 @@ private:
         FaceId face;
         Vec2 uv = Vec2::Zero();
     };
-    /// Where the line through a point along the sweep first meets the opposite end, or one face of it.
+    /// Where the line from a point along the sweep first meets the opposite end, or one face of it (`only`).
     std::optional<Hit> above(const Vec3& p, FaceId only = {})
     {
         geometry::FacetTree::RayHit hit;
@@ -381,7 +381,7 @@ private:
     std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree
 };
 
-/// Close a missing end opposite to steps from the only open loop: flat, or bent like its rim.
+/// Close a missing end opposite to steps by a face in the only open loop, flat or bent like that loop.
 void cap_opposite(OpenVolume& volume, Role other, const Steps& steps, const RunContext& context)
 {
     const std::vector<Rim> open = free_loops(volume);
@@ -463,8 +463,8 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
     return levels;
 }
 
-/// Close a flat brim of walls across the sweep if nothing else is missing, such as that of a box round a
-/// floating board: what stands beside the board would have nothing to reach up to.
+/// If only a flat loop of walls across the sweep is open, such as the brim of a box round a floating board,
+/// close it as part of an end. Otherwise the columns beside the board would have no end to reach.
 void close_brim(OpenVolume& volume, const RunContext& context)
 {
     const std::vector<Rim> open = free_loops(volume);
@@ -483,8 +483,8 @@ void close_brim(OpenVolume& volume, const RunContext& context)
     volume.model = with_loops(std::move(volume.model));
 }
 
-/// Cover the holes without walls in the tops of steps: a bore in a boss that ends below the brim. Extended to
-/// the other end they would be pins.
+/// Cover the holes without walls in the tops of steps, such as a bore in a boss that ends below the brim.
+/// Extended to the other end, they would become pins.
 void cover_step_holes(OpenVolume& volume, const RunContext& context)
 {
     std::set<FaceId> tops;
@@ -548,7 +548,7 @@ bool is_stepped(const OpenVolume& volume, const RunContext& context)
                                [](const Steps& steps) { return is_stepped(steps); });
 }
 
-/// Cut in the planes of all flat steps. Empty if that fails too.
+/// Cut in the planes of all flat steps. Empty if a cut fails or a piece still has steps.
 std::vector<StepPiece> cut_in_layers(const OpenVolume& volume, const std::array<Steps, 2>& steps,
                                      const RunContext& context)
 {
@@ -579,7 +579,7 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
     risers.insert(risers.end(), steps[1].risers.begin(), steps[1].risers.end());
     std::vector<StepPiece> result;
     if (!risers.empty()) {
-        // The remaining steps have rims with such walls all round.
+        // After these cuts, the walls at the rim of each remaining step lead away all round.
         const std::vector<StepPiece> cut = cut_by_planes(volume, risers, context);
         const std::vector<int> levels = levels_by_length(cut, sweep_way(volume));
         for (std::size_t p = 0; p < cut.size(); ++p) {

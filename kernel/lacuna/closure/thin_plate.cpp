@@ -15,7 +15,8 @@ using namespace topology;
 
 namespace {
 
-/// Points of a rim that the plate interpolates: enough for several per tooth. The cost grows with the cube.
+/// Number of rim points that the plate interpolates: several per tooth of a rough rim. The cost grows with
+/// its cube.
 constexpr std::size_t kPlaces = 256;
 
 Eigen::RowVectorXd terms_at(const ThinPlate& plate, const Vec2& place)

@@ -37,8 +37,8 @@ PatchSide patch_side(const Model& model, const std::vector<EdgeUse>& uses)
     return side;
 }
 
-/// Give the points of a rising side the positions of the follower's heights, because void edges have points
-/// at even heights.
+/// Place the points of a side between source and target at the heights of the walls instead of by length,
+/// because void edges have points at even heights.
 void by_height(PatchSide& side, const Follower& follower, bool rising)
 {
     const std::size_t n = side.chain.size();
@@ -59,8 +59,8 @@ void add_halves(geometry::Triangulation& grid, const Quad& q, std::size_t turn)
     grid.triangles.push_back({q[k], q[k + 2], q[(k + 3) % 4]});
 }
 
-/// Triangulate a rectangle with as many points on opposite sides: a grid between them, so that facets resolve
-/// corners as finely as the sides.
+/// Triangulate a rectangle with equal numbers of points on opposite sides: a grid between them, so that
+/// facets resolve corners as finely as the sides.
 geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const Outline& outline,
                                      double width, double height)
 {

@@ -71,7 +71,7 @@ std::vector<Spacing> spacing_of(const Model& model)
     return at;
 }
 
-/// Inner points of a course in so many segments.
+/// Inner points of a curve that is divided into `segments` segments.
 /// @param at  returns the point at a parameter in (0, 1)
 template <class At>
 std::vector<Vec3> inner_points(int segments, const At& at)

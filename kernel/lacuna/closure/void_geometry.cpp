@@ -108,8 +108,8 @@ VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell
 std::optional<VoidFilling> fill_on_sheet(const Model& model, const NewellOutline& newell,
                                          const QuadricSheet& sheet, const RunContext& context)
 {
-    // Facets along the diagonal of the outline: they are off the sheet by about a thousandth of its bulge.
-    // Their number grows with the square of this.
+    // Number of facets along the diagonal of the outline. They are off the sheet by about a thousandth of its
+    // bulge; the number of all facets grows with the square of this one.
     constexpr double kFacets = 32;
     const Outline& outline = newell.outline;
     Eigen::AlignedBox2d box;

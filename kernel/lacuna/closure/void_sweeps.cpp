@@ -67,10 +67,9 @@ std::vector<FaceId> rising(std::vector<FaceId> faces)
 
 std::string ways_in_words(const Reading& reading)
 {
-    return formatted(
-        "{} readings enclose the same volume, {:.4g}; this one is swept, with the fewest irregular "
-        "nodes, {} or more on its source, and the most even cells",
-        reading.ways, reading.enclosed, reading.roles.irregular);
+    return formatted("{} readings enclose the same volume, {:.4g}; this one is swept, because it has the "
+                     "fewest irregular nodes (at least {} on its source) and the most even cells",
+                     reading.ways, reading.enclosed, reading.roles.irregular);
 }
 
 /// Make the reading an open volume with these roles of the model's faces.
@@ -109,7 +108,8 @@ std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
     return same->value == VolumeClass::V ? 0 : same->value == VolumeClass::IV ? 1 : 2;
 }
 
-/// Remove and return the best sweep; the candidates are sorted by quality.
+/// Remove and return the best sweep: of those with the fewest irregular nodes, the one with the lowest
+/// `openness()`. At most `kMostOthers` others are kept. @pre sorted by irregular nodes
 RoleCandidate take_best(std::vector<RoleCandidate>& sweeps,
                         const std::function<Ends(const RoleCandidate&)>& ends_of,
                         const std::vector<RoleCandidate>& ways)

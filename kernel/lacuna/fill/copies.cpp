@@ -19,7 +19,7 @@ namespace lacuna::fill {
 
 namespace {
 
-/// Move a swept mesh. In a mirrored one the quads are turned over, so that cells stay positive.
+/// Move a swept mesh. If the move mirrors it, the quads are turned over, so that cells keep positive volumes.
 void move(sweep::Swept& swept, const Eigen::Affine3d& by)
 {
     mesh::HexMesh& mesh = swept.mesh;
@@ -42,7 +42,7 @@ struct OfPart {
     Index number;
 };
 
-/// The part that has a node of the whole mesh first, and the node there.
+/// The first part that has a node of the whole mesh, and the number of the node in that part.
 OfPart owner(std::span<const mesh::NodeNumbers> numbering, Index node)
 {
     const auto after = std::ranges::upper_bound(numbering, node, {}, &mesh::NodeNumbers::first);
@@ -81,24 +81,24 @@ struct Skin {
     }
 };
 
-/// What a mesh and a copy of it have in common.
+/// The nodes and skin sides that a mesh shares with a copy of it.
 struct InCommon {
     std::vector<std::pair<OfPart, OfPart>> nodes; ///< of the copy, and of the mesh
     std::vector<OfPart> of_copy, of_mesh;         ///< sides of the skins
 };
 
-/// Volumes must not overlap. @param number  of the copy, for messages.
+/// Refuse a copy whose volumes overlap those of the mesh. @param number  of the copy, for messages.
 void check_volumes(const FilledParts& mesh, const FilledParts& copy, int number, const RunContext& context)
 {
     std::array<FilledParts, 2> pair{mesh, copy};
     for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
         std::string& region = pair[0].regions[p];
-        if (region == "volume") region = "the mesh"; // which is the name of all cells in an assembly
+        if (region == "volume") region = "the mesh"; // in an assembly, "volume" names all cells
         pair[1].regions[p] = formatted("copy {} of {}", number, region);
         for (FilledParts& one : pair) one.swept.parts[p].mesh.volume_groups = {"volume"};
     }
     RunContext quiet = context;
-    quiet.log = nullptr; // of a face that is shared in part it says that it is near
+    quiet.log = nullptr; // it would report faces that are shared in part as near misses
     const std::array<Member, 2> members{Member{nullptr, nullptr, &pair[0]}, {nullptr, nullptr, &pair[1]}};
     sweep(members, quiet);
 }
@@ -134,7 +134,7 @@ InCommon in_common(const Skin& skin, const Eigen::Affine3d& by, double diagonal,
         found.of_copy.push_back(skin.sides[s]);
         found.of_mesh.push_back(skin.sides[other->second]);
     }
-    // Places of the one skin that are on the other without a node there: both ways by one tree.
+    // Find nodes of one skin that lie on the other, which has no node there. One tree serves both directions.
     const geometry::FacetTree tree(skin.places, skin.facets, context);
     const auto check = [&](const Vec3& place, const Vec3& shown) {
         if ((tree.closest(place).point - place).norm() > kFileAccuracy * diagonal) return;
@@ -151,7 +151,8 @@ InCommon in_common(const Skin& skin, const Eigen::Affine3d& by, double diagonal,
     return found;
 }
 
-/// Take sides of the skin out of all groups: a patch as a whole, or a part of it as a patch of its own.
+/// Remove sides of the skin from all groups. If they are only a part of a patch, they become a patch of their
+/// own.
 void make_inner(std::vector<sweep::Swept>& parts, std::size_t first, std::span<const OfPart> sides)
 {
     std::map<std::pair<std::size_t, Index>, std::vector<Index*>> of_patch;
@@ -231,14 +232,14 @@ FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const 
                     const RunContext& context)
 {
     if (options.count < 1)
-        throw InvalidInput("fill.pattern_count", "a pattern has {} copy or more, but {} are asked for",
+        throw InvalidInput("fill.pattern_count", "a pattern needs at least {} copy, but {} are requested",
                            needed(1), found(options.count));
     const std::size_t parts = mesh.regions.size();
     const auto count = static_cast<std::size_t>(options.count);
     report_progress(context, "copies");
     const Eigen::AlignedBox3d box = box_of(mesh);
     std::vector<Eigen::Affine3d> moves{Eigen::Affine3d::Identity()};
-    std::vector<InCommon> common(count); // by how many copies further it is
+    std::vector<InCommon> common(count); // by distance in copies: what two copies that far apart share
     std::optional<Skin> skin;
     for (std::size_t k = 1; k < count; ++k) {
         check_cancelled(context);

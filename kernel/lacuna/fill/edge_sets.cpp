@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    /// Add a side of an element, if it has the dimension.
+    /// Add a side of an element, if the element has the given dimension.
     void add(io::DeckTag tag, int dimension, int side, const std::string& name)
     {
         const auto known = element_.find(tag);
@@ -72,7 +72,7 @@ private:
 
     const io::Deck& deck_;
     NamedSides& found_;
-    std::unordered_map<Index, Index> point_; ///< model point of a deck's node
+    std::unordered_map<Index, Index> point_; ///< by node of the deck: the model's point
     std::unordered_map<io::DeckTag, std::pair<const io::DeckBlock*, std::size_t>> element_;
 };
 

@@ -31,7 +31,7 @@ void count(std::vector<Group>& groups, const std::string& name, int dim, std::si
     known->cells += cells;
 }
 
-/// @param patch  of each side of the skin
+/// @param patch  returns the patch of a side of the skin
 template <class Patch>
 void count_skin(std::vector<Group>& groups, const std::vector<mesh::SkinPatch>& patches, std::size_t sides,
                 const Patch& patch)
@@ -200,7 +200,7 @@ Vec3 node(const FilledParts& mesh, std::size_t node)
 {
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
         const mesh::NodeNumbers& number = mesh.swept.numbering[p];
-        const std::size_t fresh = node - index(number.first()); // of the part that has it first
+        const std::size_t fresh = node - index(number.first()); // among the nodes that this part has first
         if (fresh < number.fresh()) return mesh.swept.parts[p].mesh.node(number.fresh_node(fresh));
     }
     for (const FilledTets& tets : mesh.tets)

@@ -25,14 +25,15 @@ struct FilledVolume {
     sweep::Swept swept;
     std::string material; ///< material of the volume
     std::string unit{};   ///< as `Volume::unit`
-    bool copied = false;  ///< made by moved(): in an assembly, nodes move by rounding onto other members'
+    bool copied = false;  ///< made by moved(): in an assembly, rounding may move its nodes onto those of
+                          ///< other members
 };
 
 /// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
 struct FilledTets {
     mesh::TetPart mesh;
     std::vector<Index> number; ///< of each of its nodes in the whole mesh, from 0
-    std::size_t shared = 0;    ///< number of sides of its skin that meshes before it have
+    std::size_t shared = 0;    ///< number of sides of its skin that it shares with meshes before it
     std::string region;
     quality::Quality quality;        ///< from the proof
     sweep::Fidelity fidelity;        ///< the skin against the sealed skin
@@ -57,7 +58,7 @@ struct FilledParts {
     std::vector<FilledTets> tets;
     std::vector<SplitInterface> interfaces{}; ///< from `split_interface()`
     std::string unit{};                       ///< as `Volume::unit`
-    bool copied = false;                      ///< as of `FilledVolume`
+    bool copied = false;                      ///< as in `FilledVolume`
 };
 
 /// A mesh, and the volumes with the roles that they were swept with.

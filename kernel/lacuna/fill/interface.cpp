@@ -18,7 +18,7 @@ struct PartSkin {
     const std::vector<mesh::SkinPatch>* patches = nullptr;
     std::vector<Index>* number = nullptr; ///< of each of its nodes in the whole mesh
     std::vector<Quad> sides{};            ///< of its skin, in its own numbers, seen from outside
-    std::vector<Index> patch{};           ///< of each of them
+    std::vector<Index> patch{};           ///< of each side
 };
 
 template <class Mesh>
@@ -61,7 +61,7 @@ public:
         choose();
         number_nodes();
         add_cells(context);
-        // Numbers of nodes are listed one by one where new ones do not follow those before them.
+        // New nodes break the consecutive numbering, so the number of every node is listed.
         for (std::size_t p = 0; p < mesh_.swept.parts.size(); ++p) {
             const std::vector<Index>& number = numbers_[p];
             std::vector<std::pair<Index, Index>> known;
@@ -142,7 +142,8 @@ private:
         }
         std::vector<std::map<Index, Index>> renumbered(parts_.size()); // of each part
         for (const auto& [node, sides] : at) {
-            // Without the split faces, and with all: what touches along an edge alone stays joined.
+            // `cut` joins parts over faces that are not split, `joined` over all. Parts that only touch keep
+            // their common node.
             std::map<std::size_t, std::size_t> cut, joined;
             for (const SharedSide* side : sides)
                 for (const std::size_t part : {side->a, side->b}) cut[part] = joined[part] = part;
@@ -170,7 +171,7 @@ private:
         while (sets.at(part) != part) part = sets.at(part);
         return part;
     }
-    /// The first part is the root.
+    /// Join two sets of parts; the lowest number is the root.
     static void unite(std::map<std::size_t, std::size_t>& sets, std::size_t a, std::size_t b)
     {
         a = root(sets, a), b = root(sets, b);

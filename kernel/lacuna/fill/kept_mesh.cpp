@@ -35,11 +35,11 @@ std::unique_ptr<KeptMesh> keep(const sweep::Swept& swept, const std::string& nam
     kept->material = material;
     kept->copied = copied;
     remove_name(kept->swept.mesh, name);
-    kept->swept.report.emplace_back(formatted("kept as it came: {} cells", swept.mesh.cell_count()));
+    kept->swept.report.emplace_back(formatted("kept unchanged: {} cells", swept.mesh.cell_count()));
     return kept;
 }
 
-/// Move nodes of copies onto those that rounding separates from them.
+/// Move nodes of copies onto the nodes that differ from them by rounding only.
 void settle(std::span<KeptMesh* const> meshes, const RunContext& context)
 {
     if (std::ranges::none_of(meshes, &KeptMesh::copied)) return;

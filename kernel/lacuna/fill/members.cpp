@@ -40,8 +40,7 @@ struct Part {
 
 // --- options that name faces ------------------------------------------------------------------------------
 
-/// Visit each option that names faces, with its name, whether it was given for one volume alone, and its
-/// faces.
+/// Call `give(name, faces)` for each option that names faces.
 template <class Options, class Do>
 void for_each_names(Options& options, const Do& give)
 {
@@ -101,7 +100,7 @@ void check_known_faces(const std::vector<Part>& all)
         if (known) return;
         Message message("surface.no_such_face", "sweep: option '{}'{} names {}, which {}", option,
                         own ? " of " + by.asked_name : "", what,
-                        own ? by.asked_name + " has not" : "no volume of the assembly has");
+                        own ? by.asked_name + " does not have" : "no volume of the assembly has");
         std::string nearest;
         if constexpr (std::is_same_v<std::decay_t<decltype(face)>, std::string>)
             nearest = nearest_face_name(all, face, of);
@@ -144,7 +143,7 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
     if (layers.count == 0) return;
     if (layers.count < kLeastPerTurn)
         throw InvalidInput("sweep.full_turn_layers",
-                           "a full turn needs at least {} layers, but {} are asked for",
+                           "a full turn needs at least {} layers, but {} are requested",
                            needed(kLeastPerTurn), found(layers.count));
     const auto until = [&](double turn) { return static_cast<int>(std::lround(turn * layers.count)); };
     layers.count = std::max(1, until(volume.turn_to) - until(volume.turn_from));
@@ -171,8 +170,9 @@ void add_pieces(std::vector<Part>& parts, const Member& asked, const std::string
     }
 }
 
-/// Add a volume, or the pieces that it has to be cut into; without such pieces it can only be filled with
-/// tetrahedra. @param name, whole  as above
+/// Add a volume, or the pieces that it has to be cut into. If cutting fails, it can only be filled with
+/// tetrahedra.
+/// @param name, whole  as for add_pieces()
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
                const std::string& whole, const RunContext& context)
 {
@@ -236,7 +236,7 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
 /// The parts of an assembly, ready to be meshed.
 struct Prepared {
     std::vector<sweep::AssemblyMember> members;
-    std::vector<std::string> materials; ///< of these, as the next
+    std::vector<std::string> materials; ///< by member, as `parts`
     std::vector<Part*> parts;
     std::vector<sweep::LeftOut> left_out;
 };
@@ -263,7 +263,7 @@ Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, b
                 if (part.volume.no_roles)
                     throw InvalidInput(with_tets_as_remedy(*part.volume.no_roles, part.asked->options));
                 part.volume = close_to_sweep(part.volume, region, context);
-            } else if (!part.volume.volume.full_turn) { // which is closed
+            } else if (!part.volume.volume.full_turn) { // a full turn needs no closing
                 part.volume = close(part.volume, {}, context);
             }
         };
@@ -288,8 +288,8 @@ bool can_sweep(const topology::OpenVolume& volume, const RunContext& context)
     }
 }
 
-/// What stands against a member's sweep beside its neighbours: edges on its walls that it cannot follow; then
-/// the number of faces that are an end of one volume and a wall of the other.
+/// How badly a member's sweep suits its neighbours: whether its walls have edges that layers cannot follow,
+/// then the number of faces that are an end of one volume and a wall of the other.
 std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& split, std::size_t member,
                                                const RunContext& context)
 {
@@ -303,8 +303,9 @@ std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& sp
     return {!can_sweep(split.volumes[member], context), static_cast<std::size_t>(unlike)};
 }
 
-/// Where neighbours divide faces of each other, and no ends were named, sweep a volume as its neighbours: a
-/// board on standoffs from the side that they stand on, a square pin from plate to plate.
+/// If neighbours divide each other's faces and no ends were named, choose the sweep of a volume that suits
+/// its neighbours best: a board on standoffs is swept from the side that they stand on, a square pin from
+/// plate to plate.
 void choose_sweeps(Prepared& ready, const RunContext& context)
 {
     const auto may_choose = [](const Part* part) { return part->volume.others && !part->volume.no_roles; };

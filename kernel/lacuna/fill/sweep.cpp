@@ -110,7 +110,8 @@ Filled sweep_once(const Volume& volume, bool pieces, const SweepRequest& request
 
 // --- a source with edges on its axis ----------------------------------------------------------------------
 
-/// Turn a source with edges on its axis: it is meshed as the end of a plate, and its quads are turned.
+/// Revolve a source with edges on its axis: it is meshed as the end of a plate, whose quads are then
+/// revolved.
 Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const RunContext& context)
 {
     sweep::SweepOptions options = request.options;
@@ -126,7 +127,8 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
     if (!(normal.norm() > 0))
         throw InvalidInput(Message("closure.along_direction", "the source has no mean normal")
                                .remedy("use a source in a plane through its axis"));
-    constexpr double kThickness = 0.1; // of the model; it does not matter, as it has one layer
+    constexpr double kThickness = 0.1; // share of the diagonal; any value does, because the plate has one
+                                       // layer
     closure::SweptSource plate{along.source, nullptr, false, along.sets};
     plate.motion = std::make_shared<const geometry::Motion>(
         geometry::translation(kThickness * source.diagonal * normal.normalized()));
@@ -146,7 +148,7 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
                      {},
                      {}};
     const std::string name = volume.name.empty() ? "volume" : volume.name;
-    for (const sweep::Swept& part : mesh.swept.parts) // wedges have layers along the axis
+    for (const sweep::Swept& part : mesh.swept.parts) // no hexahedra: the wedges along the axis
         mesh.regions.push_back(part.mesh.hex_count() > 0 ? name : name + "_axis");
     mesh.materials.assign(mesh.swept.parts.size(), volume.material);
     Filled filled{{}, std::move(mesh)};
@@ -157,7 +159,8 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
 // --- volumes that no single sweep fills -------------------------------------------------------------------
 
 /// The pieces of a sealed volume; itself if it cannot be cut.
-/// @param steps  whether pieces may also be cut at steps and branches, where a sweep of all of them failed
+/// @param steps  whether to cut at steps and branches if that fails, although a sweep of all those pieces
+///               failed
 std::vector<closure::StepPiece> pieces_of(const topology::OpenVolume& sealed, bool steps,
                                           const RunContext& context)
 {
@@ -173,7 +176,7 @@ std::vector<closure::StepPiece> pieces_of(const topology::OpenVolume& sealed, bo
     }
 }
 
-/// Give pieces no ends that a sweep by sizes nobody asked for does not fill with their volume.
+/// Remove the ends of pieces whose mesh, swept with default sizes, misses their volume.
 /// @return  their regions, in words; empty: none
 std::string drop_untrue(const FilledParts& mesh, std::vector<closure::StepPiece>& pieces)
 {
@@ -229,7 +232,7 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     sweep::SweepOptions options = request.options;
     options.layered = false;
     options.crew = nullptr;
-    // Pieces that are meshed by themselves have sizes of their own, which do not suit their neighbours.
+    // One size for all pieces: the default sizes of single pieces would not suit their neighbours.
     if (!options.size) {
         options.size = surface::even_size(surface::default_size(volume.volume).length);
         options.gap = std::max(options.gap, sweep::kDefaultGap);

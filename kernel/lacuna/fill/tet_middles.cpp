@@ -227,7 +227,7 @@ private:
         }
     }
 
-    /// Find the centres of quads that neighbours or files have.
+    /// Find the centres of quads that neighbours or files give.
     void find_centres()
     {
         std::vector<std::array<Vec3, 4>> corners(mesh_.skin_quads);

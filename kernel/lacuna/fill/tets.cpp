@@ -31,7 +31,7 @@ class CellsOfFace {
 public:
     explicit CellsOfFace(FaceId own) : fixed_{own, {}, {}} {}
 
-    /// @param side  of the neighbour's skin, so that it is turned over
+    /// @param side  a side of the neighbour's skin; it is turned over
     template <class Place>
     void add(Quad side, const Place& place)
     {
@@ -67,7 +67,7 @@ void require_shape(const sweep::Fidelity& shape, const sweep::SweepOptions& opti
     log_line(context, "note: " + message.text());
 }
 
-/// Name the options given for sweeps that tetrahedra do not follow.
+/// Report the given options that only sweeps follow.
 void tell_idle_options(const sweep::SweepOptions& options, FilledTets& tets, const RunContext& context)
 {
     const std::pair<bool, const char*> given[] = {
@@ -87,7 +87,7 @@ void tell_idle_options(const sweep::SweepOptions& options, FilledTets& tets, con
 
 // --- cells and skin ---------------------------------------------------------------------------------------
 
-/// The part of the whole mesh, from the cells that filled a skin.
+/// Make the part of the whole mesh from the cells that fill a skin.
 void take_cells(const ToFill& what, const surface::SkinMesh& skin, mesh::TetMesh made, FilledTets& tets)
 {
     mesh::TetPart& part = tets.mesh;
@@ -114,7 +114,7 @@ void take_cells(const ToFill& what, const surface::SkinMesh& skin, mesh::TetMesh
     for (mesh::SkinPatch& patch : part.patches) patch.groups = groups_in_assembly(name, patch.groups);
 }
 
-/// @throw NotSweepable  the cells are no valid mesh, or their skin is another than the one to be filled
+/// @throw NotSweepable  the cells are no valid mesh, or their skin differs from the one to be filled
 void prove(FilledTets& tets, const RunContext& context)
 {
     quality::CellsProof proved = quality::prove_cells(tets.mesh.nodes, tets.mesh.cells, context);
@@ -125,7 +125,8 @@ void prove(FilledTets& tets, const RunContext& context)
                       std::ranges::all_of(tets.mesh.skin,
                                           [&](const Quad& side) { return skin.contains(face_key(side)); });
     if (!same)
-        throw NotSweepable("fill.skin_differs", "{}: the cells that fill the skin have another skin",
+        throw NotSweepable("fill.skin_differs",
+                           "{}: the skin of the tetrahedra differs from the skin that they should fill",
                            tets.region);
     tets.quality = std::move(proved.quality);
 }
@@ -168,7 +169,7 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
     if (!options.tet_mesher)
         throw InvalidInput(
             Message("fill.no_tets",
-                    "{}: it must be filled with tetrahedra, and this host gives no mesher for them",
+                    "{}: it must be filled with tetrahedra, but this host has no mesher for them",
                     what.region)
                 .remedy("set SweepOptions::tet_mesher, for example to cad::fill_skin"));
     FilledTets tets;
@@ -211,7 +212,7 @@ namespace {
 /// Numbers of the middle nodes of skins, by the numbers of the corners of their sides and quads.
 class MiddleNumbers {
 public:
-    /// Add those of a mesh. @param number  of each of its nodes
+    /// Add the numbers of a mesh's middle nodes. @param number  of each node of the mesh
     template <class Mesh>
     void add(const Mesh& mesh, const std::vector<Index>& number)
     {
@@ -297,7 +298,7 @@ void number_nodes(FilledParts& mesh)
             tets.mesh.skin, [&](const Quad& side) { return is_known(side, tets.number); });
         if (static_cast<std::size_t>(shared) != tets.shared)
             throw NotSweepable("fill.not_shared",
-                               "{}: {} of its sides are those of its neighbours, where {} should be",
+                               "{}: {} sides of its skin are shared with its neighbours, but {} should be",
                                tets.region, found(shared), needed(tets.shared));
     }
 }

@@ -69,8 +69,7 @@ Volume override_class(Volume volume, topology::VolumeClass value)
                                .remedy("override its class before close()"));
     if (volume.along && value == topology::VolumeClass::zero) return volume;
     if (volume.along)
-        throw InvalidInput("closure.along_roles",
-                           "override_class: 'along' determines what is missing, and the class is {}",
+        throw InvalidInput("closure.along_roles", "override_class: 'along' fixes the class, which is {}",
                            topology::to_string(volume.classification.value));
     volume.others.reset();
     volume.as_read.reset();

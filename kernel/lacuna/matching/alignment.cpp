@@ -21,7 +21,7 @@ constexpr int kSections = 30;
 
 using Hard = std::map<VertexId, VertexId>;
 
-/// True if the hard pairs of two loops with as many vertices allow the alignment.
+/// True if the hard pairs of two loops with equal numbers of vertices allow the alignment.
 bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target, std::size_t shift,
              bool backward)
 {
@@ -34,8 +34,8 @@ bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target,
     return true;
 }
 
-/// Share by which the normals of two aligned loops point against the line between the loops, 0…1; 0 in a
-/// plain sweep.
+/// How far the normals of two aligned loops point in opposite directions along the line between the loops,
+/// 0…1; 0 in a plain sweep.
 double overturned(const LoopShape& source, const LoopShape& target, bool backward)
 {
     const Vec3 way = (target.centroid - source.centroid).stableNormalized();
@@ -127,7 +127,7 @@ Alignment slid(const Problem& problem, const LoopShape& source, const LoopShape&
         }
     }
     const Alignment& best = a.score <= b.score ? a : b;
-    // If only the position on the facets improves the fit, keep the evenly sampled start.
+    // Keep the sampled start unless sliding improves the fit.
     const Alignment start = at(alignment.offset);
     return best.score < start.score ? best : start;
 }
@@ -162,8 +162,9 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     if (problem.hard.empty() && low == all && high == all) return false;
     const std::vector<Alignment> found = rated(problem, &problem.hard, source, target, true, problem.backward,
                                                problem.led_near(s));
-    // No alignment satisfies all pairs. Split edges only if the pairs from the walls alone have none either;
-    // pairs of the user that contradict each other or the walls are refused.
+    // No alignment keeps all hard pairs. Pair by length, which splits edges, only if the pairs from the walls
+    // alone cannot be kept either. Otherwise the user's pairs contradict each other or the walls, and are
+    // refused.
     if (found.empty())
         return rated(problem, &problem.walls, source, target, true, problem.backward, {}).empty();
     if (low == all && high == all) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// All positions are shares of the source loop; target vertices are mapped to them by the scaling between
-// pairs.
+// All positions are shares of the source loop's length. Target vertices are mapped to them by scaling the arc
+// length between pairs.
 #include <lacuna/matching/detail/arc_pairs.h>
 
 #include <lacuna/core/shared/constants.h>
@@ -76,8 +76,8 @@ private:
     std::vector<std::pair<double, double>> knots_; ///< (source, turned target)
 };
 
-/// Assign each of `few` one of `many`, at least as many, both ascending, in order, with the least sum of
-/// squared distances.
+/// Assign to each of `few` a different one of `many`, in order, with the least sum of squared distances. Both
+/// ascend, and `many` has at least as many values.
 /// @return the assignment and its sum.
 std::pair<std::vector<std::size_t>, double> in_line(const std::vector<double>& few,
                                                     const std::vector<double>& many)
@@ -232,7 +232,8 @@ private:
         return shorter ? std::min(before, after) : std::max(before, after);
     }
 
-    /// Pair corners within a segment of the loops, also those on walls: a wall may end before the other end.
+    /// Pair the corners in a segment of the loops, also those on walls, because a wall may stop before the
+    /// target.
     void pair_corners(double from, double run, bool whole)
     {
         std::vector<std::pair<double, std::size_t>> low, high;
@@ -267,7 +268,7 @@ private:
         }
     }
 
-    /// A loop needs at least one void edge.
+    /// Add one split if there is no pair and no split: a loop needs at least one void edge.
     void add_one(ArcPairs& found) const
     {
         std::size_t best = kNoIndex;
@@ -292,7 +293,7 @@ private:
     std::vector<std::size_t> partner_; ///< target of each source vertex
     std::vector<std::size_t> taken_;   ///< source of each target vertex
     std::optional<ShareMap> shares_;
-    std::vector<double> place_; ///< share of the source of each target vertex
+    std::vector<double> place_; ///< by target vertex: its share of the source loop
 };
 
 } // namespace

@@ -26,9 +26,9 @@ double misfit(const Problem& problem, std::size_t s, std::size_t t, const geomet
 }
 
 /// Cost of pairing loop s with loop t after the source is moved by `fit`.
-/// @param scale  expected ratio of loop sizes, from the lengths of the anchor loops. The scale of the fit
-///               would not do: it shrinks with the quality of the fit, so the size of another loop would
-///               decide the anchor's alignment.
+/// @param scale  expected ratio of loop sizes, from the lengths of the anchor loops. The fit's own scale is
+///               smaller the worse the fit, so with it the sizes of other loops would affect the anchor's
+///               alignment.
 double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
                  double scale, double reach)
 {
@@ -43,8 +43,8 @@ double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geo
            relative(a.area.norm() * scale * scale, b.area.norm()) + counts;
 }
 
-/// Finds the cheapest target loop for a source loop: those near the place it is moved to are tried first, and
-/// none that is farther away than the cheapest costs.
+/// Finds the cheapest target loop for a source loop. Target loops are tried in the order of their distance
+/// along one axis; the search ends where the distance alone costs more than the cheapest.
 class CheapestTarget {
 public:
     CheapestTarget(const Problem& problem, double reach) : problem_(problem), reach_(reach)
@@ -59,7 +59,7 @@ public:
         std::ranges::sort(lengths_);
     }
 
-    /// The least cost of a source loop for its length.
+    /// Lower bound of a source loop's cost, from the lengths of the target loops.
     [[nodiscard]] double by_length(std::size_t s, double scale) const
     {
         const double length = problem_.source[s].length * scale;
@@ -98,8 +98,8 @@ private:
     std::vector<double> lengths_;                       ///< of the target loops, rising
 };
 
-/// The arrangement that an alignment of the anchor leads to; empty if no complete one is cheaper than
-/// `limit`.
+/// The arrangement that follows from an alignment of the anchor; empty if it is incomplete or not cheaper
+/// than `limit`.
 std::optional<Arrangement> arrangement_of(const Problem& problem, std::size_t anchor, std::size_t t,
                                           const Alignment& alignment, double scale, double reach,
                                           const CheapestTarget& targets, double limit)

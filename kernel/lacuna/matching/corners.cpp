@@ -15,8 +15,8 @@ namespace {
 /// Smallest turn of a loop at a corner, where a node must lie [degrees]: above the turn between facets of
 /// coarse curves, below that of obtuse corners.
 constexpr double kCornerAngle = 15;
-/// Factor by which the turn at a corner exceeds that of the adjacent facets: above the unevenness of the
-/// facets of one curve.
+/// A corner turns by more than this factor times the turn between the facets next to it. The factor is above
+/// the unevenness of the facets of one curve.
 constexpr double kOverSmooth = 1.5;
 
 double turn(const Vec3& in, const Vec3& out)

@@ -28,8 +28,8 @@ using namespace topology;
 
 namespace {
 
-/// Sample points of a section between two side lines, and of a closed section without any. An affine fit
-/// needs four; twice as many average out the facets.
+/// Number of sample points of a section between two side lines, and of a closed section that crosses none. An
+/// affine fit needs four; twice as many average out the facets.
 constexpr int kSamplesBetween = 8;
 constexpr int kSamplesRound = 48;
 
@@ -219,7 +219,7 @@ void put_on_surfaces(const Model& model, const std::vector<FaceId>& part, std::v
     }
 }
 
-/// Rotate a closed line to start at its anchor with the lowest side line.
+/// Rotate a closed line to start at the anchor whose side line has the lowest number.
 void start_at_first_anchor(LevelLine& line)
 {
     if (!line.closed || line.anchors.empty()) return;
@@ -317,11 +317,12 @@ struct PartSections {
     bool closed = false;
 };
 
-/// Complete a section for the fit. Its area vector points up the wall, whichever side the void is
-/// on, so that the areas of several parts add up.
+/// Complete a section for the fit, and return its area vector. This points up the wall, whichever side the
+/// void is on, so that the areas of several parts add up.
 ///
-/// An open section does not fix the void next to it, and a straight one not even its rotation. So two points
-/// off the wall, and the area of a circular section as long as the gap, are added along the upward direction.
+/// An open section does not fix the size of the void next to it, and a straight one not even its rotation.
+/// Two points off the wall are therefore added, and the area of a circle whose circumference is the distance
+/// between the section's ends.
 Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 {
     const Vec3 area = geometry::newell_vector(section);
@@ -362,7 +363,8 @@ std::pair<bool, bool> ends_anchored(const LevelLine& line)
     return {line.anchors.front().first == 0, line.anchors.back().first + 1 == line.points.size()};
 }
 
-/// Trim open lines, which walls that end between the rims lengthen, to the side lines that all of them share.
+/// Walls that end between the rims make some open lines longer than others: trim all to the side lines that
+/// they share.
 /// @return  false if the lines end differently and share fewer than two side lines.
 bool cut_to_shared(std::vector<LevelLine>& lines)
 {
@@ -421,8 +423,8 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     return result;
 }
 
-/// The points of the source loop that a wall part touches, and its sections there; parts on one loop are
-/// merged.
+/// Add the sections of a wall part to the source loops that it touches and from where it can be extrapolated.
+/// Parts on one loop are merged.
 void add_to_loops(const OpenVolume& volume, const std::vector<FaceId>& part, const PartSections& sections,
                   std::vector<LoopSections>& loops)
 {

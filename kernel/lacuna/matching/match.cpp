@@ -29,9 +29,9 @@ constexpr double kUnsure = 0.25;
 /// 2.5 times as well but rotates as much or more. Ring sectors whose outer end is eight times as far out as
 /// the inner one need this.
 constexpr double kUnsureBesideSides = 0.6;
-/// Confidence below which it is preferred even to one that rotates less; and the difference in rotation that
-/// is ignored, as a share of half a turn. Both are small, so that a plain prism is not twisted to suit its
-/// target mesh.
+/// `kTie`: confidence below which the alignment with equal numbers of sides is preferred even to one that
+/// rotates less. `kAsMuch`: difference in rotation that is ignored, as a share of half a turn. Both are
+/// small, so that a plain prism is not twisted to suit its target mesh.
 constexpr double kTie = 0.1, kAsMuch = 0.05;
 
 /// Confidence that the best score is right: 1 − best / second best.
@@ -120,14 +120,14 @@ private:
                             source_loop(s), target_loop(t), from, to);
         }
         const Alignment& best = chosen_[s] = found.front();
-        // A loop reversed by the user does not give the direction of the other loops.
+        // A loop that the user reversed runs against the other loops.
         if (!backward_) backward_ = flip ? !best.backward : best.backward;
         match_.loops[s].flipped = !best.backward;
         rate(s, found);
         aligned_.push_back(s);
     }
 
-    /// Up to kNearLoops of some loops, those nearest to loop s, in their order.
+    /// The `kNearLoops` loops of a list that are nearest to loop s, in ascending order.
     [[nodiscard]] std::vector<std::size_t> nearest(std::size_t s, std::vector<std::size_t> loops) const
     {
         if (loops.size() <= kNearLoops) return loops;
@@ -170,7 +170,8 @@ private:
                                 source_loop(s)});
     }
 
-    /// Set the confidence of an alignment against the next one. One hard pair fixes the whole loop.
+    /// Lower the confidence to that of the best alignment against the next different one. One hard pair fixes
+    /// the whole loop.
     void rate(std::size_t s, const std::vector<Alignment>& found)
     {
         const std::size_t t = target(s);
@@ -178,14 +179,16 @@ private:
         const auto second = std::ranges::find_if(
             found, [&](const Alignment& other) { return differ(problem_, s, t, best, other); });
         if (second == found.end() || problem_.has_hard(s)) return;
-        // Loop pairs may have been chosen by shape and need not be the best by position.
+        // The best one may score worse than the second, because arrangements are ranked by the shapes of all
+        // loops.
         const double sure = sureness(best.score, second->score);
         match_.confidence = std::min(match_.confidence, sure);
         if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
     /// Shift a loop that is paired by length to the best common fit with all others, unless its samples are
-    /// given nodes. Other loops that can still shift count by their centroids, with the weight of a loop.
+    /// given nodes. Of other loops that can still shift, only the centroids count, each with the weight of a
+    /// loop.
     void slide(std::size_t s)
     {
         const std::size_t t = target(s);
@@ -261,7 +264,7 @@ private:
         match_.hard.push_back(known != problem_.hard.end() && known->second == to);
     }
 
-    /// Vertices on walls are not split: walls or corners give them partners.
+    /// Vertices on walls cause no splits: walls or corners give them partners.
     [[nodiscard]] ArcLoop arc_loop(const LoopShape& shape) const
     {
         ArcLoop loop{shape.vertices, shape.vertex_arc, shape.corner, {}};

@@ -44,7 +44,7 @@ struct Match {
     std::vector<LoopPair> loops;
     std::vector<std::pair<VertexId, VertexId>>
         vertices;              ///< (source, target), source loop by source loop in walking order
-    std::vector<bool> hard;    ///< by vertex pair: joined by a chain of wall edges
+    std::vector<bool> hard;    ///< by vertex pair: fixed by walls or by the user
     std::vector<Split> splits; ///< vertices still to be created by apply_splits()
     std::string method;
     double confidence = 1; ///< 0…1: 1 − best / second best residual; 1 if there was only one possibility
@@ -62,8 +62,8 @@ struct Match {
 /// `aligned` pairs vertices by arc length, pair_by_arc(), where a vertex-to-vertex pairing is not reliable:
 /// loops with different numbers of vertices, loops with one vertex, loops without corners whose vertices
 /// would twist the void edges by more than 1/32 of the loop, and loops where a corner would be paired with a
-/// smooth vertex; see choose_how(). Corners always get a partner, if necessary by splitting an edge of the
-/// other loop; a vertex on a smooth run may stay without one.
+/// smooth vertex. Corners always get a partner, if necessary by splitting an edge of the other loop; a vertex
+/// on a smooth run may stay without one.
 /// @throw InvalidInput   a pair or loop fixed by the user that contradicts the faces.
 /// @throw NotClosed      different numbers of loops; fixed parts that contradict each other; names them.
 /// @throw Cancelled
@@ -76,8 +76,8 @@ struct Matched {
     Match match;
 };
 
-/// Make the splits of a match by topology::split_edge(). A split on an edge with a wall is skipped, with a
-/// note.
+/// Make the splits of a match by topology::split_edge(). A split is skipped, with a note, on an edge with a
+/// wall, at an end of an edge, and inside a quad side of a given mesh.
 /// @pre the match is of this volume.
 Matched apply_splits(topology::OpenVolume volume, Match match);
 

@@ -101,7 +101,7 @@ private:
         return (source_.at[s] - target_.at[t]).norm();
     }
 
-    /// Fixed pairs exclude other partners.
+    /// Whether two vertices may be paired: fixed pairs exclude other partners.
     [[nodiscard]] bool may(std::size_t s, std::size_t t) const
     {
         if (fixed_[s] != kNoIndex) return fixed_[s] == t;
@@ -211,7 +211,7 @@ private:
             const double mean = sum / count;
             double squares = 0;
             for (const std::size_t s : matched) squares += std::pow(distance(s, partner_[s]) - mean, 2);
-            // Equal distances differ by rounding, which is no deviation.
+            // The tolerance covers distances that differ by rounding only.
             const double reach = kDeviations * std::sqrt(squares / count) + model_.tolerance;
             std::size_t within = 0;
             for (const std::size_t s : matched) {
@@ -255,8 +255,8 @@ private:
         });
     }
 
-    /// Step 6, the direction: one for all loops, as both ends are seen from one side. Loops of one or two
-    /// vertices do not determine it; if no other loop does, the area vectors decide.
+    /// Step 6, the direction. It is the same for all loops, because both ends are seen from the same side.
+    /// Loops of one or two vertices do not determine it; if no other loop does, the area vectors decide.
     void find_direction()
     {
         std::size_t backward = 0, forward = 0;
@@ -274,7 +274,7 @@ private:
         backward_ = problem_.backward.value_or(backward == forward ? low.dot(high) < 0 : backward > forward);
     }
 
-    /// Align a loop as its matches agree; dropped and unpaired vertices follow the others.
+    /// Align a loop as most of its matches agree. Vertices that were dropped or unpaired follow the others.
     void align(std::size_t l)
     {
         const std::size_t m = loop_[l], n = source_.count(l);
@@ -303,8 +303,8 @@ private:
                 if (const std::size_t s = source_.first[l] + i; partner_[s] != partner(i))
                     others.push_back(entity_of(model_, source_.vertex[s]));
             result_.notes.push_back({"matching.nearest_taken",
-                                     "{}: the target vertices nearest to {} are taken by others; they "
-                                     "follow the other vertices of the loop",
+                                     "{}: the target vertices nearest to {} have other partners, so these "
+                                     "vertices are paired in the order of the loop",
                                      source_loop(l), others});
             result_.confidence = std::min(result_.confidence,
                                           static_cast<double>(way.agree) / static_cast<double>(n));
@@ -325,7 +325,7 @@ private:
         }
     }
 
-    /// How much closer the matched vertices are than the second closest of their loop.
+    /// How much closer the matched target vertices are than the nearest other ones, 0…1.
     [[nodiscard]] double clearness() const
     {
         double matched = 0, second = 0;

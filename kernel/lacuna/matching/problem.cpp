@@ -17,7 +17,7 @@ using namespace topology;
 
 namespace {
 
-/// The loop with each vertex.
+/// Finds the loop that contains a vertex.
 class LoopsAt {
 public:
     explicit LoopsAt(const std::vector<LoopShape>& loops)
@@ -142,7 +142,8 @@ void read_options(Problem& problem)
     }
 }
 
-/// Loops with given sides throughout, as many on both ends, are measured in sides, so that nodes correspond.
+/// If all edges of all loops have given sides, and both ends the same numbers of them, measure the loops in
+/// sides, so that nodes correspond.
 void count_given_sides(Problem& problem)
 {
     const auto sides_of = [](const std::vector<LoopShape>& loops) {

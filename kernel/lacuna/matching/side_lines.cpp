@@ -36,7 +36,7 @@ std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& fac
     return points;
 }
 
-/// Share of its side line's length below each point between the rims.
+/// By point between the rims on a side line: the share of the line's length below the point.
 std::map<Index, double> heights_along(const Model& model, const std::vector<SideLine>& lines)
 {
     std::map<Index, double> heights;
@@ -145,7 +145,7 @@ struct Rise {
 };
 using Rises = std::map<VertexId, std::vector<Rise>>;
 
-/// Edges between two walls that may climb.
+/// Wall edges that may climb: those on neither end.
 std::set<EdgeId> edges_between(const OpenVolume& volume)
 {
     std::set<EdgeId> between = edges_of(volume.model, volume.faces(Role::wall));
@@ -191,7 +191,7 @@ std::vector<std::vector<FaceId>> wall_parts_with(const OpenVolume& volume, const
     return parts;
 }
 
-/// Climb of each of some edges.
+/// The climb of each edge.
 std::vector<double> climbs(const OpenVolume& volume, const std::set<EdgeId>& edges,
                            const std::vector<double>& heights)
 {

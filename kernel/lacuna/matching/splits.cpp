@@ -84,7 +84,8 @@ Matched apply_splits(OpenVolume volume, Match match)
         const double wanted = split.fraction * length[split.edge];
         const std::span<const FaceUse> uses = model.uses_of_edge(split.edge);
         const bool on_wall = uses.size() != 1;
-        // An edge that keeps its nodes is split at a node, so the part before may be shorter than this.
+        // An edge with given nodes is split at a node, so the part in front may have another length than
+        // planned.
         const double in_front = edge_length(model, split.edge);
         const bool at_end = std::min(wanted, in_front - wanted) <= model.tolerance;
         const bool no_node = model[split.edge].points.size() == 2 &&

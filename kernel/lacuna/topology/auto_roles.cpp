@@ -29,19 +29,19 @@ namespace {
 constexpr double kBent = 1.0;
 constexpr double kOneEnd = 0.05;
 constexpr double kNoEnd = 0.1;
-/// Cost of a connected set of sharp wall edges that does not run from end to end, and of a window in the
-/// walls. Rule of thumb: the shoulder of a stepped bore is more likely a part of an end at two heights than a
-/// wall.
+/// Cost of a connected set of sharp wall edges that does not run from end to end, and of a window (a rim of
+/// the walls without any neighbour). Rule of thumb: the shoulder of a stepped bore is more likely part of a
+/// stepped end than a wall.
 constexpr double kLoose = 0.3;
-/// Cost of walls whose normals point along the sweep, by the mean squared cosine: 0 for the walls of a
-/// straight sweep, a quarter or less for a bend by 90°. Tuned on 277 voids of prisms, tubes, bends and
-/// pockets.
+/// Weight of walls whose normals point along the sweep. It multiplies the mean squared cosine between wall
+/// normals and sweep, which is 0 for a straight sweep and at most a quarter for a bend by 90°. Tuned on 277
+/// voids of prisms, tubes, bends and pockets.
 constexpr double kAcross = 2.0;
-/// Mean inclination of walls below which a volume with steps can be cut straight along the sweep. Rule of
-/// thumb.
+/// Largest mean squared cosine between wall normals and sweep at which a volume with steps can be cut
+/// straight along the sweep. Rule of thumb.
 constexpr double kStraight = 0.02;
-/// Cost of doubling the number of steps. Rule of thumb: of similar ends the fewest are likeliest, and a plate
-/// may have a hundred.
+/// Cost of each doubling of the number of steps. Rule of thumb: a candidate with fewer steps is likelier, but
+/// a plate may have a hundred.
 constexpr double kStep = 0.01;
 /// Cost of steps at both ends. Rule of thumb: a sweep from one flat face falls into fewer pieces.
 constexpr double kBothSteps = 0.05;
@@ -52,7 +52,7 @@ constexpr std::size_t kMostFaces = 12;
 /// enumerated.
 constexpr std::size_t kMostKept = std::size_t{1} << 18;
 
-constexpr std::size_t kGap = kNoIndex - 1; ///< stands for the target's rim: the walls lead to a free loop
+constexpr std::size_t kGap = kNoIndex - 1; ///< in place of a target rim: the walls end at a free loop
 
 /// The patches that are ends; `kNoIndex` for a missing end.
 struct Reading {
@@ -60,7 +60,7 @@ struct Reading {
     double cost = 0;
     std::size_t step = kNoIndex; ///< index of the candidate if its ends are several patches
 
-    /// Order of likelihood; ties: first candidates without ends, then with steps, then by their ends.
+    /// Cheapest first. Ties: first candidates without ends, then with steps, then by the numbers of the ends.
     friend bool operator<(const Reading& x, const Reading& y)
     {
         if (x.cost != y.cost) return x.cost < y.cost;
@@ -85,8 +85,8 @@ struct WallPart {
     bool several = false;                                     ///< it touches several rims of one end
 };
 
-/// The angles across edges, where the smooth edges of a flat face to a bent one count as just sharp: a floor
-/// with a rounded rim can then be an end.
+/// The angles across edges. A smooth edge between a flat and a bent face gets the crease angle, so that a
+/// floor with a rounded rim can be an end.
 std::vector<double> parted_at_flat_faces(const Model& model, std::vector<double> angle)
 {
     std::vector<bool> flat(model.faces.size());
@@ -133,8 +133,8 @@ public:
     Readings(const Readings&) = delete; // the tally refers to the map
     Readings& operator=(const Readings&) = delete;
 
-    /// The likeliest candidates that are not ruled out by their ends alone, cheapest first.
-    /// @param after  only those after this one
+    /// The cheapest candidates that their ends alone do not rule out, cheapest first.
+    /// @param after  only candidates that rank after this one
     [[nodiscard]] std::vector<Reading> by_cost(const std::optional<Reading>& after)
     {
         std::vector<Reading> found; // heap, the least likely on top
@@ -159,7 +159,7 @@ public:
             if (stands_alone(a) && (!tally_ || tally_->can_hold(a)))
                 add({a, kNoIndex, kOneEnd + bend(map_.patches[a]) + map_.patches[a].slant});
         }
-        // Patches that may be combined with the most others first.
+        // First the patches that may pair with the most others.
         std::vector<std::size_t> order(map_.patches.size());
         for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -197,7 +197,8 @@ public:
         for (const WallPart& part : parts) {
             if (part.several || (part.source_rim == kNoIndex && part.target_rim == kNoIndex)) return false;
             if (part.source_rim == kNoIndex || part.target_rim == kNoIndex) {
-                // A ring to a free loop: towards the missing end, or towards a missing ring of the walls.
+                // A ring of walls that ends at a free loop: the end there is missing, or a ring of walls
+                // before it.
                 if (part.rims != 2 || part.euler != 0) return false;
                 if (part.source_rim == kNoIndex) {
                     ++behind_gap;
@@ -208,7 +209,7 @@ public:
                 ++before_gap;
                 continue;
             }
-            // Walls with a handle are no ring, whatever closes the missing faces.
+            // Walls with a handle form no ring, however the missing faces are closed.
             if (part.euler != 2 - static_cast<long>(part.rims)) return false;
             std::size_t& now = served[part.source_rim];
             if (now != kNoIndex && now != part.target_rim) return false;
@@ -310,8 +311,7 @@ private:
                                                             : 0;
     }
 
-    /// Lower bound of the irregular nodes of one end's quads, for the end with fewer loops, which is the one
-    /// meshed.
+    /// Lower bound of the number of irregular nodes in the source's quads.
     [[nodiscard]] long irregular(const Reading& reading) const
     {
         const SmoothPatch& end = map_.patches[reading.source];
@@ -383,7 +383,7 @@ private:
 
     // --- costs of ends alone ----------------------------------------------------------------------
 
-    /// The free loops if all patches are walls.
+    /// Number of free loops if all patches are walls.
     [[nodiscard]] std::size_t free_loops()
     {
         std::vector<WallPart> all(1);
@@ -409,7 +409,8 @@ private:
         });
     }
 
-    /// Whether two patches have as many rims and no vertex in common. @pre the vertices of `a` are marked.
+    /// Whether two patches have equal numbers of rims and no vertex in common. @pre the vertices of `a` are
+    /// marked.
     [[nodiscard]] bool are_apart(std::size_t a, std::size_t b) const
     {
         const SmoothPatch &s = map_.patches[a], &t = map_.patches[b];
@@ -553,8 +554,8 @@ private:
         return euler;
     }
 
-    /// Count the rim that contains a wall's use, once, in the order of `rims()`. A rim that is entirely free
-    /// is a window, unless the other end is missing there.
+    /// Count the rim that contains a wall's use; each rim counts once. It is followed as in `rims()`. A rim
+    /// that is entirely free is a window, unless the other end is missing there.
     void count_rim(EdgeUse use, std::vector<WallPart>& parts)
     {
         if (!on_wall(use) || on_wall(opposite(use)) || use_seen_.has(number_of(use))) return;
@@ -645,7 +646,7 @@ private:
     const Model& model_;
     bool flat_alone_;
     const RunContext& context_;
-    std::vector<double> angle_; ///< for each edge between its faces [degrees]
+    std::vector<double> angle_; ///< by edge: angle between its two faces [degrees]
     std::vector<EdgeId> sharp_; ///< edges between two patches
     PatchMap map_;
     std::vector<SteppedEnds> stepped_; ///< by stepped candidate

@@ -45,8 +45,8 @@ struct RoleOptions {
 /// @return empty if no candidate is valid.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 ///
-/// Pairs of ends are first filtered by Euler numbers, because walls between two ends have no handles. So few
-/// of the face pairs of a plate with a thousand holes are checked in full.
+/// Pairs of ends are first filtered by Euler numbers, because walls between two ends have no handles. Only
+/// few face pairs of a plate with a thousand holes are therefore checked in full.
 /// @note  O(facets + checked pairs of patches + candidates checked · edges between patches); memory for
 ///         candidates is bounded by some 10 MB.
 std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector<FaceId>& faces,

@@ -20,7 +20,8 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Steps of the search for choices; a hundred sheets that meet in threes take about as many.
+/// Largest number of steps in the search for choices. A hundred sheets that meet in threes need about as
+/// many.
 constexpr std::size_t kMostSteps = 100000;
 
 /// Every face connected to some faces over shared edges without crossing the excluded ones.
@@ -37,7 +38,7 @@ std::vector<FaceId> reachable_from(const Model& model, const std::vector<FaceId>
     return result;
 }
 
-/// A choice of sheets, with its criteria.
+/// A set of chosen sheets, with the values that rank it.
 struct Choice {
     std::vector<bool> sheets;
     double free_length = 0; ///< [model length]
@@ -183,7 +184,7 @@ private:
     const RunContext& context_;
     std::vector<FaceId> ends_;
     std::vector<std::vector<FaceId>> sheets_;
-    std::vector<std::vector<EdgeId>> edges_; ///< for each sheet, one for each use
+    std::vector<std::vector<EdgeId>> edges_; ///< by sheet: the edge of each use
     std::vector<int> count_;                 ///< uses of each edge by the ends and the chosen sheets
     std::vector<bool> chosen_;
     std::vector<Choice> found_;
@@ -212,8 +213,8 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
     return result;
 }
 
-/// Faces around walls that run from an end past these faces to the rim of a cavity, as around a ledge at a
-/// side wall: no step of the end has them all round, so they are walls too.
+/// Faces beside connected walls that run from the end to the rim of the cavity, such as a ledge at a side
+/// wall. Such walls do not enclose a step of the end, so the faces beside them are walls too.
 std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>& walls,
                                    const std::vector<FaceId>& end, const std::vector<FaceId>& cavity)
 {

@@ -14,7 +14,7 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Normals that spread less than this (squared) about their mean define no axis: a turn of some degrees. Rule
+/// Least squared spread of the normals about their mean that defines an axis: a turn of a few degrees. Rule
 /// of thumb.
 constexpr double kLeastSpread = 1e-3;
 
@@ -53,9 +53,9 @@ std::optional<ConeShape> cone_shape(const Model& model, FaceId id)
     cone.axis = spread.axis.col(0);
     const double lean = std::abs(spread.centre.dot(cone.axis));
     if (lean < kParallel || lean > 1 - kFlatShare) return {}; // a cylinder or a plane
-    // With the axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h: linear in c and the other
-    // unknowns for the slope s of the normals. Facets are chords, so the slope is fitted again about that
-    // axis.
+    // For an axis through c, |p|² - 2 c·p + |c|² = (s h + t)² at the height h. With the slope s taken from
+    // the normals, this is linear in c and two other unknowns. Facets are chords, so the slope is then fitted
+    // again about that axis.
     const std::vector<Index> used = corner_points(face);
     const auto count = static_cast<Eigen::Index>(used.size());
     const Vec3 origin = model.at(used.front());

@@ -45,8 +45,8 @@ std::optional<double> face_radius(const Model& model, FaceId id)
 std::optional<RoundShape> round_shape(const Model& model, FaceId id)
 {
     const Face& face = model[id];
-    for (const char* other : {"plane", "cone", "torus"}) // as declared by the CAD file; a piece may look
-                                                         // different
+    for (const char* other : {"plane", "cone", "torus"}) // the CAD file's word: a piece of such a face may
+                                                         // look round
         if (face.kind == other) return {};
     const auto [normals, areas] = facet_normals(model, id);
     if (normals.empty()) return {};

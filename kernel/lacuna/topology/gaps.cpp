@@ -41,7 +41,8 @@ std::vector<Gap> gaps(const Model& model, const RunContext& context)
     const auto part = [&](EdgeId edge) { return part_of[model.uses_of_edge(edge).front().face.index()]; };
 
     const double reach = kWidestSewn * model.diagonal;
-    // Each free edge's points and, last, its middle: at its ends several edges are equally close.
+    // Each free edge's points and, last, its middle. The middle decides which edge is reported as the
+    // closest, because several edges are equally close to an end.
     std::vector<std::vector<Vec3>> places(free.size());
     std::vector<std::vector<Gap>> nearest(free.size());
     for (std::size_t i = 0; i < free.size(); ++i) {

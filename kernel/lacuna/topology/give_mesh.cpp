@@ -20,8 +20,8 @@ namespace lacuna::topology {
 
 namespace {
 
-/// A node of the mesh's rim may be off the face's loop by this share of the side next to it: a chord of a
-/// sixth of a circle is off by an eighth.
+/// Largest distance of a rim node of the mesh from the face's loop, as a share of the longer side beside the
+/// node. A chord over a sixth of a circle is off by an eighth of its length.
 constexpr double kOffRim = 0.25;
 
 /// A node on a loop of the face.
@@ -102,11 +102,11 @@ Nearest nearest_on(const Model& model, std::span<const Index> points, std::span<
     return best;
 }
 
-/// Replaces the points of edges by nodes: facets are split there, and the edges' other points move to the
-/// nodes.
+/// Replaces the points of edges by given nodes: facets are split at the nodes, and the edges' old inner
+/// points move to the nearest node.
 class EdgeRemesher {
 public:
-    /// @param given  as it was before any change.
+    /// @param given  the model before any change.
     EdgeRemesher(const Model& given, ModelBuilder& model) : given_(given), model_(model) {}
 
     /// @param at     running lengths of the edge's points.
@@ -140,14 +140,14 @@ public:
 
     [[nodiscard]] std::span<const FaceUse> users(EdgeId edge) const { return given_.uses_of_edge(edge); }
 
-    /// Used twice by one face, or by none.
+    /// Whether an edge is used twice by one face, or by no face.
     [[nodiscard]] bool is_seam(EdgeId edge) const
     {
         const std::span<const FaceUse> uses = users(edge);
         return uses.empty() || (uses.size() == 2 && uses[0].face == uses[1].face);
     }
 
-    /// @param replaced  a face whose facets are replaced anyway; may be invalid.
+    /// @param replaced  a face whose facets the caller replaces; invalid for none.
     /// @return  the new model.
     Model apply(FaceId replaced)
     {
@@ -373,7 +373,7 @@ private:
         return rim;
     }
 
-    /// Whether more nodes follow each other against the chain than along it.
+    /// Whether most nodes follow each other against the direction of the chain.
     static bool is_turned(const std::vector<RimNode>& rim, double length)
     {
         int steps = 0;
@@ -406,7 +406,7 @@ private:
                 best = i;
         }
         const double off = (model_.at(rim[best].point) - place).norm();
-        // Two edge ends of the loop itself, or of a closed edge.
+        // The loop itself, or a closed edge, has two edge ends at a vertex; more belong to other faces.
         if (off > model_.tolerance && ends_[vertex.index()] > 2) {
             throw InvalidInput("topology.mesh_misses_vertex",
                                "the mesh for {} has no node at {}, where edges of other faces end; its "
@@ -416,7 +416,7 @@ private:
         return best;
     }
 
-    /// Collect the points to be put on the edges of a loop, and the targets of the old points.
+    /// Put the rim's nodes on the edges of a loop. The old points of these edges move to the nodes.
     void take_rim(const LoopChain& chain, std::vector<RimNode>& rim)
     {
         const double length = chain.start.back();

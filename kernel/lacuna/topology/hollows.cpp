@@ -69,7 +69,7 @@ double capped_volume(const Model& model, const std::vector<FaceId>& faces)
     return volume_integral(model, faces) - centroid_of(model, faces).dot(area_vector_of(model, faces)) / 3;
 }
 
-/// Extent of faces along a direction.
+/// Largest coordinate of the faces' points along a direction.
 double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& way)
 {
     double most = -kInfinity;
@@ -78,9 +78,10 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
     return most;
 }
 
-/// Faces that stand in a cavity: parts of the skin bounded by the cavity's rims, without the largest part,
-/// which is the outside, and without parts that reach a mouth, a rim of the outside. A bore joins no parts:
-/// it stands in the cavity if none of its rims is on the outside.
+/// Faces that stand in a cavity. Without the cavity, the skin falls into parts that its rims bound. The
+/// largest part is the outside, and the cavity's rims on it are its mouths. A part that reaches up to a mouth
+/// does not stand in the cavity. A through bore is a part of its own and connects no others; it stands in the
+/// cavity if none of its rims is on the outside.
 /// @pre oriented
 std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity,
                                 const std::vector<Hollow>& hollows)
@@ -142,7 +143,7 @@ std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<
         const geometry::FacetTree tree(model.points, facets_of(model, parts[o]), context);
         for (std::size_t p = 0; p < parts.size(); ++p) {
             if (p == o) continue;
-            const Vec3 at = facet_centre(model, parts[p].front()); // a corner may be one of the other part
+            const Vec3 at = facet_centre(model, parts[p].front()); // corners may be shared by both parts
             if (tree.bounds().contains(at) && std::abs(tree.winding_number(at)) > kInside)
                 inner[p] = !inner[p];
         }
@@ -213,7 +214,7 @@ std::vector<FaceId> cavity_round(const Model& given, const std::vector<FaceId>& 
                                  const RunContext& context)
 {
     const bool open = std::ranges::any_of(faces, [&](FaceId face) {
-        const std::vector<Loop>& loops = given[face].loops; // none: closed by itself
+        const std::vector<Loop>& loops = given[face].loops; // no loops: closed by itself
         return !loops.empty() && given.uses_of_edge(loops.front().uses.front().edge).size() != 2;
     });
     const std::vector<Hollow> found = open ? std::vector<Hollow>() : hollows(given, context);

@@ -54,7 +54,7 @@ public:
     /// Null if no segment joins the two points.
     [[nodiscard]] const SegmentOnEdge* find(Index from, Index to) const
     {
-        if (!on_edge_[index(from)] || !on_edge_[index(to)]) return nullptr; // true for most facet sides
+        if (!on_edge_[index(from)] || !on_edge_[index(to)]) return nullptr; // most facet sides leave here
         const auto found = at_.find(directed_key(from, to));
         return found != at_.end() ? &found->second : nullptr;
     }
@@ -86,7 +86,8 @@ public:
     [[nodiscard]] Index from(std::size_t half) const { return sides_.from(half); }
     [[nodiscard]] Index to(std::size_t half) const { return sides_.to(half); }
 
-    /// A half-edge on the face's border: no facet beyond it, or a seam to cut along.
+    /// Whether a half-edge is on the face's border: it lies on an edge (also on a seam), or no facet is
+    /// beyond it.
     [[nodiscard]] bool on_border(std::size_t half) const
     {
         return segments_.find(from(half), to(half)) != nullptr || sides_.across(half) < 0;
@@ -154,7 +155,7 @@ std::vector<Loop> loops_of(const Model& model, const Face& face, const EdgeSegme
     return loops;
 }
 
-/// The parts of all models without any.
+/// The parts that all empty models share.
 const std::shared_ptr<const ModelParts>& nothing()
 {
     static const auto parts = std::make_shared<const ModelParts>();
@@ -343,7 +344,8 @@ Model ModelBuilder::finish() &&
         for (const EdgeUse& use : uses_of(face)) ++first_use_[use.edge.index() + 2];
     std::partial_sum(first_use_.begin(), first_use_.end(), first_use_.begin());
     uses_.resize(first_use_.back());
-    for (const FaceId face : all_faces(made_)) // the next place of an edge is one further than its first
+    for (const FaceId face : all_faces(made_)) // first_use_[e + 1] is where edge e's next use goes, so in the
+                                               // end it is the start of edge e + 1
         for (const EdgeUse& use : uses_of(made_[face]))
             uses_[first_use_[use.edge.index() + 1]++] = {face, use.reversed};
     first_use_.pop_back();

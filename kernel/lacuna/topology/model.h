@@ -62,7 +62,7 @@ struct Face {
     int tag = 0;                     ///< the tag that Gmsh shows for the same file
     std::string name;                ///< a physical group, part, element set; may be empty
     std::vector<std::string> groups; ///< all sets, surfaces and properties the face belongs to in the file
-    /// Regions on the one or two sides of the face: of solids, otherwise of shells; all names of each region.
+    /// Regions on the one or two sides of the face (solids, else shells), each with all its names.
     std::vector<std::vector<std::string>> regions;
     std::string kind =
         "discrete"; ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"

@@ -108,7 +108,8 @@ bool share_a_vertex(const Model& model, const std::vector<FaceId>& some, const s
     });
 }
 
-/// Ends of a pie slice share its axis, where layers have no height; along that axis it can be swept.
+/// The ends of a pie slice share its axis, where layers have no height. The slice can be swept along its
+/// axis.
 void check_no_shared_edge(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -216,7 +217,7 @@ void check_override(const OpenVolume& volume, const Classification& found)
                     .remedy("leave it out"));
         break;
     case VolumeClass::zero:
-        refuse("it needs a path, which its faces do not tell");
+        refuse("it needs a path: open_volume{{ along = … }}");
         break;
     }
 }
@@ -328,8 +329,8 @@ OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext&
     check_walls_touch(volume);
     check_ends_apart(volume);
     if (roles.source.empty() && !roles.target.empty()) {
-        // Class IV reversed: the given end is swept from, and the names are swapped back when the mesh is
-        // made.
+        // Class IV reversed: the target is swept as if it were the source. The names are swapped back when
+        // the mesh is made.
         for (Role& role : volume.role) role = role == Role::target ? Role::source : role;
         volume.turned_round = true;
     }

@@ -12,8 +12,8 @@
 
 namespace lacuna::topology {
 
-/// The five classes of the paper's Table 1, and a volume without missing faces. Class 0 is not the paper's: a
-/// source alone that is swept along a given path, which its faces do not tell.
+/// The five classes of the paper's Table 1, and `closed` for a volume without missing faces. Class 0 is not
+/// in the paper: a source alone, swept along a path that the caller gives.
 enum class VolumeClass { closed, I, II, III, IV, V, zero };
 
 std::string_view to_string(VolumeClass value);
@@ -96,7 +96,7 @@ Classification classify(const OpenVolume& volume);
 NamedEntity entity_of(const Model& model, FaceId face);
 NamedEntity entity_of(const Model& model, EdgeId edge);
 NamedEntity entity_of(const Model& model, VertexId vertex);
-/// Their text.
+/// The text of `entity_of()`.
 std::string name_of(const Model& model, FaceId face);
 std::string name_of(const Model& model, EdgeId edge);
 std::string name_of(const Model& model, VertexId vertex);

@@ -105,7 +105,7 @@ void measure(const Model& model, SmoothPatch& patch, DirectedSides& sides)
     patch.rims = rims(model, patch.faces);
     sort_once(patch.edges);
     sort_once(patch.vertices);
-    // The inside of an edge has one side more than points.
+    // Inside an edge there is one side more than there are points.
     patch.inner_euler = euler_number(model, patch.faces, sides) - static_cast<long>(patch.vertices.size()) +
                         static_cast<long>(patch.edges.size());
 }

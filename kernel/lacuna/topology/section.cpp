@@ -47,8 +47,8 @@ void lay_onto(const geometry::ExactSurface& surface, const geometry::Plane& plan
     }
 }
 
-/// The intersection curve of a plane and an exact surface, near a chain of points; parameter: index of the
-/// point.
+/// The intersection curve of a plane and an exact surface, near a chain of points. Its parameter is the index
+/// of a point of the chain.
 class SectionCurve : public geometry::ExactCurve {
 public:
     SectionCurve(std::shared_ptr<const geometry::ExactSurface> surface, const geometry::Plane& plane,
@@ -296,7 +296,8 @@ private:
         }
     }
 
-    /// Insert points into the chains of edges, on the curve at the parameter where it meets the plane.
+    /// Insert the new points into the chains of edges. On an edge with an exact curve, the point moves to
+    /// where the curve meets the plane.
     void lay_onto_edges()
     {
         for (Edge& edge : model_.edges) {
@@ -355,7 +356,8 @@ private:
         for (const Edge& edge : model_.edges) add(edge_sides_, edge.points);
     }
 
-    /// Places where a walk crosses an edge, or where it leaves one.
+    /// Make a vertex where a walk crosses an edge, or where it leaves one. A closed walk that meets no vertex
+    /// gets one at its first point.
     void make_vertices()
     {
         std::unordered_set<Index> at_edge;
@@ -529,7 +531,7 @@ private:
     /// Part number of each facet, with the walks as separators.
     [[nodiscard]] std::vector<std::size_t> parts_of(const Face& face, DirectedSides& sides) const
     {
-        // Few corners are on walks, and a look at a flag costs less than one for a side.
+        // Few corners are on walks, and reading a flag is cheaper than looking up a side.
         const auto is_on = [&](Index p) { return on_walk_[index(p)]; };
         const bool met = std::ranges::any_of(face.triangles, [&](const Triangle& t) {
             return std::ranges::count_if(t, is_on) > 1 &&

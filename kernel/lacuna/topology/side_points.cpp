@@ -55,8 +55,8 @@ Index add_point(ModelBuilder& model, FaceId face, Vec3 place, Vec2 uv)
     return static_cast<Index>(model.points.size()) - 1;
 }
 
-/// Insert a point into the chain of the face's edge that has a side, a seam, on its exact curve if there is
-/// one.
+/// If a side of the face lies on one of its edges (a seam), insert a point into the chain of that edge, on
+/// its exact curve if there is one.
 void add_to_seam(ModelBuilder& model, FaceId face, Index a, Index b, double fraction, Index point)
 {
     for (const EdgeUse& use : uses_of(model[face])) {
@@ -77,7 +77,7 @@ void add_to_seam(ModelBuilder& model, FaceId face, Index a, Index b, double frac
     }
 }
 
-/// Insert a point into the side of two facets, as `point_on_side()`: of an exact surface the point closest to
+/// As `point_on_side()`, with the new point at `place`, or on an exact surface at the point closest to
 /// `place`.
 Index add_on_side(ModelBuilder& model, FaceId id, Index a, Index b, double fraction, const Vec3& place)
 {
@@ -184,7 +184,7 @@ Index point_on_face(ModelBuilder& model, FaceId id, const Vec3& place)
     }
     const auto t = static_cast<std::size_t>(best.triangle);
     const Triangle corner = face.triangles[t];
-    // From facets, a surface's closest point would be beside that of the place.
+    // Project the place itself: the surface point closest to a point of the facets would lie beside it.
     const Vec3 wanted = face.surface ? place : best.point;
     for (const Index c : corner)
         if ((model.at(c) - best.point).norm() <= model.tolerance) return c;

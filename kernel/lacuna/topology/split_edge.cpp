@@ -17,9 +17,9 @@ namespace lacuna::topology {
 
 namespace {
 
-/// A place on a curve is beside that of its chord within this share of the tolerance. Each step divides the
-/// error by about the square of the number of chords of a turn: three do, and a bound of eight ends the
-/// search on curves with uneven parameters.
+/// Error of `curve_beside()` along the chord, as a share of the tolerance, and the most steps. Each step
+/// divides the error by about the square of the number of chords in a turn, so three are enough. Eight is a
+/// bound for curves with uneven parameters.
 constexpr double kShareOfTolerance = 1e-3;
 constexpr int kSteps = 8;
 

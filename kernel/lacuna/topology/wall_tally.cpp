@@ -32,8 +32,8 @@ WallTally::WallTally(const PatchMap& map, std::size_t free_loops) : map_(map), t
     whole_.contacts = static_cast<long>(free_loops);
 }
 
-/// Count the fans of corners round vertices, connected over edges, and how many fewer there are without each
-/// patch.
+/// Count the fans: corners round a vertex that are connected over edges. Also count by how many each patch,
+/// if it is removed, reduces them.
 void WallTally::count_fans()
 {
     // A corner is identified by the use that leaves it. The next one round its vertex is across that use.

@@ -37,7 +37,7 @@ std::vector<Index> flat(const std::vector<std::array<Index, N>>& rows)
     return numbers;
 }
 
-/// Patch numbers shifted by `first`, from one region to all regions.
+/// Patch numbers of one region, shifted by `first` to number the patches of all regions.
 std::vector<Index> shifted(std::vector<Index> patches, Index first)
 {
     for (Index& patch : patches)

@@ -31,7 +31,7 @@ const char* word(topology::Geometry geometry)
                                       "flat",
                                       "between its sides",
                                       "a strip between two loops",
-                                      "as the walls lead",
+                                      "following the given walls",
                                       "parallel to the other end"};
     static_assert(std::size(kWords) == static_cast<std::size_t>(topology::Geometry::parallel) + 1);
     return kWords[static_cast<std::size_t>(geometry)];
@@ -151,7 +151,9 @@ void write_faces(const Model& model, const closure::ModelFacts& found,
             for (const Index point : triangle) box.extend(model.at(point));
     const Grid grid = grid_over(box);
     std::vector<Vec3> points = model.points;
-    for (Vec3& point : points) point = point.cwiseMax(box.min()).cwiseMin(box.max()); // some are unused
+    for (Vec3& point : points)
+        point = point.cwiseMax(box.min()).cwiseMin(box.max()); // unused ones may lie
+                                                               // outside
 
     Json json;
     json.begin_object().member("kind", "faces");

@@ -28,7 +28,7 @@ void write(std::vector<Mark>& marks, const std::string& text, const Vec2& at, do
 
 double width_of(const Key& key) { return kBox + kGap + width_of(key.text, kLetters); }
 
-/// Distribute keys to rows, as far as there is room.
+/// Distribute keys to rows. If there is no room for all, the last key counts the others.
 std::vector<std::vector<Key>> rows_of(const std::vector<Key>& keys, double wide)
 {
     std::vector<std::vector<Key>> rows;

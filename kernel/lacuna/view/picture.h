@@ -48,8 +48,8 @@ void write_picture(std::span<const Region> regions, const io::OutputPath& path,
                    const PictureOptions& options = {}, const RunContext& context = {});
 
 /// Draw the solids of a deck, with straight sides. Two-dimensional elements define the groups of the skin.
-/// @throw InvalidInput  as above; "view.no_solids"; "view.layers"  the colours or the cells of layers, which
-///        a deck does not have.
+/// @throw InvalidInput  as for swept meshes; "view.no_solids"; "view.layers"  colours by layer or a choice of
+///                      layers, which a deck does not have.
 void write_picture(const io::Deck& deck, const io::OutputPath& path, const PictureOptions& options = {},
                    const RunContext& context = {});
 

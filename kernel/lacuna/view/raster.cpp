@@ -262,7 +262,7 @@ void draw_marks(Band& band, const std::vector<Mark>& marks)
 void check(const PictureOptions& options)
 {
     constexpr int kLeast = 16,
-                  kMost = 16384; // [pixels]; sets a bound on memory, as a picture is sampled in bands
+                  kMost = 16384; // [pixels]; bounds memory: a picture is sampled one band at a time
     const std::pair<const char*, int> lengths[] = {{"width", options.width}, {"height", options.height}};
     for (const auto& [name, length] : lengths)
         if (length < kLeast || length > kMost)

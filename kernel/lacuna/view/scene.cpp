@@ -84,7 +84,7 @@ private:
 /// Draw a face of a cell. A face of order 2 is divided at its middle nodes: one quad between them, and a
 /// triangle at each corner.
 /// @param curved  all nodes of a cell of order 2, as `mesh::merged_nodes()`; a count of 0: of order 1
-/// @param place   of a node
+/// @param place   returns the place of a node
 template <class Place>
 void add_side(std::vector<DrawnSide>& sides, const Hex& hex, const mesh::CellNodes& curved, std::size_t face,
               const Place& place, const DrawnSide& like)
@@ -163,7 +163,7 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
                            found(from), found(to), needed(most));
 }
 
-/// Of each part the number of its region: parts of one name, such as copies, are one.
+/// For each part, the number of its region. Parts of one name, such as copies, form one region.
 template <class Regions>
 std::vector<std::size_t> numbers_by_name(const Regions& regions)
 {

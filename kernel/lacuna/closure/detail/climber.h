@@ -16,7 +16,7 @@ public:
     /// @param volume  is referenced and must outlive the climber.
     explicit Climber(const topology::OpenVolume& volume);
 
-    /// The chain of wall edges upward from a rim vertex as far as it goes; the last may end on the other rim.
+    /// The chain of wall edges upward from a rim vertex, as far as it goes; it stops where it reaches an end.
     [[nodiscard]] std::vector<topology::EdgeUse> climb(VertexId start) const;
 
     /// Whether exactly one of the two paths along a free loop joins the vertices without passing an end: the

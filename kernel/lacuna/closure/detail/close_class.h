@@ -30,8 +30,8 @@ struct Tools {
     }
 };
 
-/// Close a volume as one of a class: add the missing entities and orient the faces so that the enclosed
-/// volume is positive. Does not check that the volume is sealed.
+/// Close a volume of a class: add the missing entities and orient the faces so that the enclosed volume is
+/// positive. Does not check that the volume is sealed.
 /// @throw NotClosed, or the errors of the face shapes
 Closure close_as(topology::OpenVolume& volume, const matching::Match& match, topology::VolumeClass value,
                  const Tools& tools);

@@ -15,8 +15,8 @@ namespace lacuna::closure {
 struct Bend {
     EdgeId edge; ///< invalid: a cylinder
     FaceId face; ///< of a cylinder
-    /// Length of the edge; of a cylinder, its length for each right angle by which it turns, none of them for
-    /// a quarter turn [model length].
+    /// Length of the edge. Of a cylinder: its length times the number of right angles by which it turns,
+    /// reduced to 0 for a quarter turn [model length].
     double length = 0;
     std::optional<Vec3> axis; ///< a sweep in this direction follows the bend; empty: a curved edge
 };
@@ -24,8 +24,8 @@ struct Bend {
 /// All bends of a sealed volume. O(facets).
 std::vector<Bend> bends_of(const topology::OpenVolume& volume, const RunContext& context);
 
-/// How far bends are from those of one sweep: the length of all of them, and that of those which no sweep in
-/// one direction follows, for the best direction [model length].
+/// How far the bends are from those of one sweep: the length of all, plus the length of those that a sweep in
+/// the best direction does not follow [model length].
 double length_to_cut(const std::vector<Bend>& bends);
 
 /// A plane that may cut a volume into pieces that are easier to sweep.
@@ -35,10 +35,10 @@ struct CutPlane {
 };
 
 /// Planes to cut a volume by, in this order:
-/// 1. of flat faces beside concave edges, as far as they reach from these;
-/// 2. midway between features, which are connected groups of bends, across the normals of flat faces and of
-///    pairs of axes, if the bends on either side are then closer to those of one sweep; the closest first;
-/// 3. through the axes of cylinders that cross each other: halves of bores are grooves.
+/// 1. the planes of flat faces beside concave edges, as far as they reach from these edges;
+/// 2. planes midway between features (connected groups of bends), across the normals of flat faces and
+///    the common normals of two axes, if they reduce `length_to_cut()`; the best first;
+/// 3. planes through the axes of cylinders that cross each other: half a bore is a groove.
 /// @param most  number of planes between features.
 std::vector<CutPlane> cut_planes(const topology::OpenVolume& volume, const std::vector<Bend>& bends,
                                  std::size_t most);

@@ -20,13 +20,13 @@ struct FlatFilling : Closed {
 /// in two planes, as where an end and an adjacent wall are missing, is filled with two faces that meet in a
 /// straight void edge. The loop of a groove that lacks its ends and its mouth gets a face for each; the loop
 /// of a channel that lacks its ends and one wall gets flat ends and a wall that may bend.
-/// @return  empty if a loop lies in other planes, or if the result is not sealed or crosses itself.
+/// @return  empty if a loop is none of these, or if the result is not sealed or crosses itself.
 /// @throw InvalidInput  faces that cannot be oriented. Cancelled.
 std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const std::vector<FaceId>& faces,
                                            const RunContext& context);
 
-/// The same, and round walls between two loops, see `add_tubes()`. Any other loop gets one face, of the shape
-/// that its rim determines; see `guess_of_bent()` for those that do not.
+/// As `fill_flat_loops()`, with round walls between two loops as well, see `add_tubes()`. Any other loop gets
+/// one face, of the shape that its rim determines; `guess_of_bent()` reports rims that determine none.
 std::optional<FlatFilling> fill_all_loops(const topology::Model& model, const std::vector<FaceId>& faces,
                                           const RunContext& context);
 

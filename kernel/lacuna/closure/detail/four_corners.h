@@ -15,8 +15,8 @@ std::vector<std::size_t> sharp_corners(const topology::Model& model, const topol
 
 /// The four sides of a loop with exactly four sharp corners, in walking order; otherwise empty.
 ///
-/// Of the two ways to pair opposite sides, the one for which moving the first side along the second and
-/// fourth brings it closest to the third: round an axis, these two are then arcs about it.
+/// The list starts with that one of the first two sides which, moved along its two neighbours, comes closer
+/// to the side opposite. On a face round an axis, these neighbours are then arcs about it.
 std::vector<std::vector<topology::EdgeUse>> four_corners(const topology::Model& model,
                                                          const topology::Loop& loop);
 

@@ -30,7 +30,7 @@ std::optional<Message> guess_of_bent(const topology::OpenVolume& sealed, const C
 /// @param given  the faces of `model` that come first in the volume
 FaceId open_hole(const topology::Model& model, const std::vector<FaceId>& given,
                  const topology::OpenVolume& sealed, const Closure& closure);
-/// The error "topology.shape_open" about such a hole, without a remedy.
+/// The error "topology.shape_open" about the hole that `open_hole()` finds, without a remedy.
 Message guess_of_hole(const topology::Model& model, FaceId face);
 
 /// Add a note about an assumption; it is listed as an assumption if it changes the volume enough.

@@ -8,12 +8,12 @@
 
 namespace lacuna::closure {
 
-/// A hollow whose bottom blends smoothly into its walls, split across the blend.
+/// The reading of a hollow whose bottom blends smoothly into its walls; the blend is split.
 std::optional<Reading> read_bowl(const topology::Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context);
 
-/// A tube with one fully open end and, at the other, a floor round a narrower bore: a counterbore without the
-/// bore. The floor is the source, together with the flat face that closes the bore.
+/// The reading of a tube with one fully open end and, at the other, a floor round a narrower bore: a
+/// counterbore without its bore. The floor is the source, together with the flat face that closes the bore.
 std::optional<Reading> read_floor(const topology::Model& model, const std::vector<FaceId>& faces,
                                   const RunContext& context);
 

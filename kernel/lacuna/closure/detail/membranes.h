@@ -13,11 +13,11 @@ namespace lacuna::closure {
 std::vector<FaceId> membranes(const topology::Model& model, const std::vector<FaceId>& void_faces);
 bool is_membrane(const topology::Model& model, FaceId face);
 
-/// Whether a face's rim lies on one quadric, or on a sphere, a circular cylinder, a cone or two planes among
-/// many, and its inside lies near it: the rim then determines the bend.
+/// Whether the rim determines how a face bends: it lies on one quadric (of many, on a sphere, a circular
+/// cylinder, a cone or two planes), and the inside of the face is near that quadric.
 bool bends_as_rim(const topology::Model& model, FaceId face);
 
-/// Whether all points of a face are within a small share of its extent of its plane.
+/// Whether all points of a face are close to its plane, compared with the extent of the face.
 bool is_about_flat(const topology::Model& model, FaceId face);
 
 } // namespace lacuna::closure

@@ -25,8 +25,8 @@ struct MovedEnd : Closed {
 /// map takes the foot of every wall to its top, it is applied to the rest of the rim too, including round
 /// holes without walls. Otherwise, missing straight sides become straight lines between tops in one plane.
 /// The missing end then has the given end's shape, and walls are closed between the two. The scale is fitted
-/// only if walls cover a third of the outline, because the taper of a bore is not that of the outline. No
-/// part of the rim may stay in place.
+/// only if walls cover a third of the outline, because the taper of a bore is not that of the outline. The
+/// map must move every part of the rim.
 /// @param known  whether points on the missing end's rim and at mid-height of the missing walls lie on
 ///               existing faces; if all points for one end do, nothing is sealed
 /// @return  one result per flat face that can be such an end: all other faces are walls connected to it, and
@@ -37,8 +37,8 @@ std::vector<MovedEnd> move_ends(const topology::Model& model, const std::vector<
                                 const std::function<bool(const std::vector<Vec3>&)>& known,
                                 const RunContext& context);
 
-/// The same if the user named the given end as the source and the given walls; empty if these do not
-/// determine the missing end.
+/// As `move_ends()`, for an end that the user named as the source, with the given walls. Empty if these do
+/// not determine the missing end.
 /// @pre  `open` has no target
 std::optional<MovedEnd> move_source(const topology::OpenVolume& open, const RunContext& context);
 

@@ -12,7 +12,7 @@ namespace lacuna::closure {
 
 /// Boundary points of a face in its triangulation plane; the points of a seam are listed twice.
 struct Outline {
-    std::vector<Index> model_point; ///< empty: the points are none of the model
+    std::vector<Index> model_point; ///< empty: not points of the model
     std::vector<Vec2> flat;
     std::vector<std::vector<Index>> loops;
 

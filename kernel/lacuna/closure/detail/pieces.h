@@ -35,8 +35,8 @@ struct PartedVolume {
 topology::WalkImprint imprint(topology::OpenVolume& volume, const std::vector<topology::SectionWalk>& walks,
                               const geometry::Plane& plane, const RunContext& context);
 
-/// The pieces separated by the partitions, with roles as described at `cut_by_plane()`. Loops as by
-/// `with_loops()`.
+/// The pieces separated by the partitions, with roles as described at `cut_by_plane()`.
+/// @pre  the loops are set, as by `with_loops()`.
 /// @param tool  the cutting plane or face, for messages: "the plane".
 /// @throw NotSweepable "closure.cut_apart"  both sides of a partition belong to one piece.
 std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context);

@@ -7,12 +7,12 @@
 namespace lacuna::closure {
 
 /// Divide rounds between an end and walls that lead away from the opposite end, such as the fillet round the
-/// top of a product in a box, where they are as steep as they are flat: what is flatter becomes a part of the
-/// end, so that the rim of the step is there. Below it layers meet the walls at 45 degrees at least; without
-/// it they would be tangent to them.
+/// top of a product in a box. They are divided where they are inclined by 45 degrees. The flatter part
+/// becomes part of the end, so that the rim of the step is there and layers meet the walls below at 45
+/// degrees or more. Undivided, the round would be tangent to the layers.
 ///
-/// A round is divided by a plane across the end's own direction, so that its facets are flatter on one side
-/// and steeper on the other; one that the plane does not part all round is left as it is.
+/// The dividing plane is normal to the direction of the end: facets on one side of it are flatter, on the
+/// other side steeper. A round that the plane does not divide all round is left as it is.
 /// @pre  the skin faces away from the void.
 /// @note  O(facets) for each part of the ends that has such rounds.
 void split_round_rims(topology::OpenVolume& volume, const RunContext& context);

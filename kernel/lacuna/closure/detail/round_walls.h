@@ -24,23 +24,23 @@ std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology:
 /// Whether a flat face in a rim would lie in the plane of all given faces round it: a wall is missing there.
 bool continues_given_planes(const topology::Model& model, const topology::Rim& rim);
 
-/// Whether a void face joins two rims of different lengths of which one needs a wall: a straight wall that
-/// ends in a flat face is as likely.
+/// Whether a void face joins two rims of different lengths, of which one needs a wall. A straight wall that
+/// ends in a flat face is then as likely.
 bool is_ring_at_step(const topology::Model& model, FaceId face);
 
 /// Whether a void face joins two rims and is neither round nor straight from rim to rim.
 bool is_bent_ring(const topology::Model& model, FaceId face);
 
-/// Add straight walls between the flat rims that need one and the plane of another flat rim, where the images
-/// of the former bound the face that is missing at the latter: a bore is missing together with the face at
-/// its mouth, or a shaft with the face at its shoulder. The given faces at the other rim run along these
-/// walls; the nearest such plane is taken.
+/// Add a straight wall from each flat rim that needs one to the nearest plane of another flat rim whose given
+/// faces run along that wall. The image of the rim in this plane then bounds the face that is missing there.
+/// This closes a bore that is missing together with the face at its mouth, or a shaft with the face at its
+/// shoulder.
 /// @return  the free loops that are left, the images among them.
 std::vector<topology::Rim> add_straight_walls(FlatFilling& filling, std::vector<topology::Rim> loops,
                                               const RunContext& context);
 
-/// A face on the circular cylinder or cone through an arc of its rim and all of the rim, which does not run
-/// round the axis. The facets are laid on the unrolled surface.
+/// Fill a rim that does not run round the axis with a face on the circular cylinder or cone through it. An
+/// arc of the rim determines the surface; the facets are made on the unrolled surface.
 /// @return  empty if the rim lies on no such surface.
 std::optional<VoidFilling> fill_round_patch(const topology::Model& model, const topology::Loop& loop,
                                             const RunContext& context);

@@ -51,8 +51,9 @@ bool leaves_open(const Sealed& sealed);
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
                         std::size_t most, const RunContext& context);
 
-/// Use the voids that follow from moving a given end to the missing one: keep those that candidates found
-/// too, otherwise the moved ones.
+/// Use the voids that follow from moving a given end to the missing one. If candidates found some of these
+/// too, keep only those. Otherwise the moved ones replace all others; if a rim without walls was extended,
+/// they are only added.
 void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
                 const RunContext& context);
 

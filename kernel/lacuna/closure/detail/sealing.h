@@ -12,7 +12,7 @@ namespace lacuna::closure {
 /// A void face and another face (void or given) with crossing facets.
 using FaceCrossing = std::pair<FaceId, FaceId>;
 
-/// The first facet of a void face that crosses another face; empty if none does. Facets that only touch at
+/// The first pair of a void face and another face that cross; empty if none do. Facets that only touch at
 /// shared points do not cross.
 std::optional<FaceCrossing> first_crossing(const topology::OpenVolume& volume, const RunContext& context);
 

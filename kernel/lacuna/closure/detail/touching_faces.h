@@ -17,7 +17,7 @@ bool is_ruled_between_alike(const topology::Model& model, const topology::Loop& 
 bool lies_on_round_face(const topology::Model& model, const topology::Loop& loop);
 
 /// Whether the rim of one missing face determines its shape: straight lines fill it, or it lies on one ball,
-/// cylinder or cone of which the given faces beside it are no part.
+/// cylinder or cone that does not contain the given faces beside it.
 bool tells_face(const topology::Model& model, const topology::Loop& loop, const RunContext& context = {});
 
 /// The loops of two or three missing faces that touch, where one free loop runs round them. Flat faces whose

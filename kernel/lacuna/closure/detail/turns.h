@@ -16,7 +16,7 @@ namespace lacuna::closure {
 /// @note  O(facets · parts).
 std::vector<double> concave_turns(const topology::OpenVolume& volume, const RunContext& context);
 
-/// As above, and of each face, whether its facets face the void.
+/// The result of `concave_turns()` and, by face, whether its facets face the void.
 struct SkinTurns {
     std::vector<double> concave;
     std::vector<bool> faces_void;

@@ -29,10 +29,11 @@ struct Course {
 
 /// The paper's Algorithm 2: a void edge across each gap, and those of the user.
 ///
-/// A smooth one is a cubic Bézier curve along the tangents at its ends: of the wall edge that ends at the
+/// A smooth edge is a cubic Bézier curve. Its tangent at an end is that of the wall edge that ends at the
 /// gap, otherwise the direction in which the given walls move the vertex off its rim, otherwise the face's
-/// normal. Its handles are c / (3 cos²(θ/4)), c the chord and θ the total turn of the tangents: those of the
-/// circular arc with the same chord and turn, which it approximates within 0.03 % of the radius at 90°.
+/// normal. Its handles have the length c / (3 cos²(θ/4)), where c is the chord and θ the total turn of the
+/// tangents. These are the handles of the circular arc with the same chord and turn, which the curve
+/// approximates within 0.03 % of the radius at 90°.
 /// @throw InvalidInput  a user's void edge that names no vertex of the free rims, is given twice, contradicts
 ///         the match, or crosses a given face; names the vertices.
 /// @throw NotClosed     smooth, and the ends do not determine to which side to bend.

@@ -14,7 +14,7 @@ namespace lacuna::closure {
 std::vector<topology::RoleCandidate> best_sweeps(const topology::Model& skin, const RunContext& context);
 
 /// Search the unlikely candidates too. Return the first one for which `suits` is true, followed by those
-/// about as likely, for which `suits` is not asked; empty if none suits.
+/// about as likely, without calling `suits` for them; empty if none suits.
 /// @param most  number of candidates that are checked in full
 std::vector<topology::RoleCandidate> less_likely(
     const topology::Model& model, const std::vector<FaceId>& faces, std::size_t most,
@@ -38,8 +38,8 @@ std::optional<Reading> read(const topology::Model& model, const std::vector<Void
 void note_hole(const topology::Model& model, FaceId through, const std::vector<FaceId>& given,
                const Sealed& sealed, Reading& reading);
 
-/// If holes without walls are all that is ambiguous in the readings: the face with the holes as the source of
-/// an open volume of class IV.
+/// If only holes without walls make the readings ambiguous: an open volume of class IV whose source is the
+/// face with the holes. Otherwise empty.
 std::optional<Reading> leave_holes_open(const topology::Model& model, const std::vector<Reading>& readings,
                                         const std::vector<FaceId>& faces, const RunContext& context);
 

@@ -20,7 +20,7 @@ struct SweptSource {
     topology::OpenVolume source; ///< faces of the source alone
     geometry::MotionPointer motion;
     bool full_turn = false; ///< the motion ends where it starts
-    /// Sets that hold an edge of the source's rim; those of the walls that it makes.
+    /// By edge of the source's rim: the sets that contain it. The walls that the edge sweeps get these sets.
     std::map<EdgeId, std::vector<std::string>> sets{};
     /// Set if edges of the source lie on the axis of its turn. Such a volume is swept with wedges
     /// (`sweep/shared/turn_at_axis.h`), and not sealed.
@@ -28,10 +28,11 @@ struct SweptSource {
 };
 
 /// Give a source the motion along a path.
-/// @param model  of the edges of a path.
-/// @throw InvalidInput "closure.along_…"  a path without length, an unknown edge, a source that touches the
-///        axis at a point, in several parts or closed, a section that shrinks to nothing; a source that has
-///        no place on the face. As `geometry::motion_along_path()`. Cancelled.
+/// @param model  contains the edges of a path.
+/// @throw InvalidInput "closure.along_…"  a path without length or with an unknown edge; a source that
+///                     touches the axis at a point, has several parts or is closed; a section that shrinks to
+///                     nothing; a place of the source whose ray meets the face nowhere or twice. As
+///                     `geometry::motion_along_path()`. Cancelled.
 SweptSource swept_source(const topology::Model& model, topology::OpenVolume source, const Along& along,
                          const RunContext& context);
 
@@ -41,7 +42,7 @@ void refuse_edges_on_axis(const SweptSource& swept);
 /// Seal a source and its motion: each edge of its rim becomes void walls, one between two corners of the
 /// path, each vertex of its rim a void edge along the path, and each of its faces a face of the target. All
 /// have the exact geometry that the motion gives them. After a full turn there are walls only.
-/// @throw InvalidInput  options that shape what is missing. As `refuse_edges_on_axis()`.
+/// @throw InvalidInput  options that shape missing faces. As `refuse_edges_on_axis()`.
 /// @throw NotClosed "closure.along_folds"  the path bends more than the source allows, or its layers would
 ///        fold; "closure.along_crosses": the volume would cross itself. Both say where.
 Closed close_along(const SweptSource& swept, const CloseOptions& options, const RunContext& context);

@@ -31,8 +31,8 @@ namespace lacuna::closure {
 std::vector<StepPiece> cut_by_plane(const topology::OpenVolume& volume, const geometry::Plane& plane,
                                     const RunContext& context = {});
 
-/// As above, only along the regions of the plane whose rims run along some of these edges; without edges,
-/// along all. Lines across flat faces have no points inside, so that coarse meshes fold no facets.
+/// As `cut_by_plane()`, but only in the regions of the plane whose rims run along one of these edges; without
+/// edges, in all. Cut lines across flat faces have no inner points, so that coarse meshes fold no facets.
 std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const geometry::Plane& plane,
                                     const std::vector<EdgeId>& edges, const RunContext& context = {});
 

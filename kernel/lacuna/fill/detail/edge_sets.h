@@ -12,8 +12,9 @@
 
 namespace lacuna::fill {
 
-/// The sets of decks that hold all sides of an edge on the rim of a source: sets and regions of line
-/// elements, and surfaces of the edges of shells. Edges are split where a set begins or ends.
+/// For each edge on the rim of a source, the sets of the decks that contain all of its sides: sets and
+/// regions of line elements, and surfaces made of edges of shells. Edges are split where a set begins or
+/// ends.
 /// @param scale  model coordinates / coordinates of the decks.
 std::map<EdgeId, std::vector<std::string>> edge_sets(topology::Model& model,
                                                      std::span<const std::shared_ptr<const io::Deck>> decks,

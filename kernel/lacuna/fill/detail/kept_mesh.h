@@ -27,7 +27,7 @@ struct KeptMesh {
     std::string material;
     std::string unit;
     std::string whole;   ///< volume that this mesh is a piece of; empty: the mesh is no piece
-    bool copied = false; ///< as of `FilledVolume`
+    bool copied = false; ///< as in `FilledVolume`
     std::string turn_of; ///< for a piece of a full turn: region of the whole turn
 };
 
@@ -36,7 +36,8 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh);
 /// @throw InvalidInput "fill.mixed_member"  the mesh has tetrahedra.
 std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh);
 
-/// Move nodes of copies onto those of other meshes from which rounding separates them; make the skins.
+/// Move nodes of copies onto nodes of other meshes that differ from them by rounding only; then make the
+/// skins.
 /// @throw InvalidInput  as `io::skin_of()`.
 void add_skins(std::span<KeptMesh* const> meshes, const RunContext& context);
 

@@ -10,13 +10,13 @@
 
 namespace lacuna::fill {
 
-/// @throw InvalidInput  if no ends to sweep between were found: why.
+/// @throw InvalidInput  if no ends to sweep between were found; says why.
 void require_roles(const Volume& volume);
 
 /// Why a volume cannot be swept, with the option that fills it with tetrahedra as one more thing to try.
 Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& options);
 
-/// Run a sweep. @throw NotSweepable  likewise, if the options do not allow tetrahedra.
+/// Run a sweep. @throw NotSweepable  as the sweep, with tetrahedra as one more thing to try.
 template <class Do>
 auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 {
@@ -27,7 +27,7 @@ auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
     }
 }
 
-/// Have the middle nodes kept that the decks of a volume have.
+/// Make the options keep the middle nodes that the decks of a volume contain.
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options);
 
 /// Close a volume and check that it has a source and a target.
@@ -37,15 +37,15 @@ Volume close_to_sweep(const Volume& volume, const std::string& region, const Run
 /// The same volume with the roles of an alternative sweep of its void. @pre number < others->ways.size()
 Volume with_other_sweep(const Volume& volume, std::size_t number);
 
-/// Seal a volume that is to be cut or filled: its bottom is not separated from its walls, which only a sweep
-/// needs.
+/// Seal a volume that is to be cut or filled. A smooth bottom is not separated from its walls, because only a
+/// sweep needs that.
 Volume sealed_whole(const Volume& volume, const RunContext& context);
 
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name);
 
-/// Whether a volume is swept in pieces, and these, as `closure::cut_into_pieces()`; of class 0 the halves of
-/// a full turn.
+/// Whether a volume is swept in pieces, and the pieces. As `closure::cut_into_pieces()`; for class 0, the
+/// halves of a full turn.
 bool has_pieces(const Volume& volume, const RunContext& context);
 std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunContext& context);
 
@@ -56,7 +56,7 @@ std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, co
 FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,
                          const sweep::SweepOptions& options, const RunContext& context);
 
-/// Close a volume and sweep it as an assembly of its own: how faces are made periodic.
+/// Close a volume and sweep it as an assembly of one member, which periodic faces need.
 Filled sweep_as_assembly(const Volume& volume, const sweep::SweepOptions& options, const RunContext& context);
 
 /// Fill one sealed volume with tetrahedra. @pre it has `no_roles`, and the fallback is `mixed`.

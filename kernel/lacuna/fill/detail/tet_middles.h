@@ -24,10 +24,11 @@ struct ElevatedTets {
 /// On the skin the middle nodes of neighbours and those that were given are kept bit for bit. Others lie on
 /// the exact curve or surface of their side, or on its facets. Inside, sides are straight. Where a cell is
 /// not valid by its Bézier bounds, its sides that bend only to follow geometry are straight too.
-/// @param faces   of each patch of the skin
-/// @param known   middle nodes of the meshes beside
+/// @param faces   face of each patch of the skin
+/// @param known   middle nodes of the neighbours' meshes
 /// @param region  its name, for messages
-/// @throw NotSweepable "fill.second_order"  sides that neighbours or the file have leave a cell not valid.
+/// @throw NotSweepable "fill.second_order"  a cell stays invalid because of sides that neighbours or the file
+///                     give.
 ///        Cancelled.
 /// @note  Deterministic for any number of threads. O(n log n) in the sides of the skin, O(n) in cells.
 ElevatedTets elevate(const topology::Model& model, mesh::TetPart& mesh, const std::vector<FaceId>& faces,

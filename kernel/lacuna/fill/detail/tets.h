@@ -21,7 +21,7 @@ struct ToFill {
     bool alone = false;                           ///< it is the only volume, or a piece of that
     Message why;                                  ///< why it is not swept
     std::vector<surface::FixedFace> fixed;        ///< the meshes of its neighbours on shared faces
-    const sweep::SharedMiddles& middles;          ///< at order 2: of the meshes before
+    const sweep::SharedMiddles& middles;          ///< at order 2: middle nodes of the meshes made before
 };
 
 /// The cells that a mesh has on one of its faces, as seen from the neighbour.
@@ -43,8 +43,8 @@ surface::FixedFace cells_on(const FilledTets& mesh, FaceId there, FaceId own);
 ///        "sweep.deviation"  the skin or the volume deviates. Cancelled.
 FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options, const RunContext& context);
 
-/// Number the nodes of tetrahedra after those of the meshes before: a node that one of these has on its skin
-/// in the same place is that node.
+/// Number the nodes of tetrahedra after those of the meshes before. A skin node at the same place as a skin
+/// node of one of these gets its number.
 /// @throw NotSweepable "fill.not_shared"  sides of skins that should be shared are not.
 void number_nodes(FilledParts& mesh);
 

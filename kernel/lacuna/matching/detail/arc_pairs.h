@@ -42,7 +42,7 @@ struct ArcPairs {
 ArcPairs pair_by_arc(const ArcLoop& source, const ArcLoop& target, double offset, bool backward,
                      const std::vector<std::pair<VertexId, VertexId>>& hard, double most_twist);
 
-/// True where pairs of vertices do not cross along the loops.
+/// Whether pairs of vertices keep the order along the loops, that is, do not cross.
 bool keeps_order(const ArcLoop& source, const ArcLoop& target, bool backward,
                  const std::vector<std::pair<VertexId, VertexId>>& pairs);
 

@@ -13,8 +13,8 @@ namespace lacuna::matching {
 /// Sample points of a loop in a fit. Each is tried as the start, so the cost grows with their square; the
 /// best start is refined between samples afterwards.
 inline constexpr std::size_t kSamples = 64;
-/// Loops that fix the motion next to another one, with their samples. With all loops the cost of each would
-/// grow with their number.
+/// Number of nearest loops whose samples take part in the fit of a loop. With all loops, the cost of each fit
+/// would grow with the number of loops.
 inline constexpr std::size_t kNearLoops = 8;
 
 /// Geometry of a loop for matching.
@@ -46,14 +46,15 @@ std::size_t given_sides(const LoopShape& shape);
 /// Index of the first given side of each edge of a loop, from 0.
 std::vector<std::size_t> first_sides(const LoopShape& shape);
 
-/// Measure arc length in given sides: loops with as many sides then correspond node by node.
+/// Measure arc length in given sides. Loops with equal numbers of sides then correspond node by node.
 /// @pre given_sides()
 void count_by_sides(LoopShape& shape);
 
 /// Sample a loop evenly, starting at a running length.
 std::vector<Vec3> even_samples(const LoopShape& shape, double start, bool backward);
 
-/// Sample a loop from vertex `start`, with as many points on each edge, so that vertices correspond.
+/// Sample a loop from vertex `start`, with the same number of points on each edge, so that vertices
+/// correspond.
 std::vector<Vec3> edge_samples(const LoopShape& shape, std::size_t start, bool backward);
 
 } // namespace lacuna::matching

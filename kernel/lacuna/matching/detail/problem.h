@@ -36,11 +36,11 @@ struct Problem {
     const RunContext& context;
     std::vector<LoopShape> source, target;
     std::map<VertexId, VertexId> walls; ///< source vertex → target vertex, joined by walls
-    std::map<VertexId, VertexId> hard;  ///< those, and the user's
+    std::map<VertexId, VertexId> hard;  ///< the pairs from the walls and those of the user
     std::vector<int> forced;            ///< target loop of each source loop, -1: not fixed
     std::vector<bool> on_wall;          ///< for each vertex of the model
     std::optional<bool> backward; ///< set if walls join the ends: the target loops run against the source's
-    /// Answers of `paired_by_length()` so far, at source · targets + target.
+    /// Results of `paired_by_length()` so far; the key is source · number of targets + target.
     mutable std::unordered_map<std::size_t, bool> by_length;
     PointPairs led; ///< source rim points and their images under the given walls; empty if all loops have
                     ///< walls
@@ -55,7 +55,7 @@ struct Problem {
     [[nodiscard]] bool has_hard(std::size_t s) const;
 };
 
-/// @param match  its loops are set; receives its side lines.
+/// @param match  with its loops set; its side lines are added.
 /// @throw InvalidInput, NotClosed  user pairs or walls that contradict each other; names tags and loops.
 Problem problem_of(const topology::OpenVolume& volume, const MatchOptions& options, Match& match,
                    const RunContext& context);

@@ -22,7 +22,7 @@ struct Sections {
     std::vector<std::vector<Vec3>>
         levels; ///< level by level from the source rim to the target rim; point i of each corresponds
     bool closed = false; ///< some wall part is a closed ring, so its sections need no extrapolation
-    /// Of loops whose open walls reach far enough round to extrapolate the rest of the loop.
+    /// Sections of the loops whose open walls reach far enough round to extrapolate the rest of the loop.
     std::vector<LoopSections> loops;
 };
 
@@ -30,12 +30,12 @@ struct Sections {
 ///
 /// The height is harmonic, so its level lines cut a bent tube about square to its axis. A level line is
 /// traversed with the uphill side on its left and sampled evenly between the side lines that it crosses. A
-/// closed line that crosses none starts where it best matches the level below. An open line alone does not
-/// fix a rotation about itself if it is straight, so it gets two extra points off the wall, and the area of a
-/// circular section as long as its gap, from the upward direction of the wall. If any wall part is a closed
-/// ring, open ones are ignored. Open lines of walls that end between the rims are trimmed to the side lines
-/// that they share. A wall part is ignored if a level cuts it in several lines (holes) or if it does not join
-/// both rims.
+/// closed line that crosses none starts where it best matches the level below. An open line gets two extra
+/// points off the wall, because a straight one does not fix the rotation about itself, and the area of a
+/// circle whose circumference is the distance between the line's ends. If any wall part is a closed ring,
+/// open ones are ignored. Open lines of walls that end between the rims are trimmed to the side lines that
+/// they share. A wall part is ignored if a level cuts it in several lines (holes) or if it does not join both
+/// rims.
 /// @param lines  side_lines() of the volume
 Sections cut_sections(const topology::OpenVolume& volume, const std::vector<SideLine>& lines, int count,
                       const RunContext& context = {});

@@ -23,8 +23,8 @@ inline std::size_t number_of(EdgeUse use) { return 2 * use.edge.index() + (use.r
 
 /// Rules out pairs of ends by Euler numbers, from a few counts of each patch.
 ///
-/// Walls that join ends have no handles, so the Euler number of each part is 2 minus its rims. The sum over
-/// the walls without one or two patches lies between two bounds.
+/// Walls that join ends have no handles, so the Euler number of each part is 2 minus its rims. The Euler
+/// number of the walls that remain when one or two patches become ends lies between two bounds.
 class WallTally {
 public:
     /// @param free_loops  number of free loops of all patches.
@@ -51,7 +51,7 @@ private:
         long fans = 0;        ///< reduction of the number of patch fans round vertices
         long vertices = 0;    ///< vertices that no other patch has
         long edges = 0;       ///< edges that no other patch has
-        long contacts = 0;    ///< uses of its edges opposite to another patch's
+        long contacts = 0;    ///< uses of its edges whose opposite use is another patch's
         std::size_t part = 0; ///< connected part of the patch
     };
 
@@ -60,7 +60,7 @@ private:
 
     const PatchMap& map_;
     std::vector<Taken> taken_; ///< by patch
-    Taken whole_;              ///< the totals over all patches; free loops as contacts
+    Taken whole_;              ///< totals over all patches; its `contacts` is the number of free loops
     long euler_ = 0;           ///< sum of the inner Euler numbers of all patches
     std::size_t parts_ = 0;
 };

@@ -8,7 +8,7 @@
 
 namespace lacuna::topology {
 
-/// Unit normals and relative areas of a face's facets, without those of no area.
+/// Unit normals and relative areas of a face's facets. Facets without area are left out.
 struct FacetNormals {
     std::vector<Vec3> normals;
     std::vector<double> areas;
@@ -18,8 +18,8 @@ FacetNormals facet_normals(const Model& model, FaceId face);
 /// The corners of a face's facets, ascending.
 std::vector<Index> corner_points(const Face& face);
 
-/// A face lies on a cylinder, sphere or cone if it is off by less than this share of the radius: well above
-/// the rounding of files, below the deviation of other shapes.
+/// Largest deviation of a face on a cylinder, sphere or cone, as a share of its radius. It is well above the
+/// rounding of files and below the deviation of other shapes.
 inline constexpr double kOffShape = 0.01;
 
 /// The cone that a face lies on.

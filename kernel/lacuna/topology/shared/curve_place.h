@@ -15,7 +15,8 @@ struct CurvePlace {
 
 /// The point of an edge's exact curve that lies perpendicular to a chord from a given point of that chord.
 /// Models with different chords thus place a shared vertex at the same point of the exact curve.
-/// @param segment  of the chord. @param fraction  of its length, in [0, 1].
+/// @param segment   index of the chord.
+/// @param fraction  of the chord's length, in [0, 1].
 /// @pre  the edge has a curve and parameters.
 CurvePlace curve_beside(const Model& model, const Edge& edge, std::size_t segment, double fraction);
 

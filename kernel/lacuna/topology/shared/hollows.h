@@ -13,7 +13,7 @@ namespace lacuna::topology {
 std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
                               const RunContext& context = {});
 
-/// Orient a closed skin away from the volume: parts around voids in it face these.
+/// Orient a closed skin away from the volume: a part around a void in the volume faces that void.
 /// @pre  the faces of each part are oriented consistently.
 void orient_skin(Model& model, const RunContext& context = {});
 
@@ -45,7 +45,7 @@ std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Ho
 std::vector<FaceId> cavity_round(const Model& model, const std::vector<FaceId>& faces,
                                  const RunContext& context = {});
 
-/// The closed bodies of a model that lie inside a volume made of other faces of it: a face of each.
+/// One face of each closed body of a model that lies inside a volume made of other faces of the model.
 /// @param volume  some faces of the model, with their tags; void faces may be added.
 /// @throw Cancelled
 /// @note  O(facets of the volume) for each face within its bounding box.

@@ -20,7 +20,8 @@ public:
     [[nodiscard]] std::vector<Index> on(Index a, Index b) const;
 
 private:
-    std::unordered_map<std::uint64_t, std::vector<Index>> between_; ///< keyed from the lower end
+    std::unordered_map<std::uint64_t, std::vector<Index>> between_; ///< key: both ends; value: points from
+                                                                    ///< the lower end
 };
 
 /// A facet with the surface parameters of its corners.

@@ -11,7 +11,7 @@ namespace lacuna::topology {
 
 /// The next free tag of the entities of an origin.
 /// @param first  the entity to start at
-/// @param tag    the next free tag of those before it
+/// @param tag    the next free tag of the entities before `first`
 template <class Entity>
 int next_tag(const std::vector<Entity>& all, Origin origin, std::size_t first = 0, int tag = 1)
 {
@@ -20,7 +20,8 @@ int next_tag(const std::vector<Entity>& all, Origin origin, std::size_t first = 
     return tag;
 }
 
-/// The parts of an edge that is split at inner points, rising, which become vertices. All have its tag.
+/// The parts of an edge that is split at some of its inner points. All parts have the edge's tag.
+/// @param at  indices of these points, ascending, each with the vertex that the point becomes.
 std::vector<Edge> divided(Edge whole, const std::vector<std::pair<std::size_t, VertexId>>& at);
 
 /// Result of `split_edge()`.

@@ -21,7 +21,7 @@ std::vector<Index> use_points(const Model& model, const std::vector<EdgeUse>& us
 /// Points of a closed loop: the first is not repeated. Empty for no uses.
 std::vector<Index> loop_points(const Model& model, const std::vector<EdgeUse>& uses);
 
-/// Coordinates of these points.
+/// Coordinates of the points that the functions above return.
 std::vector<Vec3> places_at(const Model& model, const std::vector<Index>& points);
 std::vector<Vec3> use_places(const Model& model, EdgeUse use);
 std::vector<Vec3> use_places(const Model& model, const std::vector<EdgeUse>& uses);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 "use strict";
 
-// Meshes: the cells that remain after a cut and a selection of layers, drawn as a whole.
+// The cells of a mesh. After a cut and a selection of layers, the remaining cells are drawn whole.
 
 // Corners of the faces of a hexahedron and, for each face, its edges, as in mesh/second_order.h. Other cells
 // are hexahedra with repeated corners.

@@ -360,7 +360,8 @@ class CellsPage {
         cut.measured = true;
     }
 
-    // Which cells are entirely on the visible side and in the visible layers, and which sides they show.
+    // Find the cells that are in the visible layers with their centre on the visible side, and the sides to
+    // draw.
     recut() {
         const { cut, regions, hidden } = this;
         const level = cut.axis === "off" ? 0 : cut.low + cut.at * (cut.high - cut.low);

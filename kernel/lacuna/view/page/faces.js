@@ -57,7 +57,7 @@ class FacesPage {
                 className: "quiet",
                 textContent:
                     "A second click takes a face out. Keys 1 to 4 change the role. " +
-                    "Of faces alone likely roles are found.",
+                    "If you choose faces alone, their likely roles are found.",
             }),
         );
         this.recipe = el("textarea", { readOnly: true, spellcheck: false, id: "recipe" });
@@ -276,7 +276,7 @@ class FacesPage {
                       )} without a wall.`
                     : freeCount > 0
                       ? `${things(freeCount, "edge")} of one face alone.`
-                      : "No free edge: the faces close round.",
+                      : "No free edge: the faces form a closed skin.",
             }),
         );
         const hatched = data.faces.some(face => face.void);
@@ -320,7 +320,7 @@ class FacesPage {
         this.stage.flyTo(centre, Math.max(0.05 * this.data.radius, 0.9 * face.reach), from);
     }
 
-    // "radius 3", or the surface that a face of no such kind lies on.
+    // "radius 3". A face of another kind also gets the surface that it lies on: "a cylinder of radius 3".
     round(face) {
         const size = `radius ${digits(face.radius)}`;
         return [face.fits, "torus"].includes(face.kind) ? size : `a ${face.fits} of ${size}`;

@@ -175,7 +175,7 @@ function normalOf(nodes, sides, s, which, out) {
     return size;
 }
 
-// The direction closest to a unit normal: a side of a cube, divided into nine.
+// Number of the direction closest to a unit normal. Each side of a cube is divided into nine directions.
 function directionOf(normal) {
     let axis = 0;
     for (let k = 1; k < 3; k++) if (Math.abs(normal[k]) > Math.abs(normal[axis])) axis = k;
