@@ -182,6 +182,7 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
     if (request.reading > 0 || (request.full_turn && !request.roles)) volume.take_guess = true;
     volume.name = request.name;
     volume.material = request.material;
+    volume.glued = request.glued;
     return volume;
 }
 

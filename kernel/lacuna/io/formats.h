@@ -34,6 +34,7 @@ struct Format {
     bool numbers_regions = false; ///< users identify regions by property number
     /// Kinds of deck sets that it cannot store, and why; empty: it stores all.
     std::string_view unwritten_sets{};
+    bool has_contacts = false; ///< pairs of `MeshDeckOptions::contacts` are written
     bool has_node_sets = true; ///< otherwise sets contain sides only
 
     [[nodiscard]] bool has_option(std::string_view option) const

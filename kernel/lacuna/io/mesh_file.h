@@ -40,6 +40,8 @@ struct MeshFileOptions {
     /// and Exodus; in Abaqus a distribution and an orientation for each region, in Nastran coordinate systems
     /// and MATCID cards, with the axes of `CellFrame::material()`. Needs meshes that store their nodes.
     bool orientation = false;
+    /// The same of decks: the meshes whose cells are the first of their shapes in the deck.
+    std::vector<const mesh::HexMesh*> oriented{};
     /// Nodes of periodic faces, written as $Periodic in .msh, as equations or a cyclic symmetry in Abaqus, as
     /// multipoint constraints in Nastran, and as two sets of nodes in the order of the pairs elsewhere.
     std::vector<mesh::PeriodicNodes> periodic{};

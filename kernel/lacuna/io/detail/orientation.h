@@ -9,7 +9,7 @@ namespace lacuna::io {
 
 /// Add the directions of cells to a view of swept meshes that store their nodes: as `MeshView::frames`, and
 /// with `fields` as fields "column", "axis", "radial" and "tangential" of three values.
-/// @param parts  in the order of the view's cells.
+/// @param parts  in the order of the view's cells; cells after these have no directions.
 void add_orientation(std::span<const BulkPart> parts, bool fields, mesh::MeshView& view);
 
 } // namespace lacuna::io
