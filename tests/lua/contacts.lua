@@ -241,6 +241,21 @@ mesh:write("note%s")]]):format(ending))
   check.that((out .. err):find(note), ending .. out .. err)
 end
 
+-- A volume that is not glued and touches nothing is named in a note.
+check.write(at "alone.lua", [[
+local lacuna = require "lacuna"
+local prism = lacuna.synthetic.prism { sides = 4 }
+local volumes = {}
+for k = 1, 2 do
+  local whole = prism:open_volume { source = "source", target = "target", walls = "auto", name = "bar" .. k,
+    glued = k == 1 }
+  volumes[k] = whole:cut { plane = { { 0, 0, 0.6 + 0.4 * k }, { 0, 0, 1 } } }[k]
+end
+assert(#lacuna.assembly(volumes):sweep({ size = 1, layers = 1 }).contacts == 0)]])
+local code, out, err = check.run(params.lacuna, params.scratch, { "alone.lua" })
+check.equal(code, 0, err)
+check.that((out .. err):find "note: bar2_2 is not glued, and is in contact with no volume", out .. err)
+
 -- --- what is refused -------------------------------------------------------------------------------------
 
 local function sweep(contacts)

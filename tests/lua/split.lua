@@ -246,6 +246,9 @@ do
     for _ in list:gmatch "%d+" do listed = listed + 1 end
   end
   check.equal(listed, mesh.hexes)
+  mesh:write(at "periodic.feb", { orientation = true })
+  local _, axes = read(at "periodic.feb"):gsub("<elem lid=", "")
+  check.equal(axes, mesh.hexes)
   mesh:write(at "periodic.vtu", { orientation = true })
   mesh:write(at "periodic.msh")
   check.that(read(at "periodic.msh"):find("$Periodic", 1, true))

@@ -110,10 +110,9 @@ std::vector<FoundContact> find_contacts(std::span<const AssemblyMember> members,
     std::vector<FoundContact> all;
     for (sweep::FaceContact& face : sweep::faces_in_contact(members, gap, context)) {
         const AssemblyMember &a = members[face.a], &b = members[face.b];
-        const std::array regions{region_of(a), region_of(b)}, turned{regions[1], regions[0]};
-        auto known = std::ranges::find_if(all, [&](const FoundContact& of) {
-            return of.contact.regions == regions || of.contact.regions == turned;
-        });
+        const std::array regions{region_of(a), region_of(b)};
+        auto known = std::ranges::find_if(
+            all, [&](const FoundContact& of) { return of.contact.regions == regions; });
         if (known == all.end()) {
             const ContactRequest::Pair* const pair = pair_of(face.a, face.b);
             Contact contact{.regions = regions, .gap = gap(face.a, face.b), .least = face.least};
@@ -121,11 +120,6 @@ std::vector<FoundContact> find_contacts(std::span<const AssemblyMember> members,
                                                                        : regions[0] + "_" + regions[1];
             contact.pair.tied = pair != nullptr ? pair->tied : request.tied;
             known = all.insert(known, {std::move(contact), {}});
-        }
-        if (known->contact.regions == turned) {
-            std::swap(face.a, face.b);
-            std::swap(face.face_a, face.face_b);
-            std::swap(face.covered[0], face.covered[1]);
         }
         Contact& contact = known->contact;
         const std::array tags{members[face.a].volume->model[face.face_a].tag,

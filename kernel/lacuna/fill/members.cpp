@@ -452,6 +452,14 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
         members.insert(members.end(), set.members.begin(), set.members.end());
     }
     const std::vector<FoundContact> found = find_contacts(members, request, context);
+    for (const auto& [glue, set] : sets) {
+        const sweep::AssemblyMember& first = set.members.front();
+        const std::string& name = first.whole.empty() ? first.region : first.whole;
+        if (glue > 0 && std::ranges::none_of(found, [&](const FoundContact& of) {
+                return std::ranges::find(of.contact.regions, name) != of.contact.regions.end();
+            }))
+            log_line(context, formatted("note: {} is not glued, and is in contact with no volume", name));
+    }
     FilledParts mesh;
     std::size_t before = 0;
     for (auto& [glue, set] : sets) {

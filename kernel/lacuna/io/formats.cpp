@@ -106,7 +106,7 @@ std::vector<FormatRow> make_table()
     }
     row = deck_format(".feb", "a FEBio file", "FEBio", febio, Format::Skin::nodes_and_sides, febio_file,
                       nullptr);
-    row.is_read = false, row.has_hex27 = true;
+    row.is_read = false, row.has_hex27 = true, row.options = kOrientedDeckOptions;
     table.push_back(row);
     row = view_format(".med", "a MED file", "MED", med,
                       "with without renumber first_node first_cell interfaces", med_file);

@@ -38,7 +38,8 @@ struct MeshFileOptions {
     std::string unit{}; ///< declared unit of the lengths, as `metres_of()`; empty: that of the deck, or none
     /// Directions of cells (`mesh::cell_frames()`): fields "column", "axis", "radial" and "tangential" in VTK
     /// and Exodus; in Abaqus a distribution and an orientation for each region, in Nastran coordinate systems
-    /// and MATCID cards, with the axes of `CellFrame::material()`. Needs meshes that store their nodes.
+    /// and MATCID cards, in FEBio `mat_axis`, with the axes of `CellFrame::material()`. Needs meshes that
+    /// store their nodes.
     bool orientation = false;
     /// The same of decks: the meshes whose cells are the first of their shapes in the deck.
     std::vector<const mesh::HexMesh*> oriented{};
