@@ -99,7 +99,7 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
 
 /// Close several volumes and sweep them, cut into pieces where needed, as one conforming mesh. Volumes that
 /// are not glued have nodes of their own. The faces of `contacts()` are groups NAME_slave and NAME_master of
-/// the mesh: the slave is the side that the other covers more of or, if both are alike, the finer one.
+/// the mesh: the slave is the side with the smaller faces or, if these are of one area, the finer one.
 /// @return  `volumes` holds the member volumes in their order. A volume that was left out or swept in pieces
 ///          is returned unchanged.
 /// @throw InvalidInput "surface.no_such_face"  an option names a face that no volume has.

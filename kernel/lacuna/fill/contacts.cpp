@@ -16,7 +16,7 @@ namespace {
 
 using sweep::AssemblyMember;
 
-/// Sides whose covered shares differ by less are covered alike.
+/// Sides whose areas differ by a smaller share are of one area, in facets of different fineness.
 constexpr double kAlike = 0.01;
 
 const std::string& region_of(const AssemblyMember& member)
@@ -55,23 +55,20 @@ struct SkinOf {
 std::vector<SkinOf> skins_of(FilledParts& mesh, std::size_t member)
 {
     std::vector<SkinOf> skins;
-    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
-        sweep::Swept& part = mesh.swept.parts[p];
-        if (mesh.swept.member[p] != member) continue;
-        SkinOf& skin = skins.emplace_back(SkinOf{&part.mesh.patches, &part.faces, {}, 0});
-        skin.sides.resize(part.mesh.patches.size());
-        for (std::size_t i = 0; i < part.mesh.skin_count(); ++i)
-            ++skin.sides[index(mesh::skin_quad(part.mesh, i).patch)];
-        skin.off = part.fidelity.max_distance;
-    }
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-        FilledTets& tets = mesh.tets[t];
-        if (mesh.swept.unswept[t].member != member) continue;
-        SkinOf& skin = skins.emplace_back(SkinOf{&tets.mesh.patches, &tets.faces, {}, 0});
-        skin.sides.resize(tets.mesh.patches.size());
-        for (const Index patch : tets.mesh.skin_patch) ++skin.sides[index(patch)];
-        skin.off = tets.fidelity.max_distance;
-    }
+    const auto add = [&](auto& part, const std::vector<FaceId>& faces, double off, std::size_t sides,
+                         const auto& patch) {
+        SkinOf& skin = skins.emplace_back(SkinOf{&part.patches, &faces, {}, off});
+        skin.sides.resize(part.patches.size());
+        for (std::size_t i = 0; i < sides; ++i) ++skin.sides[index(patch(i))];
+    };
+    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p)
+        if (sweep::Swept& own = mesh.swept.parts[p]; mesh.swept.member[p] == member)
+            add(own.mesh, own.faces, own.fidelity.max_distance, own.mesh.skin_count(),
+                [&](std::size_t i) { return mesh::skin_quad(own.mesh, i).patch; });
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+        if (FilledTets& own = mesh.tets[t]; mesh.swept.unswept[t].member == member)
+            add(own.mesh, own.faces, own.fidelity.max_distance, own.mesh.skin.size(),
+                [&](std::size_t i) { return own.mesh.skin_patch[i]; });
     return skins;
 }
 
@@ -127,7 +124,7 @@ std::vector<FoundContact> find_contacts(std::span<const AssemblyMember> members,
         if (std::ranges::find(contact.faces, tags) == contact.faces.end()) contact.faces.push_back(tags);
         contact.least = std::min(contact.least, face.least);
         contact.width = std::max(contact.width, face.width);
-        contact.area += face.covered[0];
+        contact.area += face.area;
         known->faces.push_back(face);
     }
     for (const ContactRequest::Pair& pair : request.pairs)
@@ -145,6 +142,13 @@ std::vector<FoundContact> find_contacts(std::span<const AssemblyMember> members,
             throw InvalidInput(
                 Message("fill.contact_name", "contacts: two pairs are named \"{}\"", found.contact.pair.name)
                     .remedy("give one of them another 'name'"));
+    return all;
+}
+
+std::vector<Contact> without_faces(std::vector<FoundContact> found)
+{
+    std::vector<Contact> all;
+    for (FoundContact& one : found) all.push_back(std::move(one.contact));
     return all;
 }
 
@@ -175,59 +179,47 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
         member.region = name;
         member.glue = members.size();
     }
-    std::vector<Contact> all;
-    for (FoundContact& found : find_contacts(members, request, context))
-        all.push_back(std::move(found.contact));
-    return all;
+    return without_faces(find_contacts(members, request, context));
 }
 
 void add_contact(FilledParts& mesh, std::span<const AssemblyMember> members, const FoundContact& found)
 {
     struct Side {
-        std::map<mesh::SkinPatch*, std::size_t> patches; ///< with their sides
+        std::set<mesh::SkinPatch*> patches;
         std::set<std::pair<std::size_t, FaceId>> faces;
-        double covered = 0, off = 0;
+        double area = 0, off = 0;
+        std::size_t count = 0;
     };
     std::array<Side, 2> sides;
-    for (const sweep::FaceContact& face : found.faces) {
+    double tolerance = 0;
+    for (const sweep::FaceContact& face : found.faces)
         for (const std::size_t s : {0, 1}) {
             Side& side = sides[s];
             const std::size_t member = s == 0 ? face.a : face.b;
             const FaceId own = s == 0 ? face.face_a : face.face_b;
-            side.covered += face.covered[s];
             if (!side.faces.emplace(member, own).second) continue;
+            const topology::Model& model = members[member].volume->model;
+            tolerance = std::max(tolerance, model.tolerance);
+            side.area += topology::face_area(model, own);
             for (const SkinOf& skin : skins_of(mesh, member)) {
                 side.off = std::max(side.off, skin.off);
-                for (const std::size_t p : patches_on(skin, own, members[member].volume->model.faces.size()))
-                    side.patches[&(*skin.patches)[p]] = skin.sides[p];
+                for (const std::size_t p : patches_on(skin, own, model.faces.size()))
+                    if (side.patches.insert(&(*skin.patches)[p]).second) side.count += skin.sides[p];
             }
         }
-    }
-    if (sides[0].patches.empty() || sides[1].patches.empty()) return; // a volume was left out
-    std::array<double, 2> share{}, count{};
-    double tolerance = 0;
-    for (const std::size_t s : {0, 1}) {
-        double area = 0;
-        for (const auto& [member, face] : sides[s].faces) {
-            const topology::Model& model = members[member].volume->model;
-            area += topology::face_area(model, face);
-            tolerance = std::max(tolerance, model.tolerance);
-        }
-        share[s] = std::min(1.0, sides[s].covered / area);
-        for (const auto& [patch, quads] : sides[s].patches) count[s] += static_cast<double>(quads);
-    }
-    const std::size_t slave = std::abs(share[0] - share[1]) > kAlike ? (share[0] > share[1] ? 0 : 1)
-                              : count[0] >= count[1]                 ? 0
-                                                                     : 1;
+    const auto& [a, b] = sides;
+    if (a.count == 0 || b.count == 0) return; // a volume was left out
+    const bool alike = std::abs(a.area - b.area) <= kAlike * std::max(a.area, b.area);
+    const std::size_t slave = (alike ? a.count >= b.count : a.area < b.area) ? 0 : 1;
     Contact contact = found.contact;
     contact.pair.groups = {contact.pair.name + "_slave", contact.pair.name + "_master"};
-    contact.pair.tolerance = contact.width + sides[0].off + sides[1].off + tolerance;
+    contact.pair.tolerance = contact.width + a.off + b.off + tolerance;
     for (const std::size_t s : {0, 1})
-        for (const auto& [patch, quads] : sides[s].patches)
+        for (mesh::SkinPatch* const patch : sides[s].patches)
             patch->groups.push_back(contact.pair.groups[s == slave ? 0 : 1]);
     mesh.swept.report.push_back(formatted("{}: {}, {} sides of {} on {} of {}, {:.3g} apart at most",
                                           contact.pair.tied ? "tie" : "contact", contact.pair.name,
-                                          count[slave], contact.regions[slave], count[1 - slave],
+                                          sides[slave].count, contact.regions[slave], sides[1 - slave].count,
                                           contact.regions[1 - slave], contact.width));
     mesh.contacts.push_back(std::move(contact));
 }

@@ -592,10 +592,7 @@ std::vector<Contact> contacts(std::span<const Member> members, const ContactRequ
     for (Member& member : closed) member.options.fallback = sweep::Fallback::mixed;
     std::vector<sweep::LeftOut> none;
     std::vector<Part> parts = parts_of(closed, none, context);
-    std::vector<Contact> all;
-    for (FoundContact& found : find_contacts(prepare(parts, {}, false, context).members, request, context))
-        all.push_back(std::move(found.contact));
-    return all;
+    return without_faces(find_contacts(prepare(parts, {}, false, context).members, request, context));
 }
 
 } // namespace lacuna::fill

@@ -7,7 +7,6 @@
 #include <lacuna/sweep/sweep.h>
 #include <lacuna/topology/open_volume.h>
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -80,8 +79,8 @@ std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, co
 struct FaceContact {
     std::size_t a = 0, b = 0; ///< indices in the list of members, a < b
     FaceId face_a, face_b;
-    double least = 0, width = 0;     ///< smallest and largest distance within the gap [model length]
-    std::array<double, 2> covered{}; ///< area of each face within the gap of the other [model length²]
+    double least = 0, width = 0; ///< smallest and largest distance within the gap [model length]
+    double area = 0;             ///< area of the first face within the gap of the other [model length²]
 };
 
 /// The faces of members in contact. Pieces of one volume have none with each other, glued members only where

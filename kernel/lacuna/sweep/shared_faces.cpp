@@ -418,13 +418,8 @@ std::vector<FaceContact> faces_in_contact(std::span<const AssemblyMember> member
             const double strip = std::max(limit, pair.window) * overlap.box.diagonal().norm();
             if (!(overlap.a.within > 0) || (overlap.a.within < kMostly * least && overlap.a.within <= strip))
                 continue;
-            found.push_back({pair.a,
-                             pair.b,
-                             faces.first,
-                             faces.second,
-                             overlap.least,
-                             std::max(overlap.gap, overlap.depth),
-                             {overlap.a.within, overlap.b.within}});
+            found.push_back({pair.a, pair.b, faces.first, faces.second, overlap.least,
+                             std::max(overlap.gap, overlap.depth), overlap.a.within});
         }
     }
     return found;

@@ -18,6 +18,8 @@ struct FoundContact {
 std::vector<FoundContact> find_contacts(std::span<const sweep::AssemblyMember> members,
                                         const ContactRequest& request, const RunContext& context);
 
+std::vector<Contact> without_faces(std::vector<FoundContact> found);
+
 /// Add a contact to a mesh, with groups of its faces; none if the volumes of a side were left out.
 void add_contact(FilledParts& mesh, std::span<const sweep::AssemblyMember> members,
                  const FoundContact& found);
