@@ -64,6 +64,7 @@
 ---@field class? lacuna.Class override
 ---@field name? string what the cells are called: their group, set or property in files; default "volume"
 ---@field material? string|integer of the cells, in decks; default: as the elements beside them
+---@field glued? boolean false: in an assembly it has nodes of its own, and ties to what it touches; default true
 
 --- One of vector, axis, path, helix, normals and to.
 ---@class lacuna.Along
@@ -145,6 +146,28 @@
 ---@field [2] lacuna.FaceRefs
 ---@field translate? lacuna.Vector
 ---@field rotate? { [1]: lacuna.Vector, [2]: lacuna.Vector, [3]: number } point, direction, degrees
+
+--- Two bodies whose faces touch or face each other.
+---@class lacuna.Contact
+---@field a string region
+---@field b string region
+---@field name? string of the pair; default: a_b
+---@field type? "tie"|"contact" default "tie"
+---@field gap? number within which the faces are looked for [model length]
+---@field faces? { [1]: integer, [2]: integer }[] tags of the faces that come together
+---@field least? number smallest distance within the gap [model length]
+---@field width? number largest distance within the gap [model length]
+---@field area? number of the faces of `a` within the gap [model length²]
+---@field slave? string group of a mesh
+---@field master? string group of a mesh
+
+---@class lacuna.ContactsOptions
+---@field gap? number largest distance of the faces; default 0: they touch [model length]
+
+---@class lacuna.ContactRequest
+---@field gap? number of pairs without an entry; default 0 [model length]
+---@field type? "tie"|"contact" of pairs without an entry; default "tie"
+---@field pairs? lacuna.Contact[] pairs with a gap, type or name of their own
 
 ---@class lacuna.SweepOptions
 ---@field layers? integer|number[]|lacuna.Layers a count, rising heights in (0, 1] or a spacing; default as the
@@ -364,6 +387,10 @@ function Model:open_volume(roles) end
 ---@param options? lacuna.QuadsOptions
 ---@return lacuna.QuadMesh
 function Model:quads(options) end
+--- Bodies whose faces touch or face each other.
+---@param options? lacuna.ContactsOptions
+---@return lacuna.Contact[]
+function Model:contacts(options) end
 --- Faces, free edges, gaps and cavities, in words.
 ---@return string
 function Model:describe() end
@@ -617,11 +644,19 @@ function QuadMesh:view(path, options) end
 ---@param options? lacuna.FacePictureOptions
 function QuadMesh:picture(path, options) end
 
+--- Of all volumes, and of pairs of them.
+---@class lacuna.AssemblySweepOptions: lacuna.SweepOptions
+---@field contacts? lacuna.ContactRequest ties and contacts of faces without common nodes
+
 --- Several volumes to be meshed as one.
 ---@class lacuna.Assembly
 local Assembly = {}
+--- Volumes whose faces touch or face each other without common nodes.
+---@param options? lacuna.ContactsOptions
+---@return lacuna.Contact[]
+function Assembly:contacts(options) end
 --- Options for all volumes; `[volume] = options` lays those of one over them.
----@param options? lacuna.SweepOptions|table<lacuna.Volume, lacuna.SweepOptions>
+---@param options? lacuna.AssemblySweepOptions|table<lacuna.Volume, lacuna.SweepOptions>
 ---@return lacuna.AssemblyMesh
 function Assembly:sweep(options) end
 --- Sweep and write a layer at a time, as Volume:sweep_to: the bytes of sweep(options):write(path).
@@ -659,6 +694,7 @@ function Assembly:sweep_to(path, options) end
 
 --- The mesh of an assembly, a region each.
 ---@class lacuna.AssemblyMesh
+---@field contacts lacuna.Contact[] ties and contacts
 ---@field interface_cells integer cells of no thickness, from `lacuna.split_interface`
 ---@field left_out lacuna.LeftOut[] volumes and pieces that `fallback = "leave_out"` left out
 ---@field fidelity lacuna.AssemblyFidelity

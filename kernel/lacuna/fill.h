@@ -23,6 +23,7 @@
 #include <lacuna/fill/filled.h>
 #include <lacuna/fill/volume.h>
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -72,12 +73,39 @@ struct Member {
     bool own_boundary_layers = false, own_intervals = false;
 };
 
-/// Close several volumes and sweep them, cut into pieces where needed, as one conforming mesh.
+/// Contact pairs of an assembly: all faces of two regions that touch, or face each other within a gap.
+struct ContactRequest {
+    double gap = 0;   ///< of all regions without an entry of their own [model length]
+    bool tied = true; ///< likewise
+    struct Pair {
+        std::array<std::string, 2> regions;
+        std::string name; ///< empty: "a_b", of the regions
+        double gap = 0;
+        bool tied = true;
+    };
+    std::vector<Pair> pairs;
+};
+
+/// Find the faces of two regions in contact, as `sweep::faces_in_contact()`, one entry for each two regions.
+/// For the members of an assembly, which are closed first; for the bodies of a model: its regions or, if
+/// faces have none, the parts that no edge connects.
+/// @throw InvalidInput "fill.contact_region"  a pair of a region that is not there; "fill.contact_none"  a
+///        pair whose regions have no faces within the gap; "fill.contact_name"  two pairs of one name;
+///        "fill.contact_bodies"  the model has one body. As `sweep::faces_in_contact()` and `close()`.
+std::vector<Contact> contacts(std::span<const Member> members, const ContactRequest& request,
+                              const RunContext& context = {});
+std::vector<Contact> contacts(const topology::Model& model, const ContactRequest& request,
+                              const RunContext& context = {});
+
+/// Close several volumes and sweep them, cut into pieces where needed, as one conforming mesh. Volumes that
+/// are not glued have nodes of their own. The faces of `contacts()` are groups NAME_slave and NAME_master of
+/// the mesh: the slave is the side with the smaller faces or, if these are of one area, the finer one.
 /// @return  `volumes` holds the member volumes in their order. A volume that was left out or swept in pieces
 ///          is returned unchanged.
 /// @throw InvalidInput "surface.no_such_face"  an option names a face that no volume has.
-/// @throw  as `sweep::sweep_assembly()` and `closure::close()`.
-Filled sweep(std::span<const Member> members, const RunContext& context = {});
+/// @throw  as `contacts()`, `sweep::sweep_assembly()` and `closure::close()`.
+Filled sweep(std::span<const Member> members, const RunContext& context = {},
+             const ContactRequest& request = {});
 
 /// A copy of a mesh, rotated, translated or mirrored. Cells of a mirrored mesh stay positive: their quads are
 /// turned over. In an assembly, nodes of the copy that differ from those of other members by rounding only

@@ -162,6 +162,141 @@ int interface_cells(lua_State* L)
     return give(L, count);
 }
 
+// --- contacts -------------------------------------------------------------------------------------------
+
+/// { { a =, b =, name =, type =, gap =, faces = { { tag, tag }, ... }, least =, width =, area = }, ... }
+void push_contacts(lua_State* L, const std::vector<fill::Contact>& contacts)
+{
+    push_array(L, contacts, [&](const auto& contact) {
+        lua_createtable(L, 0, 11);
+        set_string(L, "a", contact.regions[0]);
+        set_string(L, "b", contact.regions[1]);
+        set_string(L, "name", contact.pair.name);
+        set_string(L, "type", contact.pair.tied ? "tie" : "contact");
+        set_number(L, "gap", contact.gap);
+        set_number(L, "least", contact.least);
+        set_number(L, "width", contact.width);
+        set_number(L, "area", contact.area);
+        if (!contact.pair.groups[0].empty()) {
+            set_string(L, "slave", contact.pair.groups[0]);
+            set_string(L, "master", contact.pair.groups[1]);
+        }
+        push_array(L, contact.faces, [&](const auto& tags) {
+            lua_createtable(L, 2, 0);
+            for (const int i : {0, 1}) {
+                lua_pushinteger(L, tags[static_cast<std::size_t>(i)]);
+                lua_rawseti(L, -2, i + 1);
+            }
+        });
+        lua_setfield(L, -2, "faces");
+    });
+}
+
+void read_gap(lua_State* L, int index, const Where& where, double& gap)
+{
+    gap = read_number(L, index, where);
+    if (gap < 0) fail_value(L, where, "a distance, 0 or larger", index);
+}
+void read_request_gap(lua_State* L, int index, const Where& where, fill::ContactRequest& request)
+{
+    read_gap(L, index, where, request.gap);
+}
+const Option<fill::ContactRequest> kFindOptions[] = {{"gap", read_request_gap}};
+
+/// contacts = assembly:contacts { gap = }
+int assembly_contacts(lua_State* L)
+{
+    lua_settop(L, 2);
+    const auto& assembly = hold<AssemblyState>(L, 1);
+    auto& request = temporary<fill::ContactRequest>(L);
+    read_options(L, 2, "contacts", kFindOptions, request);
+    RunContext& context = push_context(L);
+    auto& contacts = temporary<std::vector<fill::Contact>>(L);
+    guard(L, [&] {
+        std::vector<fill::Member> members;
+        for (const AssemblyState::Entry& entry : assembly.entries)
+            members.push_back({entry.volume.get(), entry.mesh.get(), entry.meshes.get()});
+        contacts = fill::contacts(members, request, context);
+    });
+    push_contacts(L, contacts);
+    return 1;
+}
+
+/// contacts = model:contacts { gap = }
+int model_contacts(lua_State* L)
+{
+    lua_settop(L, 2);
+    const Box<ModelState>& model = hold_model(L, 1);
+    auto& request = temporary<fill::ContactRequest>(L);
+    read_options(L, 2, "contacts", kFindOptions, request);
+    RunContext& context = push_context(L);
+    auto& contacts = temporary<std::vector<fill::Contact>>(L);
+    guard(L, [&] {
+        refresh(*model, context);
+        contacts = fill::contacts(model->model, request, context);
+    });
+    push_contacts(L, contacts);
+    return 1;
+}
+
+int mesh_contacts(lua_State* L)
+{
+    push_contacts(L, hold<AssemblyMeshState>(L, 1).contacts);
+    return 1;
+}
+
+using Pair = fill::ContactRequest::Pair;
+const Word<bool> kContactTypes[] = {{"tie", true}, {"contact", false}};
+
+template <std::size_t Side>
+void read_region(lua_State* L, int index, const Where& where, Pair& pair)
+{
+    read_text(L, index, where, pair.regions[Side]);
+}
+void read_pair_name(lua_State* L, int index, const Where& where, Pair& pair)
+{
+    read_text(L, index, where, pair.name);
+}
+void read_pair_gap(lua_State* L, int index, const Where& where, Pair& pair)
+{
+    read_gap(L, index, where, pair.gap);
+}
+void ignore(lua_State*, int, const Where&, Pair&) {}
+
+/// The last ones are what `contacts` tells beside them.
+const Option<Pair> kPairOptions[] = {
+    {"a", read_region<0>},
+    {"b", read_region<1>},
+    {"name", read_pair_name},
+    {"gap", read_pair_gap},
+    {"type", word<&Pair::tied, kContactTypes>},
+    {"least", ignore},
+    {"width", ignore},
+    {"area", ignore},
+    {"faces", ignore},      {"slave", ignore},     {"master", ignore},
+};
+
+void read_pairs(lua_State* L, int index, const Where& where, fill::ContactRequest& request)
+{
+    read_array(L, index, where, "an array of pairs { a =, b =, type =, gap =, name = }",
+               [&](int at, const Where& element) {
+                   auto& pair = temporary<Pair>(L);
+                   pair.gap = request.gap;
+                   pair.tied = request.tied;
+                   if (lua_type(L, at) != LUA_TTABLE) fail_value(L, element, "a table { a =, b = }", at);
+                   read_options(L, at, "sweep: contacts", kPairOptions, pair);
+                   if (pair.regions[0].empty() || pair.regions[1].empty())
+                       fail_option(L, element, "must name two regions: { a = \"lid\", b = \"base\" }");
+                   guard(L, [&] { request.pairs.push_back(pair); });
+               });
+}
+
+/// Pairs take the gap and the type that come before them.
+const Option<fill::ContactRequest> kContactOptions[] = {
+    {"gap", read_request_gap},
+    {"type", word<&fill::ContactRequest::tied, kContactTypes>},
+    {"pairs", read_pairs}};
+
 // --- its mesh -------------------------------------------------------------------------------------------
 
 int mesh_nodes(lua_State* L) { return give(L, check<AssemblyMeshState>(L, 1).swept.nodes); }
@@ -287,6 +422,8 @@ int mesh_to_string(lua_State* L)
     return 1;
 }
 
+const luaL_Reg kAssemblyMethods[] = {{"contacts", assembly_contacts}, {nullptr, nullptr}};
+const luaL_Reg kContactModelMethods[] = {{"contacts", model_contacts}, {nullptr, nullptr}};
 const luaL_Reg kAssemblyMeta[] = {{"__tostring", assembly_to_string}, {nullptr, nullptr}};
 const Field kAssemblyFields[] = {{nullptr, nullptr}};
 const luaL_Reg kAssemblyMeshMethods[] = {{"node", node},
@@ -310,16 +447,27 @@ const Field kAssemblyMeshFields[] = {
     {"fidelity", mesh_fidelity},
     {"left_out", mesh_left_out},
     {"interface_cells", interface_cells},
+    {"contacts", mesh_contacts},
     {nullptr, nullptr},
 };
 
 } // namespace
+
+fill::ContactRequest& push_contact_request(lua_State* L, int index)
+{
+    auto& request = temporary<fill::ContactRequest>(L);
+    if (lua_getfield(L, index, "contacts") != LUA_TNIL)
+        read_options(L, lua_gettop(L), "sweep: contacts", kContactOptions, request);
+    return request;
+}
 
 void bind_assembly(lua_State* L)
 {
     make_class<AssemblyState>(L, kAssemblyFields, kAssemblyMeta);
     make_class<AssemblyMeshState>(L, kAssemblyMeshFields, kAssemblyMeshMeta);
     add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMeshMethods);
+    add_methods(L, kClassName<AssemblyState>, kAssemblyMethods);
+    add_methods(L, kClassName<ModelState>, kContactModelMethods);
     lua_pushcfunction(L, make_assembly);
     lua_setfield(L, -2, "assembly");
     lua_pushcfunction(L, split_interface);

@@ -8,11 +8,15 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lacuna::lua {
 
 namespace {
+
+/// Whether a key is the option that is not one of single volumes.
+bool is_contacts(lua_State* L, int key) { return std::string_view(lua_tostring(L, key)) == "contacts"; }
 
 /// Push the options of one volume: those for all volumes, which have words as keys, overridden by those at
 /// [volume]. The member learns which options that name faces are its own.
@@ -22,7 +26,7 @@ void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume, fi
     const int merged = lua_gettop(L);
     const auto lay_over = [&](int from) {
         for (lua_pushnil(L); lua_next(L, from) != 0;) {
-            if (lua_type(L, -2) == LUA_TSTRING) {
+            if (lua_type(L, -2) == LUA_TSTRING && (from != index || !is_contacts(L, -2))) {
                 lua_pushvalue(L, -2);
                 lua_insert(L, -2);
                 lua_rawset(L, merged);
@@ -94,9 +98,11 @@ int push_swept_assembly(lua_State* L, int index, const char* call, const SweepFi
             members.back().options = own;
         });
     }
+    const fill::ContactRequest& contacts = push_contact_request(L, index);
     RunContext& context = push_context(L);
     if (threads != 0) context.threads = threads;
-    return push_swept(L, volumes, "sweep", file, context, [&] { return fill::sweep(members, context); });
+    return push_swept(L, volumes, "sweep", file, context,
+                      [&] { return fill::sweep(members, context, contacts); });
 }
 
 /// mesh = assembly:sweep(options)

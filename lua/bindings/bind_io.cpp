@@ -401,10 +401,11 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
             Message("lua.mixed_write", "write: a mesh with tetrahedra or a split interface is written as one "
                                        "file")
                 .remedy("{}", is_pieces(format) ? "write a .vtu file" : "leave out 'partitions'"));
-    if (arguments.msh.orientation)
+    if (arguments.msh.orientation && !state.tets.empty())
         throw InvalidInput(Message("lua.mixed_write", "write: tetrahedra have no orientation of a sweep")
                                .remedy("leave out 'orientation'"));
     arguments.deck.format = format.deck;
+    for (const sweep::Swept& part : state.swept.parts) arguments.msh.oriented.push_back(&part.mesh);
     const io::Deck deck = arguments.with.empty()
                               ? fill::whole_deck(state, arguments.deck, arguments.msh.interfaces, context)
                               : joined_deck(state, arguments, context);
@@ -424,10 +425,7 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
                                   .unit = state.unit},
                                  crew, context);
     const io::Format& format = io::needed_mesh_format("write", path.text());
-    arguments.msh.periodic = state.swept.periodic;
     if (!arguments.with.empty()) {
-        if (!arguments.msh.periodic.empty())
-            log_line(context, "note: write: pairs of periodic nodes are not written with a model");
         arguments.deck.format = format.deck;
         return io::write_deck(joined_deck(state, arguments, context), format, path, context, arguments.msh);
     }
@@ -680,6 +678,16 @@ void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, Wr
     static_cast<void>(format_of(path.text(), arguments)); // refuses options that the format does not have
     count_parts(arguments, path, crew);
     arguments.msh.unit = state.unit;
+    if (arguments.with.empty()) {
+        arguments.msh.periodic = state.swept.periodic;
+        for (const fill::Contact& contact : state.contacts) arguments.deck.contacts.push_back(contact.pair);
+    } else if (!state.swept.periodic.empty() || !state.contacts.empty()) {
+        log_line(context,
+                 formatted("note: write: pairs of {} are not written with a model",
+                           state.contacts.empty()         ? "periodic nodes"
+                           : state.swept.periodic.empty() ? "faces in contact"
+                                                          : "periodic nodes and of faces in contact"));
+    }
     for (const sweep::LeftOut& out : state.left_out)
         log_line(context, formatted("note: {} has a hole, because a volume was left out: {}", path.text(),
                                     out.message.text()));

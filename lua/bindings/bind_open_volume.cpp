@@ -331,6 +331,7 @@ const Option<RoleArguments> kRoleOptions[] = {
     {"name", read_name},
     {"material", read_material},
     {"along", read_along},
+    {"glued", boolean<&RoleArguments::glued>},
 };
 
 /// volume = model:open_volume { source=, target=, walls= [, class=] [, name=] [, material=] }

@@ -145,6 +145,8 @@ void set_boolean(lua_State* L, const char* key, bool value);
 void set_string(lua_State* L, const char* key, const char* value);
 void set_string(lua_State* L, const char* key, const std::string& value); ///< any bytes
 void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values);
+/// The option `contacts` of the table at `index`, as a temporary.
+fill::ContactRequest& push_contact_request(lua_State* L, int index);
 /// Near misses of an assembly, as `near_misses` of the report on top of the stack.
 void set_near_misses(lua_State* L, const fill::FilledParts& mesh);
 void push_face(lua_State* L, const Box<ModelState>& model, FaceId face);

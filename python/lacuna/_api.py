@@ -5,11 +5,32 @@ from ._objects import (AnyFace, AnyMesh, Object, Shown, Table, call, classes, lo
                        options_of, shaped)
 
 __all__ = [
-        "ModelInfo", "FaceInfo", "Cavity", "Classification", "Match", "Closure", "FreeEdge", "LeftOut",
-        "Fidelity", "FaceFidelity", "AssemblyFidelity", "WorstCell", "MetricSummary", "Model", "Face",
-        "Volume", "Mesh", "Assembly", "AssemblyMesh", "QuadMesh", "Quality", "load", "model", "assembly",
-        "split_interface", "check", "convert", "view",
+        "Contact", "ModelInfo", "FaceInfo", "Cavity", "Classification", "Match", "Closure", "FreeEdge",
+        "LeftOut", "Fidelity", "FaceFidelity", "AssemblyFidelity", "WorstCell", "MetricSummary", "Model",
+        "Face", "Volume", "Mesh", "Assembly", "AssemblyMesh", "QuadMesh", "Quality", "load", "model",
+        "assembly", "split_interface", "check", "convert", "view",
 ]
+
+
+class Contact(Table):
+    """Two bodies whose faces touch or face each other.
+
+    a: str; region
+    b: str; region
+    name: str; of the pair; default: a_b
+    type: "tie" | "contact"; default "tie"
+    gap: float; within which the faces are looked for [model length]
+    faces: list[list[int]]; tags of the faces that come together
+    least: float; smallest distance within the gap [model length]
+    width: float; largest distance within the gap [model length]
+    area: float; of the faces of `a` within the gap [model length²]
+    slave: str; group of a mesh
+    master: str; group of a mesh
+    """
+
+    __slots__ = ()
+    _shapes = {}
+    _optional = ['name', 'type', 'gap', 'faces', 'least', 'width', 'area', 'slave', 'master']
 
 
 class ModelInfo(Table):
@@ -296,6 +317,7 @@ class Model(Shown):
         class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"; override
         name: str; what the cells are called: their group, set or property in files; default "volume"
         material: str | int; of the cells, in decks; default: as the elements beside them
+        glued: bool; False: in an assembly it has nodes of its own, and ties to what it touches; default True
 
         A dict for `along` has:
         vector: (x, y, z); straight
@@ -327,6 +349,13 @@ class Model(Shown):
         threads: int; default: all cores
         """
         return self._method("quads", options_of(options, keywords))
+
+    def contacts(self, options=None, /, **keywords):
+        """Bodies whose faces touch or face each other.
+
+        gap: float; largest distance of the faces; default 0: they touch [model length]
+        """
+        return shaped(self._method("contacts", options_of(options, keywords)), ('list', ('of', 'Contact')))
 
     def describe(self):
         """Faces, free edges, gaps and cavities, in words."""
@@ -825,6 +854,13 @@ class Assembly(Object):
 
     __slots__ = ()
 
+    def contacts(self, options=None, /, **keywords):
+        """Volumes whose faces touch or face each other without common nodes.
+
+        gap: float; largest distance of the faces; default 0: they touch [model length]
+        """
+        return shaped(self._method("contacts", options_of(options, keywords)), ('list', ('of', 'Contact')))
+
     def sweep(self, options=None, /, **keywords):
         """Options for all volumes; a dict `{volume: options}` before them lays those of one over them.
 
@@ -856,6 +892,7 @@ class Assembly(Object):
         interior: "auto" | "affine" | "residual" | "normals"; how layers are placed; all but "auto" for
             comparison
         threads: int; default: all cores
+        contacts: dict; ties and contacts of faces without common nodes
 
         A dict for `layers` has:
         count: int
@@ -878,6 +915,11 @@ class Assembly(Object):
         [2]: Face | int | str | dict | list[Face | int | str | dict]
         translate: (x, y, z)
         rotate: list[(x, y, z) | float]; point, direction, degrees
+
+        A dict for `contacts` has:
+        gap: float; of pairs without an entry; default 0 [model length]
+        type: "tie" | "contact"; of pairs without an entry; default "tie"
+        pairs: list[dict]; pairs with a gap, type or name of their own
         """
         return self._method("sweep", options_of(options, keywords))
 
@@ -943,6 +985,11 @@ class AssemblyMesh(AnyMesh):
     """The mesh of an assembly, a region each."""
 
     __slots__ = ()
+
+    @property
+    def contacts(self):
+        """ties and contacts"""
+        return shaped(self._field("contacts"), ('list', ('of', 'Contact')))
 
     @property
     def interface_cells(self):
@@ -1354,11 +1401,12 @@ def view(file, path, options=None, /, **keywords):
     return call("module", "view", file, path, options_of(options, keywords))
 
 
-classes.update(ModelInfo=ModelInfo, FaceInfo=FaceInfo, Cavity=Cavity, Classification=Classification,
-               Match=Match, Closure=Closure, FreeEdge=FreeEdge, LeftOut=LeftOut, Fidelity=Fidelity,
-               FaceFidelity=FaceFidelity, AssemblyFidelity=AssemblyFidelity, WorstCell=WorstCell,
-               MetricSummary=MetricSummary, Model=Model, Face=Face, Volume=Volume, Mesh=Mesh,
-               Assembly=Assembly, AssemblyMesh=AssemblyMesh, QuadMesh=QuadMesh, Quality=Quality)
+classes.update(Contact=Contact, ModelInfo=ModelInfo, FaceInfo=FaceInfo, Cavity=Cavity,
+               Classification=Classification, Match=Match, Closure=Closure, FreeEdge=FreeEdge,
+               LeftOut=LeftOut, Fidelity=Fidelity, FaceFidelity=FaceFidelity,
+               AssemblyFidelity=AssemblyFidelity, WorstCell=WorstCell, MetricSummary=MetricSummary,
+               Model=Model, Face=Face, Volume=Volume, Mesh=Mesh, Assembly=Assembly, AssemblyMesh=AssemblyMesh,
+               QuadMesh=QuadMesh, Quality=Quality)
 
 for made in classes.values():
     made.__module__ = "lacuna"

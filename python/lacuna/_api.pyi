@@ -20,6 +20,18 @@ FaceRef = Union[Face, int, str, Mapping[str, Any]]
 FaceRefs = Union[FaceRef, Iterable[FaceRef]]
 MetricName = Union[Literal["scaled_jacobian", "scaled_jacobian_with_centre", "jacobian", "shape", "shear", "condition", "max_aspect_frobenius", "med_aspect_frobenius", "oddy", "skew", "taper", "max_edge_ratio", "edge_ratio", "full_edge_ratio", "stretch", "diagonal", "dimension", "volume", "distortion", "relative_size_squared", "shape_and_size", "shear_and_size"]]
 
+class Contact(Table):
+    a: str
+    b: str
+    name: str | None
+    type: Literal["tie", "contact"] | None
+    gap: float | None
+    faces: list[list[int]] | None
+    least: float | None
+    width: float | None
+    area: float | None
+    slave: str | None
+    master: str | None
 class ModelInfo(Table):
     source: str
     diagonal: float
@@ -156,7 +168,7 @@ class Model(Shown):
             target: FaceRefs | None = ..., walls: FaceRefs | Literal["auto"] | None = ...,
             faces: FaceRefs | None = ..., reading: int | None = ..., full_turn: bool | None = ...,
             along: Mapping[str, Any] | None = ..., class_: Class | None = ..., name: str | None = ...,
-            material: str | int | None = ...,
+            material: str | int | None = ..., glued: bool | None = ...,
     ) -> Volume: ...
     def quads(
             self, options: Mapping[str, Any] | None = None, /, *, faces: FaceRefs | None = ...,
@@ -164,6 +176,9 @@ class Model(Shown):
             gap: int | None = ..., quads: Literal["auto", "paved", "mapped", "gmsh", "keep"] | None = ...,
             order: Literal[1, 2] | None = ..., serendipity: bool | None = ..., threads: int | None = ...,
     ) -> QuadMesh: ...
+    def contacts(
+            self, options: Mapping[str, Any] | None = None, /, *, gap: float | None = ...,
+    ) -> list[Contact]: ...
     def describe(self) -> str: ...
     def info(self) -> ModelInfo: ...
     def cavities(self) -> list[Cavity]: ...
@@ -342,6 +357,9 @@ class Mesh(AnyMesh):
             legend: bool | None = ..., title: str | None = ...,
     ) -> None: ...
 class Assembly(Object):
+    def contacts(
+            self, options: Mapping[str, Any] | None = None, /, *, gap: float | None = ...,
+    ) -> list[Contact]: ...
     def sweep(
             self, options: Mapping[str, Any] | Mapping[Volume, Mapping[str, Any]] | None = None, /, *,
             layers: int | Iterable[float] | Mapping[str, Any] | None = ...,
@@ -355,7 +373,7 @@ class Assembly(Object):
             order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
             min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
             interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
-            threads: int | None = ...,
+            threads: int | None = ..., contacts: Mapping[str, Any] | None = ...,
     ) -> AssemblyMesh: ...
     def sweep_to(
             self, path: Path, options: Mapping[str, Any] | Mapping[Volume, Mapping[str, Any]] | None = None,
@@ -373,6 +391,8 @@ class Assembly(Object):
             threads: int | None = ..., write: Mapping[str, Any] | None = ...,
     ) -> Report: ...
 class AssemblyMesh(AnyMesh):
+    @property
+    def contacts(self) -> list[Contact]: ...
     @property
     def interface_cells(self) -> int: ...
     @property

@@ -66,6 +66,28 @@ for k, name in ipairs { "f1", "f2", "wall_4", "wall_3", "wall_6", "wall_5" } do
   end
 end
 
+-- Node sets of a source swept along a path are named in a note, those elsewhere are not; `with` keeps them.
+do
+  local lines = { "*NODE" }
+  for k = 0, 7 do
+    local corner = k % 4
+    lines[k + 2] = ("%d, %d, %d, 0"):format(k + 1, (corner + 1) // 2 % 2 + 5 * (k // 4), corner // 2)
+  end
+  lines[#lines + 1] = "*ELEMENT, TYPE=S4, ELSET=ONE\n1, 1, 2, 3, 4\n*ELEMENT, TYPE=S4, ELSET=TWO\n"
+    .. "2, 5, 6, 7, 8\n*NSET, NSET=HELD\n1, 4\n*NSET, NSET=LOADED\n3, 6\n*NSET, NSET=APART\n7, 8\n"
+  check.write(params.scratch .. "/nsets.inp", table.concat(lines, "\n"))
+  check.write(params.scratch .. "/nsets.lua", [[
+    local deck = require("lacuna").load "nsets.inp"
+    deck:open_volume { source = { region = "ONE" }, along = { vector = { 0, 0, 1 } } }:sweep { layers = 2 }
+      :write("swept.inp", { with = deck })]])
+  local code, out, err = check.run(params.lacuna, params.scratch, { "nsets.lua" })
+  check.equal(code, 0, err)
+  check.that((out .. err):find "note: [^\n]*node sets[^\n]*: HELD, LOADED;", out .. err)
+  local held = false
+  for line in io.lines(params.scratch .. "/swept.inp") do held = held or line == "*NSET, NSET=HELD" end
+  check.that(held, "HELD is kept")
+end
+
 -- A name may hold what XML marks tags with; what no file can hold is refused where it is given.
 local signs = cube { "f1 < 2", "f2 & 3", "a > b", "it's", "f5", "f6" }
 local faces = signs:faces()

@@ -137,7 +137,6 @@ local promised = {
   end,
   fill_to = function() prism():open_volume { source = "source", fill_to = {} } end,
   quads = function() return prism().quads end,
-  contacts = function() return prism().contacts end,
   split_interface = function() return assert(lacuna.split_interface) end,
   auto = function() volume():cut { auto = true } end,
   ['fallback = "mixed"'] = function() volume():sweep { size = 1, fallback = "mixed" } end,

@@ -355,7 +355,8 @@ do
   local base = params.scratch .. "/bar"
   for ending, word in pairs { [".vtu"] = 'Name="column" NumberOfComponents="3"',
     [".vtk"] = "VECTORS column double",
-    [".exo"] = "tangential_z", [".inp"] = "*ORIENTATION, NAME=bar_orientation", [".bdf"] = "MATCID,1," } do
+    [".exo"] = "tangential_z", [".inp"] = "*ORIENTATION, NAME=bar_orientation", [".bdf"] = "MATCID,1,",
+    [".feb"] = '<ElementData type="mat_axis" elem_set="bar">' } do
     mesh:write(base .. ending, { orientation = true })
     check.that(read(base .. ending):find(word, 1, true), ending)
   end
@@ -365,6 +366,15 @@ do
     check.near(tonumber(y), 0, 1e-12)
     check.near(math.abs(tonumber(z)), 1, 1e-12)
   end
+  local number = 0 -- FEBio counts the elements of a part
+  local row = '<elem lid="(%d+)"><a>[^,]+,[^,]+,([^<]+)</a><d>([^<]+)</d></elem>'
+  for lid, z, x in read(base .. ".feb"):gmatch(row) do
+    number = number + 1
+    check.equal(tonumber(lid), number)
+    check.near(math.abs(tonumber(z)), 1, 1e-12)
+    check.near(tonumber(x:match "[^,]+$"), 0, 1e-12)
+  end
+  check.equal(number, mesh.hexes)
   check.fails(function() mesh:write(base .. ".msh", { orientation = true }) end, "orientation")
 end
 

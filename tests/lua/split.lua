@@ -100,7 +100,7 @@ local function block_model(box)
   face("east", { x1, y0, z0 }, { x1, y1, z0 }, { x1, y1, z1 }, { x1, y0, z1 })
   return block
 end
-local function assembly(boxes, layers)
+local function assembly(boxes, layers, periodic)
   local volumes, names = {}, {}
   for name in pairs(boxes) do names[#names + 1] = name end
   table.sort(names)
@@ -108,7 +108,7 @@ local function assembly(boxes, layers)
     volumes[#volumes + 1] = block_model(boxes[name]):open_volume { source = "source", target = "target",
       walls = { "south", "north", "west", "east" }, name = name }
   end
-  return lacuna.assembly(volumes):sweep { layers = layers or 2, size = 0.5 }
+  return lacuna.assembly(volumes):sweep { layers = layers or 2, size = 0.5, periodic = periodic }
 end
 -- Nodes by their place: how many stand there.
 local function stacked(deck)
@@ -208,6 +208,51 @@ for _, cell in pairs(abaqus(at "crack.inp").elements.COH3D8) do
   for k = 1, 4 do if cell[k] == cell[k + 4] then tips = tips + 1 end end
 end
 check.equal(tips, 4)
+
+-- Pairs of periodic faces are those of the doubled nodes too: each node has its image in the same region.
+-- Directions are those of the swept cells.
+do
+  local whole = assembly({ a = { 0, 1, 0, 1, 0, 1 }, b = { 1, 2, 0, 1, 0, 1 } }, 2, { { "south", "north" } })
+  local mesh = lacuna.split_interface(whole, { faces = "all", name = "glue" })
+  mesh:write(at "periodic.inp", { orientation = true })
+  local deck, text = abaqus(at "periodic.inp"), read(at "periodic.inp")
+  local function members(name)
+    local found = {}
+    for tag in text:match("%*NSET, NSET=" .. name .. "\n([^*]*)"):gmatch "%d+" do
+      found[#found + 1] = tonumber(tag)
+    end
+    return found
+  end
+  local near, image = members "periodic_1_a", members "periodic_1_b"
+  check.equal(#near, #image)
+  check.equal(#near, 15 + 3)
+  for k, tag in ipairs(near) do
+    local p, q = deck.nodes[tag], deck.nodes[image[k]]
+    check.near(q[1] - p[1], 0, 1e-12)
+    check.near(q[2] - p[2], 1, 1e-12)
+    check.near(q[3] - p[3], 0, 1e-12)
+    check.equal(deck.sets.a_east[tag], deck.sets.a_east[image[k]])
+    check.equal(deck.sets.b_west[tag], deck.sets.b_west[image[k]])
+  end
+  check.that(text:find("*EQUATION", 1, true))
+  local rows = 0
+  for lines in text:gmatch "%*DISTRIBUTION, NAME=[^\n]*\n[^\n]*\n([^*]*)" do
+    for _ in lines:gmatch "%d+, [^\n]*\n" do rows = rows + 1 end
+  end
+  check.equal(rows, mesh.hexes, "directions of each swept cell")
+  mesh:write(at "periodic.bdf", { orientation = true })
+  local listed = 0
+  for list in read(at "periodic.bdf"):gmatch "MATCID,%d+,([^A-Z]*)" do
+    for _ in list:gmatch "%d+" do listed = listed + 1 end
+  end
+  check.equal(listed, mesh.hexes)
+  mesh:write(at "periodic.feb", { orientation = true })
+  local _, axes = read(at "periodic.feb"):gsub("<elem lid=", "")
+  check.equal(axes, mesh.hexes)
+  mesh:write(at "periodic.vtu", { orientation = true })
+  mesh:write(at "periodic.msh")
+  check.that(read(at "periodic.msh"):find("$Periodic", 1, true))
+end
 
 -- What is refused.
 local function refused(mesh, options, ...)

@@ -10,6 +10,7 @@
 #include <lacuna/sweep/assembly.h>
 #include <lacuna/sweep/sweep.h>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -49,6 +50,16 @@ struct SplitInterface {
         cells; ///< nodes in the whole mesh, from one side to the other; wedges: `mesh::is_wedge()`
 };
 
+/// Faces of two regions that touch, or face each other within a gap, without common nodes.
+struct Contact {
+    std::array<std::string, 2> regions;    ///< in the order of the members
+    std::vector<std::array<int, 2>> faces; ///< tags of the faces that come together
+    double gap = 0;                        ///< within which they were looked for [model length]
+    double least = 0, width = 0;           ///< smallest and largest distance within it [model length]
+    double area = 0;                       ///< of the first region's faces within it [model length²]
+    mesh::ContactPair pair;                ///< its groups and tolerance are those of a mesh
+};
+
 /// The mesh of an assembly, or of a volume that was cut or filled with tetrahedra.
 struct FilledParts {
     sweep::SweptAssembly swept;         ///< its `nodes` count those of `tets` too
@@ -57,8 +68,9 @@ struct FilledParts {
     std::vector<sweep::LeftOut> left_out;
     std::vector<FilledTets> tets;
     std::vector<SplitInterface> interfaces{}; ///< from `split_interface()`
-    std::string unit{};                       ///< as `Volume::unit`
-    bool copied = false;                      ///< as in `FilledVolume`
+    std::vector<Contact> contacts{};
+    std::string unit{};  ///< as `Volume::unit`
+    bool copied = false; ///< as in `FilledVolume`
 };
 
 /// A mesh, and the volumes with the roles that they were swept with.
@@ -134,6 +146,7 @@ struct InterfaceFaces {
 /// interface inside the mesh the parts are joined around the end, and the node stays one. The first nodes
 /// keep their numbers; new nodes follow the others. A cell goes from the part that was meshed first to the
 /// other: its nodes 1 to 4 lie on the first, and the direction of its stack is from nodes 1-4 to nodes 5-8.
+/// Doubles on periodic faces are paired like the parts that have them.
 /// @throw InvalidInput "fill.interface_none"     no face is named, or none of them is shared by two parts.
 ///                     "fill.interface_element"  the element has thickness, or is no hexahedron of 8 nodes.
 ///                     "fill.interface_order"    the mesh is of order 2.

@@ -5,7 +5,9 @@
 #include <lacuna/core/shared/same_corners.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -159,11 +161,46 @@ private:
                 if (number[own] != node) renumbered[part][node] = number[own];
             }
         }
+        pair_doubles(renumbered);
         for (std::size_t p = 0; p < parts_.size(); ++p)
             if (!renumbered[p].empty())
                 for (Index& n : *parts_[p].number)
                     if (const auto other = renumbered[p].find(n); other != renumbered[p].end())
                         n = other->second;
+    }
+
+    /// Pair nodes of periodic faces anew: a double belongs to the part behind a side, and its image to that
+    /// behind the side's image.
+    void pair_doubles(const std::vector<std::map<Index, Index>>& renumbered)
+    {
+        for (mesh::PeriodicNodes& periodic : mesh_.swept.periodic) {
+            std::map<Index, Index> image;
+            std::set<Index> images;
+            for (const auto& [a, b] : periodic.pairs) image[a] = b, images.insert(b);
+            std::map<Quad, std::size_t> behind;
+            const auto each_side = [&](const auto& visit) {
+                for (std::size_t p = 0; p < parts_.size(); ++p)
+                    for (std::size_t i = 0; i < parts_[p].sides.size(); ++i) visit(p, whole(p, i));
+            };
+            each_side([&](std::size_t p, const Quad& side) {
+                if (std::ranges::all_of(side, [&](Index n) { return images.contains(n); }))
+                    behind[face_key(side)] = p;
+            });
+            std::set<std::array<Index, 2>> pairs;
+            const auto now = [&](std::size_t p, Index n) {
+                const auto other = renumbered[p].find(n);
+                return other == renumbered[p].end() ? n : other->second;
+            };
+            each_side([&](std::size_t p, const Quad& side) {
+                if (!std::ranges::all_of(side, [&](Index n) { return image.contains(n); })) return;
+                Quad there = side;
+                for (Index& n : there) n = image.at(n);
+                const auto other = behind.find(face_key(there));
+                for (std::size_t k = 0; k < 4 && other != behind.end(); ++k)
+                    pairs.insert({now(p, side[k]), now(other->second, there[k])});
+            });
+            periodic.pairs.assign(pairs.begin(), pairs.end());
+        }
     }
 
     static std::size_t root(const std::map<std::size_t, std::size_t>& sets, std::size_t part)

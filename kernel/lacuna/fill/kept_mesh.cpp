@@ -89,6 +89,10 @@ std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh)
         throw InvalidInput(
             Message("fill.split_member", "a mesh that was split cannot be a member of an assembly")
                 .remedy("join the meshes first, and split the joined one"));
+    if (!mesh.contacts.empty())
+        throw InvalidInput(
+            Message("fill.contact_member", "a mesh with contact pairs cannot be a member of an assembly")
+                .remedy("give its volumes instead"));
     std::vector<std::unique_ptr<KeptMesh>> all;
     for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
         const std::string& group = mesh.swept.parts[p].mesh.volume_groups.front();

@@ -7,6 +7,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/nearest_word.h>
 #include <lacuna/fill/describe.h>
+#include <lacuna/fill/detail/contacts.h>
 #include <lacuna/fill/detail/kept_mesh.h>
 #include <lacuna/fill/detail/tets.h>
 #include <lacuna/io/shared/units.h>
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <tuple>
@@ -36,6 +38,7 @@ struct Part {
     bool left_out = false;            ///< left out of the sweep; options may still name its faces
     const Volume* piece_of = nullptr; ///< volume that this part is a piece of; null: it is no piece
     std::string whole{};              ///< name of that volume
+    std::size_t glue = 0;             ///< as of `sweep::AssemblyMember`
 };
 
 // --- options that name faces ------------------------------------------------------------------------------
@@ -65,6 +68,21 @@ void keep_known_faces(sweep::AssemblyMember& member)
     std::erase_if(member.options.intervals, [&](auto& interval) {
         return interval.of == surface::Interval::Of::wall && is_empty(interval.walls);
     });
+}
+
+/// The same for pairs of periodic faces: drop those of which no member has a face.
+void keep_known_pairs(std::vector<sweep::AssemblyMember>& members)
+{
+    const auto has_face = [&](const surface::FaceNames& names) {
+        return std::ranges::any_of(members, [&](const sweep::AssemblyMember& member) {
+            const auto known = [&](const auto& face) { return surface::has_face(*member.volume, face); };
+            return std::ranges::any_of(names.tags, known) || std::ranges::any_of(names.names, known);
+        });
+    };
+    for (sweep::AssemblyMember& member : members)
+        std::erase_if(member.options.periodic, [&](const surface::PeriodicPair& pair) {
+            return !has_face(pair.a) && !has_face(pair.b);
+        });
 }
 
 /// The most similar face name among the given volumes; empty if no face has a name.
@@ -225,6 +243,7 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
     const Volume& volume = part.volume;
     sweep::AssemblyMember member{&volume.volume, part.asked->options, region, nullptr, volume.turn_of};
     member.whole = part.whole;
+    member.glue = part.glue;
     member.piece_of = part.piece_of != nullptr ? &part.piece_of->volume : nullptr;
     member.alone = alone;
     if (volume.level > 0) member.options.layers = {};
@@ -393,35 +412,104 @@ void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunCo
                            tets.region, tets.mesh.cells.size() - tets.mesh.pyramids, tets.mesh.pyramids));
 }
 
-/// Close the volumes, sweep all parts as one mesh, and fill those that cannot be swept, if their options say
-/// so.
-/// @param left_out  volumes that were left out before.
-/// @param alone     whether the parts are the pieces of a single volume, with no other member.
-FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, bool alone,
-                        const RunContext& context)
+/// Sweep parts that share nodes, and fill those that cannot be swept, if their options say so.
+FilledParts sweep_glued(Prepared ready, bool alone, const RunContext& context)
 {
-    Prepared ready = prepare(all, std::move(left_out), alone, context);
-    choose_sweeps(ready, context);
-    check_known_faces(all);
     for (sweep::AssemblyMember& member : ready.members) keep_known_faces(member);
-    if (ready.members.empty() && !ready.left_out.empty()) throw NotSweepable(ready.left_out.front().message);
     FilledParts mesh{sweep::sweep_assembly(ready.members, context), {}, {}, std::move(ready.left_out), {}};
-    for (const Part& one : all) {
-        const std::string& unit = one.kept ? one.kept->unit : one.volume.unit;
-        mesh.unit = io::common_unit(mesh.unit, "a volume of the assembly", unit, "another");
-    }
     for (const std::size_t m : mesh.swept.member) {
         const sweep::AssemblyMember& member = ready.members[m];
         mesh.regions.push_back(member.turn_of.empty() ? member.region : member.turn_of);
         mesh.materials.push_back(ready.materials[m]);
     }
-    for (const Part& one : all)
-        if (one.asked != nullptr && !one.left_out) report_left_out(one.volume, mesh.swept.report);
     for (const sweep::LeftOut& out : mesh.left_out)
         mesh.swept.report.push_back(formatted("left out: {} [{}]", out.message.text(), out.message.code()));
     mesh.left_out.insert(mesh.left_out.end(), mesh.swept.left_out.begin(), mesh.swept.left_out.end());
     fill_rest(ready, alone, mesh, context);
     return mesh;
+}
+
+/// Close the volumes and sweep all parts: those with the same glue as one mesh, each set with its own nodes.
+/// @param left_out  volumes that were left out before.
+/// @param alone     whether the parts are the pieces of a single volume, with no other member.
+FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, bool alone,
+                        const RunContext& context, const ContactRequest& request = {})
+{
+    Prepared ready = prepare(all, std::move(left_out), alone, context);
+    check_known_faces(all);
+    if (ready.members.empty() && !ready.left_out.empty()) throw NotSweepable(ready.left_out.front().message);
+    std::map<std::size_t, Prepared> sets; // by their glue
+    for (std::size_t m = 0; m < ready.members.size(); ++m) {
+        Prepared& set = sets[ready.members[m].glue];
+        set.members.push_back(ready.members[m]);
+        set.materials.push_back(ready.materials[m]);
+        set.parts.push_back(ready.parts[m]);
+    }
+    if (ready.members.empty()) sets[0]; // which is refused
+    if (sets.size() > 1) sweep::check_alike(ready.members);
+    std::vector<sweep::AssemblyMember> members; // in the order of the sets
+    for (auto& [glue, set] : sets) {
+        choose_sweeps(set, context);
+        members.insert(members.end(), set.members.begin(), set.members.end());
+    }
+    const std::vector<FoundContact> found = find_contacts(members, request, context);
+    for (const auto& [glue, set] : sets) {
+        const sweep::AssemblyMember& first = set.members.front();
+        const std::string& name = first.whole.empty() ? first.region : first.whole;
+        if (glue > 0 && std::ranges::none_of(found, [&](const FoundContact& of) {
+                return std::ranges::find(of.contact.regions, name) != of.contact.regions.end();
+            }))
+            log_line(context, formatted("note: {} is not glued, and is in contact with no volume", name));
+    }
+    FilledParts mesh;
+    std::size_t before = 0;
+    for (auto& [glue, set] : sets) {
+        const std::size_t count = set.members.size();
+        if (before == 0) set.left_out = std::move(ready.left_out);
+        if (sets.size() > 1) keep_known_pairs(set.members);
+        if (!found.empty()) // pairs are written with the whole
+            for (sweep::AssemblyMember& member : set.members) member.options.layered = false;
+        FilledParts one = sweep_glued(std::move(set), alone, context);
+        for (std::size_t& m : one.swept.member) m += before;
+        for (sweep::Unswept& unswept : one.swept.unswept) unswept.member += before;
+        append(mesh, std::move(one));
+        before += count;
+    }
+    for (const Part& one : all) {
+        const std::string& unit = one.kept ? one.kept->unit : one.volume.unit;
+        mesh.unit = io::common_unit(mesh.unit, "a volume of the assembly", unit, "another");
+    }
+    for (const Part& one : all)
+        if (one.asked != nullptr && !one.left_out) report_left_out(one.volume, mesh.swept.report);
+    for (const FoundContact& contact : found) add_contact(mesh, members, contact);
+    return mesh;
+}
+
+/// The parts of an assembly: the volumes, cut where needed, and the finished meshes.
+std::vector<Part> parts_of(std::span<const Member> members, std::vector<sweep::LeftOut>& left_out,
+                           const RunContext& context)
+{
+    std::vector<Part> parts;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const Member& member = members[m];
+        if (member.mesh != nullptr) parts.push_back({nullptr, {}, {}, keep(*member.mesh)});
+        if (member.parts != nullptr)
+            for (std::unique_ptr<KeptMesh>& kept : keep(*member.parts))
+                parts.push_back({nullptr, {}, {}, std::move(kept)});
+        if (member.volume == nullptr) continue;
+        const std::string& own = member.volume->name;
+        const std::string name = own.empty() ? formatted("volume_{}", m + 1) : own;
+        const std::size_t first = parts.size();
+        const auto add = [&] { add_parts(parts, member, name, name, context); };
+        if (!do_or_leave_out(left_out, name, member, add))
+            parts.push_back({&member, name, *member.volume, nullptr, true});
+        for (std::size_t p = first; p < parts.size() && !member.volume->glued; ++p) parts[p].glue = m + 1;
+    }
+    std::vector<KeptMesh*> kept;
+    for (const Part& part : parts)
+        if (part.kept) kept.push_back(part.kept.get());
+    add_skins(kept, context);
+    return parts;
 }
 
 } // namespace
@@ -477,33 +565,16 @@ FilledParts fill_alone(const Member& member, const RunContext& context)
     return sweep_parts(parts, {}, true, context);
 }
 
-Filled sweep(std::span<const Member> members, const RunContext& context)
+Filled sweep(std::span<const Member> members, const RunContext& context, const ContactRequest& request)
 {
-    std::vector<Part> parts;
     std::vector<sweep::LeftOut> left_out;
-    for (std::size_t m = 0; m < members.size(); ++m) {
-        const Member& member = members[m];
-        if (member.mesh != nullptr) parts.push_back({nullptr, {}, {}, keep(*member.mesh)});
-        if (member.parts != nullptr)
-            for (std::unique_ptr<KeptMesh>& kept : keep(*member.parts))
-                parts.push_back({nullptr, {}, {}, std::move(kept)});
-        if (member.volume == nullptr) continue;
-        const std::string& own = member.volume->name;
-        const std::string name = own.empty() ? formatted("volume_{}", m + 1) : own;
-        const auto add = [&] { add_parts(parts, member, name, name, context); };
-        if (!do_or_leave_out(left_out, name, member, add))
-            parts.push_back({&member, name, *member.volume, nullptr, true});
-    }
-    std::vector<KeptMesh*> kept;
-    for (const Part& part : parts)
-        if (part.kept) kept.push_back(part.kept.get());
-    add_skins(kept, context);
+    std::vector<Part> parts = parts_of(members, left_out, context);
     const auto asked = std::ranges::find_if(members, [](const Member& member) {
         return member.volume != nullptr && member.options.fallback != sweep::Fallback::mixed;
     });
     const sweep::SweepOptions none;
     Filled filled = sweep_or_name_tets(asked == members.end() ? none : asked->options, [&] {
-        return Filled{{}, sweep_parts(parts, std::move(left_out), false, context)};
+        return Filled{{}, sweep_parts(parts, std::move(left_out), false, context, request)};
     });
     for (const Member& member : members) {
         if (member.volume == nullptr) continue;
@@ -512,6 +583,17 @@ Filled sweep(std::span<const Member> members, const RunContext& context)
                                                                                   : *member.volume);
     }
     return filled;
+}
+
+std::vector<Contact> contacts(std::span<const Member> members, const ContactRequest& request,
+                              const RunContext& context)
+{
+    // A volume without ends to sweep between has faces too.
+    std::vector<Member> closed(members.begin(), members.end());
+    for (Member& member : closed) member.options.fallback = sweep::Fallback::mixed;
+    std::vector<sweep::LeftOut> none;
+    std::vector<Part> parts = parts_of(closed, none, context);
+    return without_faces(find_contacts(prepare(parts, {}, false, context).members, request, context));
 }
 
 } // namespace lacuna::fill

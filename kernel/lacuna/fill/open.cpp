@@ -4,6 +4,7 @@
 #include <lacuna/closure/shared/along.h>
 #include <lacuna/closure/shared/walls_alone.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/members.h>
@@ -12,6 +13,9 @@
 #include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/left_out.h>
 
+#include <algorithm>
+#include <functional>
+#include <set>
 #include <utility>
 
 namespace lacuna::fill {
@@ -72,6 +76,25 @@ topology::OpenVolume open_full_turn(const Model& model, const std::vector<FaceId
     return volume;
 }
 
+/// Note the node sets of decks that hold nodes of a source: groups of a swept mesh are of faces and cells.
+void note_node_sets(const Model& source, const RoleRequest& request, const RunContext& context)
+{
+    std::vector<std::string> sets;
+    for (const auto& deck : request.decks) {
+        std::set<io::DeckTag> on_source;
+        for (const Index node : io::nodes_at(*deck, source.points, source.tolerance, request.scale).nodes)
+            on_source.insert(deck->point_tags[index(node)]);
+        for (const io::DeckSet& set : deck->sets)
+            if (set.kind == io::DeckSet::Kind::nodes &&
+                std::ranges::any_of(set.members, [&](io::DeckTag tag) { return on_source.contains(tag); }))
+                sets.push_back(set.name);
+    }
+    if (!sets.empty())
+        log_line(context, formatted("note: open_volume: node sets of the source are no groups of the swept "
+                                    "mesh: {}; 'with' of mesh:write keeps them",
+                                    short_list(sets, std::identity())));
+}
+
 std::shared_ptr<const closure::SweptSource> open_along(const Model& model, const RoleRequest& request,
                                                        const RunContext& context)
 {
@@ -87,6 +110,7 @@ std::shared_ptr<const closure::SweptSource> open_along(const Model& model, const
     auto swept = std::make_shared<closure::SweptSource>(
         closure::swept_source(model, std::move(open), *request.along, context));
     swept->sets = edge_sets(swept->source.model, request.decks, request.scale);
+    note_node_sets(swept->source.model, request, context);
     return swept;
 }
 
@@ -158,6 +182,7 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
     if (request.reading > 0 || (request.full_turn && !request.roles)) volume.take_guess = true;
     volume.name = request.name;
     volume.material = request.material;
+    volume.glued = request.glued;
     return volume;
 }
 

@@ -173,6 +173,7 @@ Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string
     volume.decks = whole.decks;
     volume.scale = whole.scale;
     volume.unit = whole.unit;
+    volume.glued = whole.glued;
     return volume;
 }
 

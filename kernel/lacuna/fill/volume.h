@@ -45,7 +45,8 @@ struct Volume {
     std::string material;              ///< name or number of its material; empty: none
     std::vector<std::shared_ptr<const io::Deck>> decks; ///< meshes that the model was read from
     double scale = 1;                                   ///< model coordinates / coordinates of `decks`
-    std::string unit; ///< declared unit of its lengths, as `io::metres_of()`; empty: none
+    std::string unit;  ///< declared unit of its lengths, as `io::metres_of()`; empty: none
+    bool glued = true; ///< whether it shares nodes with its neighbours in an assembly
 };
 
 /// The faces of a model that bound the volume, and their roles. Without `roles`, the roles are found.
@@ -63,6 +64,7 @@ struct RoleRequest {
     double scale = 1; ///< model coordinates / coordinates of `decks`
     std::string name; ///< region of its cells
     std::string material;
+    bool glued = true; ///< as `Volume::glued`
 };
 
 /// Open a volume from named faces, or find the roles of its faces. A closed volume without ends to sweep

@@ -108,6 +108,7 @@ public:
         for (std::size_t s = 0; s < view_->sets.size(); ++s)
             if (!by_elements_[s]) add_set(s);
         add_periodic();
+        add_contacts();
         if (view_->frames) add_orientation();
         file_.add(cards.others);
         return std::move(file_);
@@ -171,6 +172,19 @@ private:
         }
         file_.add(std::move(text));
     }
+    void add_contacts()
+    {
+        for (const mesh::ContactPair& pair : view_->contacts) {
+            const std::string name = abaqus_name(pair.name);
+            file_.add(pair.tied ? "*TIE, NAME=" + name + ", POSITION TOLERANCE=" + real(pair.tolerance) +
+                                      ", ADJUST=NO\n"
+                                : "*SURFACE INTERACTION, NAME=" + name +
+                                      "\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n"
+                                      "*CONTACT PAIR, INTERACTION=" +
+                                      name + ", TYPE=SURFACE TO SURFACE\n");
+            file_.add(names_[pair.sets[0]] + ", " + names_[pair.sets[1]] + "\n");
+        }
+    }
     /// For each region, add a distribution with the axes of its cells, and an orientation that uses it, for
     /// *SOLID SECTION.
     void add_orientation()
@@ -204,6 +218,7 @@ private:
     static char* put_axes(const MeshView& view, std::size_t b, std::size_t begin, std::size_t end, char* out)
     {
         view.blocks[b].tags.each(begin, end, [&](std::size_t i, DeckTag tag) {
+            if ((*view.frames)[b][i].column.isZero()) return;
             const std::array<Vec3, 3> axes = (*view.frames)[b][i].material();
             out = put_text(out, tag);
             for (const std::size_t a : {std::size_t(0), std::size_t(1)})

@@ -4,6 +4,7 @@
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/types.h>
 #include <lacuna/mesh/cell_shape.h>
+#include <lacuna/mesh/mesh_part.h>
 
 #include <cstdint>
 #include <map>
@@ -140,6 +141,7 @@ struct Deck {
     std::vector<DeckBlock> blocks;
     std::vector<DeckRegion> regions;
     std::vector<DeckSet> sets;
+    std::vector<mesh::ContactPair> contacts{}; ///< of meshes that were not read from a file
     std::vector<DeckInstance> instances;
     std::vector<DeckText> texts;
     std::vector<std::string> notes; ///< ignored content with counts; one sentence each

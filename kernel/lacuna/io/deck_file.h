@@ -28,6 +28,9 @@ struct MeshDeckOptions {
     /// Material of the hexahedra: a name or number in the deck that they join, in any case. Empty: the
     /// material of the elements next to the void, if the deck gives it.
     std::string material{};
+    /// Of meshes with shared nodes: written as *TIE and *CONTACT PAIR in Abaqus, as BSURFS with BGSET and
+    /// BCTSET in Nastran. In other formats only the groups of their faces are written, and a note says so.
+    std::vector<mesh::ContactPair> contacts{};
 };
 
 /// Indices of sets in a deck, by the kind of the set and the group that it holds.

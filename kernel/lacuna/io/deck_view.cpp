@@ -365,6 +365,7 @@ std::shared_ptr<MeshView> view_of(const Deck& deck, const Format& format, std::s
         own.members = bulk->members(set, s);
         own.count = set.members.size() + bulk->cells_in(s);
     }
+    view->contacts = deck.contacts;
     if (format.is_numbered) {
         view->kept = kept_text(deck, format.deck);
         return view;

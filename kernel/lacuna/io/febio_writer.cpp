@@ -7,6 +7,7 @@
 #include <lacuna/io/detail/side_nodes.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -72,7 +73,13 @@ public:
         file_.add("    </Nodes>\n");
         for (std::size_t b = 0; b < view_->blocks.size(); ++b) add_elements(b);
         for (std::size_t s = 0; s < view_->sets.size(); ++s) add_set(s);
-        file_.add("  </Mesh>\n  <MeshDomains>\n" + domains_ + "  </MeshDomains>\n</febio_spec>\n");
+        file_.add("  </Mesh>\n  <MeshDomains>\n" + domains_ + "  </MeshDomains>\n");
+        if (!axes_.empty()) {
+            file_.add("  <MeshData>\n");
+            std::ranges::move(axes_, std::back_inserter(file_.sections));
+            file_.add("    </ElementData>\n  </MeshData>\n");
+        }
+        file_.add("</febio_spec>\n");
         return std::move(file_);
     }
 
@@ -103,6 +110,9 @@ private:
             const std::string part = free(material, material + "_" + word, parts_);
             ++wholes_[material].first;
             wholes_[material].second += elements.count();
+            if (view_->frames && !(*view_->frames)[b].empty() &&
+                !(*view_->frames)[b][elements[0]].column.isZero()) // unlike cells of no thickness
+                add_axes(b, part, elements);
             file_.sections.push_back(
                 {formatted("    <Elements type=\"{}\" name=\"{}\">\n", word, escaped(part)), elements.count(),
                  29 * kNumberBytes,
@@ -127,6 +137,34 @@ private:
                                   shape_info(block.shape).dimension == 3 ? "SolidDomain" : "ShellDomain",
                                   escaped(part), escaped(material));
         }
+    }
+
+    /// The first two axes of the material of each element of a part.
+    void add_axes(std::size_t b, const std::string& part, const mesh::Ranges& elements)
+    {
+        const char* const end = axes_.empty() ? "" : "    </ElementData>\n";
+        axes_.push_back(
+            {formatted("{}    <ElementData type=\"mat_axis\" elem_set=\"{}\">\n", end, escaped(part)),
+             elements.count(), 11 * kNumberBytes,
+             [view = view_, b, elements](std::size_t begin, std::size_t last, char* out) {
+                 for (; begin < last; ++begin) {
+                     const auto axes = (*view->frames)[b][elements[begin]].material();
+                     out = put_words(out, "      <elem lid=\"");
+                     out = put_words(put_text(out, static_cast<DeckTag>(begin + 1)), "\">");
+                     out = put_axis(put_axis(out, axes[0], "<a>", "</a>"), axes[1], "<d>", "</d>");
+                     out = put_words(out, "</elem>\n");
+                 }
+                 return out;
+             }});
+    }
+    static char* put_axis(char* out, const Vec3& axis, std::string_view before, std::string_view after)
+    {
+        out = put_words(out, before);
+        for (const Index i : {0, 1, 2}) {
+            if (i > 0) *out++ = ',';
+            out = put_text(out, axis[i]);
+        }
+        return put_words(out, after);
     }
 
     static std::string region_name(const MeshView::Region& region)
@@ -194,6 +232,7 @@ private:
     SideNodes sides_;
     DeckFile file_;
     std::string domains_;
+    std::vector<Section> axes_; ///< of the parts whose elements have directions
     std::map<std::string, std::pair<int, std::size_t>> wholes_; ///< number of parts and of elements of each
                                                                 ///< region
     std::set<std::string> parts_, node_sets_, surfaces_;        ///< names in use

@@ -79,12 +79,13 @@ std::vector<FormatRow> make_table()
     row = deck_format(".inp", "an Abaqus deck", "Abaqus", abaqus, Format::Skin::nodes_and_sides, abaqus_file,
                       read_abaqus);
     row.options = "element orientation with without renumber first_node first_cell interfaces";
+    row.has_contacts = true;
     table.push_back(row);
     for (const char* ending : {".bdf", ".nas", ".dat"}) {
         row = deck_format(ending, "a Nastran deck", "Nastran", nastran, Format::Skin::nodes, nastran_file,
                           read_nastran);
         row.unwritten_sets = "sets of sides are not written: Nastran has none";
-        row.omits_middles = true;
+        row.omits_middles = row.has_contacts = true;
         row.options = kOrientedDeckOptions;
         table.push_back(row);
     }
@@ -105,7 +106,7 @@ std::vector<FormatRow> make_table()
     }
     row = deck_format(".feb", "a FEBio file", "FEBio", febio, Format::Skin::nodes_and_sides, febio_file,
                       nullptr);
-    row.is_read = false, row.has_hex27 = true;
+    row.is_read = false, row.has_hex27 = true, row.options = kOrientedDeckOptions;
     table.push_back(row);
     row = view_format(".med", "a MED file", "MED", med,
                       "with without renumber first_node first_cell interfaces", med_file);

@@ -35,6 +35,7 @@ struct Format {
     bool numbers_regions = false; ///< users identify regions by property number
     /// Which kinds of sets of a deck it cannot store, and why; empty: it stores all.
     std::string_view unwritten_sets{};
+    bool has_contacts = false; ///< pairs of `MeshDeckOptions::contacts` are written
     bool has_node_sets = true; ///< if false, sets contain sides only
 
     [[nodiscard]] bool has_option(std::string_view option) const

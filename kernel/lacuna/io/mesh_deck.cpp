@@ -292,7 +292,7 @@ private:
                 block.regions.push_back(region);
             }
         }
-        if (has_sides()) std::tie(cells_, sides_) = parts_.behind_skin();
+        if (has_sides() || !options_.contacts.empty()) std::tie(cells_, sides_) = parts_.behind_skin();
     }
 
     [[nodiscard]] bool is_emptied(const std::string& name) const
@@ -561,7 +561,10 @@ private:
         for (const std::uint32_t i : quads)
             for (const Index node : parts_.skin_nodes(i)) set.members.push_back(point_tag(node));
         add_set(set, name, name);
-        if (!has_sides()) return;
+        const bool in_contact = std::ranges::any_of(options_.contacts, [&](const mesh::ContactPair& pair) {
+            return std::ranges::find(pair.groups, name) != pair.groups.end();
+        });
+        if (!has_sides() && !in_contact) return;
         DeckSet cells, sides;
         sides.kind = DeckSet::Kind::sides;
         for (const std::uint32_t i : quads) {
@@ -703,6 +706,17 @@ std::vector<Quad> numbered_skin(const mesh::HexMesh& mesh, const Number& number)
     return skin;
 }
 
+/// List contact pairs with the sets of their sides.
+void add_contacts(Deck& deck, const MeshDeckOptions& options, const JoinedBefore& before)
+{
+    deck.contacts = options.contacts;
+    for (mesh::ContactPair& pair : deck.contacts)
+        for (const std::size_t s : {0, 1})
+            if (const auto set = before.sets.find({DeckSet::Kind::sides, pair.groups[s]});
+                set != before.sets.end())
+                pair.sets[s] = set->second;
+}
+
 /// Start a deck of a format.
 Deck new_deck(DeckFormat format)
 {
@@ -746,6 +760,7 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
         tidy(place.sets);
         options.first_node = options.first_cell = 0;
     }
+    add_contacts(deck, options, before);
     return deck;
 }
 
@@ -795,6 +810,7 @@ Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedT
     };
     for (std::size_t p = 0; p < swept.size(); ++p) add(SweptParts{swept[p].mesh}, p);
     for (std::size_t t = 0; t < tets.size(); ++t) add(TetParts{tets[t].mesh}, swept.size() + t);
+    add_contacts(deck, options, before);
     return deck;
 }
 

@@ -2,6 +2,7 @@
 #include <lacuna/io/mesh_file.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/team.h>
 #include <lacuna/io/detail/deck_view.h>
 #include <lacuna/io/detail/format_table.h>
@@ -21,6 +22,18 @@ void tell(const std::vector<std::string>& notes, const OutputPath& path, const R
 {
     if (team != nullptr && team->rank != 0) return;
     for (const std::string& note : notes) log_line(context, formatted("note: {}: {}", path.text(), note));
+}
+
+/// Note pairs that the format does not hold.
+void tell_contacts(const Format& format, const mesh::MeshView& view, const MeshFileOptions& options,
+                   const OutputPath& path, const RunContext& context, const Team* team)
+{
+    if (view.contacts.empty() || format.has_contacts) return;
+    const bool one = format.has_option("groups") && !options.all_groups;
+    const auto groups = [](const mesh::ContactPair& pair) { return pair.groups[0] + ", " + pair.groups[1]; };
+    tell({formatted("ties and contacts are not written; the faces of pairs are the groups {}{}",
+                    short_list(view.contacts, groups), one ? ", with groups = \"all\"" : "")},
+         path, context, team);
 }
 
 void check_version(const Format& format, const MeshFileOptions& options)
@@ -49,15 +62,19 @@ void write_view(const FormatRow& format, const View& view, const std::function<m
     const mesh::ViewParts parts = divided ? divide() : mesh::ViewParts();
     if (format.write == nullptr) {
         tell(notes, path, context, team);
+        tell_contacts(format, *view, options, path, context, team);
         if (format.is_folder) return format.write_folder(*view, path, context);
         return write_pieces(view, parts, options.partition.ghosts, path, context, team);
     }
     const DeckFile file = format.write(view, options, divided ? &parts : nullptr);
     tell(file.notes, path, context, team);
     tell(notes, path, context, team);
+    tell_contacts(format, *view, options, path, context, team);
     if (!file.changed.empty()) tell({file.changed}, path, context, team);
     write_file(path, file.sections, file.sizes, context, team);
 }
+
+bool has_fields(const Format& format) { return !format.is_numbered || format.deck == DeckFormat::exodus; }
 
 /// Write swept meshes with the regions and sets of a deck.
 void write_as_deck(const Format& format, std::span<BulkPart> parts, const OutputPath& path,
@@ -68,8 +85,7 @@ void write_as_deck(const Format& format, std::span<BulkPart> parts, const Output
     const Deck deck = deck_without_bulk(parts, deck_options, options.interfaces, context);
     const std::shared_ptr<mesh::MeshView> view = view_of(deck, format, parts);
     add_periodic(options.periodic, format.is_numbered, *view);
-    const bool fields = !format.is_numbered || format.deck == DeckFormat::exodus;
-    if (options.orientation) add_orientation(parts, fields, *view);
+    if (options.orientation) add_orientation(parts, has_fields(format), *view);
     std::vector<std::string> notes;
     if (format.is_folder && !options.periodic.empty())
         notes.emplace_back(
@@ -102,6 +118,11 @@ void note_sets(const Format& format, const Deck& deck, std::vector<std::string>&
 {
     if (format.unwritten_sets.empty()) return;
     const auto unwritten = std::ranges::count_if(deck.sets, [&](const DeckSet& set) {
+        const auto number = static_cast<std::size_t>(&set - deck.sets.data());
+        const auto is_paired = [&](const mesh::ContactPair& pair) {
+            return std::ranges::find(pair.sets, number) != pair.sets.end();
+        };
+        if (std::ranges::any_of(deck.contacts, is_paired)) return false;
         return set.kind == DeckSet::Kind::sides ||
                (set.kind == DeckSet::Kind::nodes && !format.has_node_sets);
     });
@@ -172,7 +193,11 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
         return write_deck(without_lines(deck), format, path, context, options);
     }
     const FormatRow& row = row_of(format);
-    const View view = view_of(deck, format);
+    const std::shared_ptr<mesh::MeshView> view = view_of(deck, format);
+    add_periodic(options.periodic, format.is_numbered, *view);
+    std::vector<BulkPart> oriented;
+    for (const mesh::HexMesh* mesh : options.oriented) oriented.push_back({*mesh, nullptr, nullptr});
+    if (options.orientation) add_orientation(oriented, has_fields(format), *view);
     for (std::size_t b = 0; b < deck.blocks.size(); ++b)
         if (!row.omits_middles && std::ranges::find(deck.blocks[b].nodes, -1) != deck.blocks[b].nodes.end())
             refuse_element(view->blocks[b], format.word, "some lack middle nodes");

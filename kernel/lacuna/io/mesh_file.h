@@ -41,9 +41,11 @@ struct MeshFileOptions {
                         ///< deck, or none
     /// Write the directions of cells (`mesh::cell_frames()`). In VTK and Exodus they are the fields "column",
     /// "axis", "radial" and "tangential". In Abaqus they are a distribution and an orientation for each
-    /// region, in Nastran coordinate systems and MATCID cards; these have the axes of
+    /// region, in Nastran coordinate systems and MATCID cards, in FEBio `mat_axis`; these have the axes of
     /// `CellFrame::material()`. The meshes must store their nodes.
     bool orientation = false;
+    /// For a deck, `orientation` applies to these meshes, whose cells are the first of their shapes in it.
+    std::vector<const mesh::HexMesh*> oriented{};
     /// Nodes of periodic faces. They are written as $Periodic in .msh, as equations or a cyclic symmetry in
     /// Abaqus, as multipoint constraints in Nastran, and elsewhere as two sets of nodes in the order of the
     /// pairs.

@@ -4,6 +4,7 @@
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/nastran.h>
 #include <lacuna/io/detail/periodic_nodes.h>
+#include <lacuna/io/detail/side_nodes.h>
 
 #include <algorithm>
 #include <array>
@@ -240,6 +241,36 @@ std::string periodic_text(const MeshView& view)
     return text;
 }
 
+/// A region of faces of solids for each side of a contact, and sets of glued and of contact pairs, of number
+/// 1: as the manuals of Simcenter Nastran describe them.
+std::string contact_text(const MeshView& view)
+{
+    if (view.contacts.empty()) return {};
+    const SideNodes sides(view);
+    std::string text, glued, contact;
+    std::size_t region = 0;
+    for (const mesh::ContactPair& pair : view.contacts) {
+        for (const std::size_t s : {0, 1}) {
+            text += "$ faces of " + pair.groups[s] + "\nBSURFS," + std::to_string(++region) + ",,,";
+            std::size_t count = 0; // one face on the first line, two on each other
+            for (const DeckSide& side : view.sets[pair.sets[s]].sides) {
+                if (count++ % 2 == 1) text += "\n+";
+                text += "," + std::to_string(side.element);
+                for (const Index node : sides[side].first(3))
+                    text += "," + std::to_string(view.point_tags[index(node)]);
+            }
+            text += "\n";
+        }
+        std::string& set = pair.tied ? glued : contact;
+        set += set.empty() ? (pair.tied ? "BGSET,1," : "BCTSET,1,") : ",,\n+,,";
+        set += std::to_string(region - 1) + "," + std::to_string(region) + "," +
+               (pair.tied ? real_text(pair.tolerance) + ",," : ",0.," + real_text(pair.tolerance));
+    }
+    if (!glued.empty()) text += "$ ties: BGSET = 1 in the case control\n" + glued + "\n";
+    if (!contact.empty()) text += "$ contacts: BCSET = 1 in the case control\n" + contact + "\n";
+    return text;
+}
+
 /// Coordinate systems: one for all cells that have the same axes, with a MATCID card that assigns it to them.
 std::string orientation_text(const MeshView& view)
 {
@@ -248,6 +279,7 @@ std::string orientation_text(const MeshView& view)
     for (std::size_t b = 0; b < view.blocks.size(); ++b) {
         if ((*view.frames)[b].empty()) continue;
         view.blocks[b].tags.each(0, view.blocks[b].count, [&](std::size_t i, DeckTag tag) {
+            if ((*view.frames)[b][i].column.isZero()) return;
             const std::array<Vec3, 3> axes = (*view.frames)[b][i].material();
             std::array<std::string, 6> key;
             for (std::size_t k = 0; k < 6; ++k)
@@ -285,7 +317,7 @@ DeckFile nastran_file(const View& view, const MeshFileOptions& options, const me
     for (const MeshView::Set& set : view->sets)
         if (set.count > 0) text += set_text(set, ++number);
     if (!view->kept) text += property_text(*view);
-    text += periodic_text(*view);
+    text += periodic_text(*view) + contact_text(*view);
     if (view->frames) text += orientation_text(*view);
     file.add(std::move(text));
     file.add(kept.tail);

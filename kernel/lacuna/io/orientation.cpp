@@ -3,6 +3,7 @@
 
 #include <lacuna/io/detail/cell_shapes.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace lacuna::io {
@@ -13,13 +14,16 @@ void add_orientation(std::span<const BulkPart> parts, bool fields, mesh::MeshVie
     auto frames = std::make_shared<std::vector<std::vector<CellFrame>>>(view.blocks.size());
     for (const BulkPart& part : parts) {
         const std::vector<CellFrame> own = mesh::cell_frames(part.mesh);
-        for (std::size_t b = 0; b < view.blocks.size(); ++b)
-            for (const std::size_t kind : {std::size_t(0), std::size_t(1)}) {
-                if (part.cells.shapes()[kind] != view.blocks[b].shape) continue;
-                for (std::size_t i = 0; i < part.cells.count[kind]; ++i)
-                    (*frames)[b].push_back(own[part.cells.cell(kind, i)]);
-            }
+        for (const std::size_t kind : {std::size_t(0), std::size_t(1)}) {
+            const auto block = std::ranges::find(view.blocks, part.cells.shapes()[kind],
+                                                 &mesh::MeshView::Block::shape);
+            for (std::size_t i = 0; i < part.cells.count[kind]; ++i)
+                (*frames)[static_cast<std::size_t>(block - view.blocks.begin())].push_back(
+                    own[part.cells.cell(kind, i)]);
+        }
     }
+    for (std::size_t b = 0; b < view.blocks.size(); ++b) // cells of no thickness follow
+        if (!(*frames)[b].empty()) (*frames)[b].resize(view.blocks[b].count);
     view.frames = frames;
     if (!fields) return;
     const std::pair<const char*, Vec3 CellFrame::*> all[] = {{"column", &CellFrame::column},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -75,6 +76,15 @@ struct PeriodicNodes {
         Eigen::Isometry3d::Identity();       ///< moves the first node of each pair to the second
     std::vector<std::array<Index, 2>> pairs; ///< in the numbering of the whole mesh; both nodes are equal on
                                              ///< the axis
+};
+
+/// Two groups of faces without common nodes, between which a solver has a tie or a contact.
+struct ContactPair {
+    std::string name;
+    std::array<std::string, 2> groups; ///< of the skins: the slave's, whose nodes are held, and the master's
+    bool tied = true;
+    double tolerance = 0;              ///< no node of a tie is further from the master [model length]
+    std::array<std::size_t, 2> sets{}; ///< in a deck: indices of the groups' sets of sides
 };
 
 /// One of several swept meshes with shared nodes, which may not store its nodes. Holds references only.

@@ -149,6 +149,32 @@ struct PartsBefore {
     }
 };
 
+} // namespace
+
+void check_alike(std::span<const AssemblyMember> members)
+{
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        if (members[m].region == "volume" && members.size() > 1)
+            throw InvalidInput(
+                Message("assembly.same_name",
+                        "a volume of the assembly is named \"volume\", the group name of all cells")
+                    .remedy("give it another name"));
+        const SweepOptions &first = members.front().options, &own = members[m].options;
+        if (own.order != first.order || own.second_order.serendipity != first.second_order.serendipity)
+            throw InvalidInput(
+                Message("assembly.order",
+                        "{} and {} become one mesh, which needs the same order and 'serendipity' everywhere",
+                        members.front().region, members[m].region)
+                    .remedy("give both the same"));
+        for (std::size_t n = 0; n < m; ++n)
+            if (members[m].region == members[n].region)
+                throw InvalidInput("assembly.same_name", "two volumes of the assembly are named \"{}\"",
+                                   members[m].region);
+    }
+}
+
+namespace {
+
 class Assembler {
 public:
     Assembler(std::span<const AssemblyMember> members, PartsBefore& before, const RunContext& context)
@@ -197,26 +223,7 @@ private:
     void check_members() const
     {
         if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs at least one volume");
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            if (members_[m].region == "volume" && members_.size() > 1)
-                throw InvalidInput(
-                    Message("assembly.same_name",
-                            "a volume of the assembly is named \"volume\", the group name of all cells")
-                        .remedy("give it another name"));
-            const SweepOptions &first = members_.front().options, &own = members_[m].options;
-            if (own.order != first.order || own.second_order.serendipity != first.second_order.serendipity)
-                throw InvalidInput(
-                    Message(
-                        "assembly.order",
-                        "{} and {} become one mesh, which needs the same order and 'serendipity' everywhere",
-                        members_.front().region, members_[m].region)
-                        .remedy("give both the same"));
-            for (std::size_t n = 0; n < m; ++n) {
-                if (members_[m].region == members_[n].region)
-                    throw InvalidInput("assembly.same_name", "two volumes of the assembly are named \"{}\"",
-                                       members_[m].region);
-            }
-        }
+        check_alike(members_);
     }
 
     void check_count() const

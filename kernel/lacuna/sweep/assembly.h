@@ -8,6 +8,7 @@
 #include <lacuna/topology/open_volume.h>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,6 +38,8 @@ struct AssemblyMember {
     const topology::OpenVolume* piece_of = nullptr;
     bool alone = false;   ///< it is the only volume, or all members are pieces of one volume
     bool unswept = false; ///< not swept: the caller meshes it beside the others; see `Unswept`
+    /// Members with the same number share faces and nodes; see `faces_in_contact()` for others.
+    std::size_t glue = 0;
 };
 
 /// A face shared by two members, one on each side.
@@ -71,6 +74,27 @@ struct NearMiss {
 /// by a distance in that range. Names them.
 /// @note  O(facets log facets) over faces whose boxes meet.
 std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context = {});
+
+/// Two faces of two members that touch, or face each other within a gap, without shared nodes.
+struct FaceContact {
+    std::size_t a = 0, b = 0; ///< indices in the list of members, a < b
+    FaceId face_a, face_b;
+    double least = 0, width = 0; ///< smallest and largest distance within the gap [model length]
+    double area = 0;             ///< area of the first face within the gap of the other [model length²]
+};
+
+/// The faces of members in contact. Pieces of one volume have none with each other, glued members only where
+/// they share no face, and a face that mostly lies on another member only with that.
+/// @param gap  of two members: the largest distance of faces in contact [model length].
+/// @throw InvalidInput "assembly.overlap"  as `shared_faces()`, of members that are not glued.
+/// @note  as `shared_faces()`
+std::vector<FaceContact> faces_in_contact(std::span<const AssemblyMember> members,
+                                          const std::function<double(std::size_t a, std::size_t b)>& gap,
+                                          const RunContext& context = {});
+
+/// Check the names and orders of members that become one mesh, glued or not.
+/// @throw InvalidInput "assembly.same_name", "assembly.order"
+void check_alike(std::span<const AssemblyMember> members);
 
 /// A volume of an assembly that could not be meshed and was left out.
 struct LeftOut {

@@ -264,6 +264,43 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
     }
 }
 
+/// The faces of all members, prepared for comparison.
+struct MemberSides {
+    std::vector<std::vector<Side>> sides;
+    std::vector<Eigen::AlignedBox3d> box;
+
+    /// @param sag  of each member's first faces; the others' are added.
+    MemberSides(std::span<const AssemblyMember> members, std::vector<std::vector<double>>& sag)
+        : sides(members.size()), box(members.size())
+    {
+        sag.resize(members.size());
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            const OpenVolume& volume = *members[m].volume;
+            for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
+                if (f == sag[m].size()) sag[m].push_back(facet_sag(volume.model, volume.model.faces[f]));
+                Side side{&volume, FaceId(f), {}, sag[m][f]};
+                for (const Triangle& t : volume.model.faces[f].triangles)
+                    for (const Index p : t) side.box.extend(volume.model.at(p));
+                box[m].extend(side.box);
+                sides[m].push_back(std::move(side));
+            }
+        }
+    }
+
+    [[nodiscard]] bool are_near(std::size_t a, std::size_t b, double distance) const
+    {
+        const double margin = std::max(distance,
+                                       1e-3 * (box[a].diagonal().norm() + box[b].diagonal().norm()));
+        return Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
+            .intersects(box[b]);
+    }
+    void check_apart(std::span<const AssemblyMember> members, std::size_t a, std::size_t b) const
+    {
+        sweep::check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b]);
+        sweep::check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a]);
+    }
+};
+
 } // namespace
 
 /// Facets that meet at an angle represent an arc that deviates from them by about an eighth of that angle
@@ -291,21 +328,8 @@ double facet_sag(const Model& model, const Face& face)
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
                               std::vector<std::vector<double>> sag)
 {
-    std::vector<std::vector<Side>> sides(members.size());
-    sag.resize(members.size());
-    std::vector<Eigen::AlignedBox3d> box(members.size());
-    for (std::size_t m = 0; m < members.size(); ++m) {
-        const OpenVolume& volume = *members[m].volume;
-        for (std::size_t f = 0; f < volume.model.faces.size(); ++f) {
-            if (f == sag[m].size()) sag[m].push_back(facet_sag(volume.model, volume.model.faces[f]));
-            Side side{&volume, FaceId(f), {}, sag[m][f]};
-            for (const Triangle& t : volume.model.faces[f].triangles) {
-                for (const Index p : t) side.box.extend(volume.model.at(p));
-            }
-            box[m].extend(side.box);
-            sides[m].push_back(std::move(side));
-        }
-    }
+    const MemberSides all(members, sag);
+    const std::vector<std::vector<Side>>& sides = all.sides;
     FacesInCommon found;
     std::optional<Message> same_side;
     std::vector<NearPair> pairs;
@@ -314,13 +338,8 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
         for (std::size_t b = a + 1; b < members.size(); ++b) {
             NearPair pair{a, b, pair_tolerance(members[a], members[b]), 0, {}};
             pair.window = near_window(members[a], members[b]);
-            const double margin = std::max(kAround * pair.window,
-                                           1e-3 * (box[a].diagonal().norm() + box[b].diagonal().norm()));
-            if (!Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
-                     .intersects(box[b]))
-                continue;
-            check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b]);
-            check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a]);
+            if (!all.are_near(a, b, kAround * pair.window)) continue;
+            all.check_apart(members, a, b);
             pair.overlaps = face_overlaps(*members[a].volume, sag[a], *members[b].volume, sag[b],
                                           pair.tolerance, pair.window, context);
             for (const Side& one : sides[a]) {
@@ -356,6 +375,54 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
 void refuse_partly_shared(const FacesInCommon& found)
 {
     if (!found.partly.empty()) throw InvalidInput(found.partly.front().refusal);
+}
+
+std::vector<FaceContact> faces_in_contact(std::span<const AssemblyMember> members,
+                                          const std::function<double(std::size_t a, std::size_t b)>& gap,
+                                          const RunContext& context)
+{
+    std::vector<std::vector<double>> sag;
+    const MemberSides all(members, sag);
+    std::vector<NearPair> pairs;
+    std::vector<std::vector<char>> covered; // faces that mostly lie on another member
+    for (const AssemblyMember& member : members) covered.emplace_back(member.volume->model.faces.size(), 0);
+    const auto area = [&](std::size_t m, FaceId face) { return face_area(members[m].volume->model, face); };
+    for (std::size_t a = 0; a < members.size(); ++a)
+        for (std::size_t b = a + 1; b < members.size(); ++b) {
+            NearPair pair{a, b, pair_tolerance(members[a], members[b]), 0, {}};
+            pair.window = std::max(pair.tolerance, gap(a, b));
+            if (!all.are_near(a, b, pair.window)) continue;
+            if (members[a].glue != members[b].glue) all.check_apart(members, a, b);
+            pair.overlaps = face_overlaps(*members[a].volume, sag[a], *members[b].volume, sag[b],
+                                          pair.tolerance, pair.window, context);
+            for (const auto& [faces, overlap] : pair.overlaps) {
+                const double opposite = overlap.a.on - overlap.a.same_way;
+                if (opposite >= kMostly * area(a, faces.first)) covered[a][faces.first.index()] = 1;
+                if (opposite >= kMostly * area(b, faces.second)) covered[b][faces.second.index()] = 1;
+            }
+            pairs.push_back(std::move(pair));
+        }
+    std::vector<FaceContact> found;
+    for (const NearPair& pair : pairs) {
+        const AssemblyMember &a = members[pair.a], &b = members[pair.b];
+        if (!a.whole.empty() && a.whole == b.whole) continue;
+        for (const auto& [faces, overlap] : pair.overlaps) {
+            const double least = std::min(area(pair.a, faces.first), area(pair.b, faces.second));
+            const bool touch = overlap.a.on - overlap.a.same_way > kNothing * least;
+            const bool hidden = covered[pair.a][faces.first.index()] != 0 ||
+                                covered[pair.b][faces.second.index()] != 0;
+            if (touch ? a.glue == b.glue : hidden) continue;
+            // A strip along a common rim is none, unless it is most of a face.
+            const double limit = pair.tolerance + sag[pair.a][faces.first.index()] +
+                                 sag[pair.b][faces.second.index()];
+            const double strip = std::max(limit, pair.window) * overlap.box.diagonal().norm();
+            if (!(overlap.a.within > 0) || (overlap.a.within < kMostly * least && overlap.a.within <= strip))
+                continue;
+            found.push_back({pair.a, pair.b, faces.first, faces.second, overlap.least,
+                             std::max(overlap.gap, overlap.depth), overlap.a.within});
+        }
+    }
+    return found;
 }
 
 std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context)

@@ -259,6 +259,7 @@ struct MeshView {
     /// Named lists of entity numbers or of point indices.
     std::vector<std::pair<std::string, std::vector<int>>> lists;
     std::vector<Periodic> periodic;
+    std::vector<ContactPair> contacts; ///< contacts of a deck
     /// For each block, the directions of its cells; empty for blocks without solids. Null: not requested.
     std::shared_ptr<const std::vector<std::vector<CellFrame>>> frames;
     std::vector<GroupTag> group_tags; ///< group tags to keep from the source file

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/fill.h>
+
+#include <span>
+#include <vector>
+
+namespace lacuna::fill {
+
+/// The contact of two regions, and its faces.
+struct FoundContact {
+    Contact contact;
+    std::vector<sweep::FaceContact> faces; ///< `a` is of the first region
+};
+
+/// As `contacts()`. Without a gap only regions that are not glued can be in contact.
+std::vector<FoundContact> find_contacts(std::span<const sweep::AssemblyMember> members,
+                                        const ContactRequest& request, const RunContext& context);
+
+std::vector<Contact> without_faces(std::vector<FoundContact> found);
+
+/// Add a contact to a mesh, with groups of its faces; none if the volumes of a side were left out.
+void add_contact(FilledParts& mesh, std::span<const sweep::AssemblyMember> members,
+                 const FoundContact& found);
+
+/// Add a mesh that shares no nodes with the whole.
+void append(FilledParts& whole, FilledParts part);
+
+} // namespace lacuna::fill
