@@ -25,7 +25,7 @@ namespace {
 constexpr double kPrecision = 1e-8;
 /// The same for walls and edges made by a known motion, which are exact: a spline through a circle of this
 /// precision encloses its area to 1e-10.
-constexpr double kMotionPrecision = 1e-10;
+constexpr double kMotionPrecision = 1e-11;
 /// Most interpolation points of a filled surface, for each inner loop and for the facets: its cost grows with
 /// the cube of their number.
 constexpr std::size_t kLeadingPoints = 40;
@@ -249,8 +249,7 @@ private:
         ++plan_.fitted;
         if (const auto* swept = dynamic_cast<const geometry::SweptSurface*>(face.surface.get())) {
             made.kind = SolidFace::patches;
-            // Of curved edges that precision takes 16,000 poles, and Open CASCADE minutes.
-            made.surfaces = swept_patches(*swept, swept->has_kinks() ? motion_precision_ : precision_);
+            made.surfaces = swept_patches(*swept, motion_precision_);
             return made;
         }
         const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())
