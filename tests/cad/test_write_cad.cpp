@@ -450,7 +450,7 @@ TEST_CASE("what cannot be written is refused, and what was there before stays")
     CHECK(refusal([&] { cad::write_cad(volume, folder.path("no/a.step")); }, {"folder"}) == "io.no_folder");
     CHECK(refusal([&] { cad::write_cad(volume, folder.path("a.step"), {.deviation = 0}); }, {"deviation"}) ==
           "cad.deviation");
-    CHECK(refusal([&] { cad::write_cad(volume, kept, {.deviation = 1e-9}); }, {"facets"}) ==
+    CHECK(refusal([&] { cad::write_cad(volume, kept, {.deviation = 1e-14}); }, {"facets"}) ==
           "cad.volume_differs");
     std::atomic<bool> cancel = true;
     RunContext context;

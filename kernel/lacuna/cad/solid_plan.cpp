@@ -25,7 +25,7 @@ namespace {
 constexpr double kPrecision = 1e-8;
 /// The same for walls and edges that a known motion makes. These are exact: a spline of this precision
 /// through a circle encloses the circle's area to 1e-10.
-constexpr double kMotionPrecision = 1e-10;
+constexpr double kMotionPrecision = 1e-11;
 /// Limit on the interpolation points of a filled surface: for each inner loop, and for the facets. The cost
 /// grows with the cube of the number of points.
 constexpr std::size_t kLeadingPoints = 40;
@@ -249,9 +249,7 @@ private:
         ++plan_.fitted;
         if (const auto* swept = dynamic_cast<const geometry::SweptSurface*>(face.surface.get())) {
             made.kind = SolidFace::patches;
-            // For curved edges this precision would need 16,000 poles, and Open CASCADE would take minutes.
-            // So only straight segments get it.
-            made.surfaces = swept_patches(*swept, swept->has_kinks() ? motion_precision_ : precision_);
+            made.surfaces = swept_patches(*swept, motion_precision_);
             return made;
         }
         const auto sides = face.loops.size() == 1 ? closure::logical_sides(volume_, face.loops.front())

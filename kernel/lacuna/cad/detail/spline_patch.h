@@ -16,7 +16,7 @@ using cad_protocol::SplineCurveData;
 using cad_protocol::SplineSurfaceData;
 
 /// Degree and knots of a spline in one direction that interpolates `count` values at equidistant parameters
-/// in [0, 1]: cubic with not-a-knot ends, or of lower degree if there are fewer than four values.
+/// in [0, 1]: of degree 5 with not-a-knot ends, or of lower degree if there are fewer than six values.
 SplineAxisData even_axis(std::size_t count);
 /// Axis with `spans` knot spans of equal length in [0, 1]; it has spans + degree poles.
 SplineAxisData axis_of_spans(std::size_t spans, int degree);
