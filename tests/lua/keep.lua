@@ -182,4 +182,24 @@ do
   end
   assert(#on_side > 15)
 end
+-- Triangles keep the nodes of their edges: where that is coarser than the size, a note says so.
+do
+  local corners = {}
+  for k = 0, 7 do corners[k] = { 12 * (k & 1), 12 * (k >> 1 & 1), 12 * (k >> 2) } end
+  for _, keep in ipairs { true, false } do
+    local cube = lacuna.model()
+    for name, face in pairs { low = { 0, 2, 3, 1 }, top = { 4, 5, 7, 6 }, front = { 0, 1, 5, 4 },
+      back = { 2, 6, 7, 3 }, left = { 0, 4, 6, 2 }, right = { 1, 3, 7, 5 } } do
+      local points = {}
+      for i, k in ipairs(face) do points[i] = corners[k] end
+      cube:add_face { name = name, points = points, cells = { { 1, 2, 3 }, { 1, 3, 4 } }, keep_mesh = keep }
+    end
+    for size, coarse in pairs { [1.5] = keep, [11] = false } do
+      local mesh = cube:open_volume { source = "low", target = "top", walls = "auto" }:sweep { size = size }
+      local noted = tostring(mesh.report):find("so the size does not apply there", 1, true) ~= nil
+      check.equal(noted, coarse, "size " .. size)
+      check.equal(mesh.hexes, (keep or size > 6) and 1 or 512)
+    end
+  end
+end
 check.done()

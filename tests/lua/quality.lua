@@ -103,6 +103,7 @@ for sides = 3, 7 do
       met[column] = true
     end
     check.that(next(met), message)
+    check.that(message:find("lower 'min_scaled_jacobian'", 1, true) and not message:find("mixed", 1, true))
     ::next::
   end
 end

@@ -276,6 +276,10 @@ do
   local out = params.scratch .. "/refused.inp"
   check.fails(function() mesh:write(out, { with = loaded, without = "nothing" }) end, "nothing")
   check.fails(function() mesh:write(out, { without = "plug" }) end, "without")
+  -- Forgotten: the mesh would lie over the plug's own elements.
+  local whole = lacuna.load(path)
+  check.fails(function() pit(whole, true):write(out, { with = whole }) end, "io.overlap", "16 ", "plug",
+    "without")
   check.that(not check.exists(out))
 end
 

@@ -344,6 +344,10 @@ Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& optio
     // Faces of tetrahedra cannot be periodic.
     if (options.fallback == sweep::Fallback::mixed || !options.tet_mesher || !options.periodic.empty())
         return why;
+    // Tetrahedra are worse than hexahedra that only miss a limit.
+    if (why.code() == "quality.below_limit")
+        return why.remedy().empty() ? why.remedy("change 'size' or 'layers', or lower 'min_scaled_jacobian'")
+                                    : why;
     return why.remedy("{}try {}fallback = \"mixed\"", why.remedy().empty() ? "" : why.remedy() + ", or ",
                       options.layered ? "sweep with " : "");
 }

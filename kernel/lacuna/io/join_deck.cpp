@@ -37,6 +37,7 @@ public:
     std::vector<Index> points(const std::vector<bool>& gone)
     {
         match();
+        check_beside();
         check_patches(gone);
         std::vector<Index> points(mesh_.nodes.size(), -1);
         for (std::size_t n = 0; n < points.size(); ++n) points[n] = point_of(n);
@@ -91,7 +92,7 @@ private:
             for (std::size_t k = 0; k < 4; ++k) sides.emplace(rising(Segment{quad[k], quad[(k + 1) % 4]}), 0);
         }
         touching_.assign(deck_.regions.size(), 0);
-        const auto take = [&](std::span<const Index> points, Index region) {
+        const auto take = [&](std::span<const Index> points, Index region, const Element* solid) {
             Quad nodes{-1, -1, -1, -1};
             const std::size_t corners = points.size();
             bool all = true; // whether all corners lie on the skin
@@ -102,6 +103,7 @@ private:
             if (const auto found = all ? faces.find(rising(nodes)) : faces.end(); found != faces.end()) {
                 matched_[found->second] = true;
                 if (region >= 0) ++touching_[index(region)];
+                if (solid != nullptr && is_inside(*solid, found->second)) inside_[solid->tag] = region;
                 for (std::size_t k = 0; k < corners; ++k) vote(by_face_, nodes[k], points[k]);
             }
             for (std::size_t k = 0; k < corners; ++k) {
@@ -115,6 +117,37 @@ private:
             for (std::size_t e = 0; e < block.count(); ++e) each_face(block, e, take);
     }
 
+    struct Element {
+        DeckTag tag;
+        std::span<const Index> corners;
+    };
+
+    /// Whether an element with a face on quad `i` of the skin lies on the same side of it as the mesh.
+    [[nodiscard]] bool is_inside(const Element& element, std::size_t i) const
+    {
+        Quad quad = skin_quad(mesh_, i).nodes; // the skin faces outward
+        if (quad[3] < 0) quad[3] = quad[2];    // a triangle
+        const auto at = [&](std::size_t k) -> const Vec3& { return mesh_.nodes[index(quad[k])]; };
+        const Vec3 normal = (at(2) - at(0)).cross(at(3) - at(1));
+        double height = 0; // of the element's corners above the quad
+        for (const Index point : element.corners)
+            for (std::size_t k = 0; k < 4; ++k)
+                height += normal.dot(deck_.points[index(point)] * scale_ - at(k));
+        return height < 0;
+    }
+
+    /// Check that the elements of the deck at the skin lie outside the mesh.
+    void check_beside() const
+    {
+        if (inside_.empty()) return;
+        const auto [tag, region] = *inside_.begin();
+        const std::string name = region >= 0 ? deck_.regions[index(region)].name : std::string();
+        throw InvalidInput(Message("io.overlap",
+                                   "the mesh lies over {} of the deck's elements, such as element {}{}",
+                                   found(inside_.size()), tag, name.empty() ? "" : " of " + name)
+                               .remedy("leave them out with the option 'without', or do not write the deck"));
+    }
+
     /// Faces of an element with at least two corners on the skin.
     template <class Take>
     void each_face(const DeckBlock& block, std::size_t e, const Take& take) const
@@ -124,12 +157,13 @@ private:
         const auto corners = element.first(index(info.corners));
         const auto is_on = [&](Index point) { return node_of_[index(point)] >= 0; };
         if (info.dimension < 2 || std::ranges::count_if(corners, is_on) < 2) return;
-        if (info.dimension == 2) return take(corners, block.regions[e]);
+        if (info.dimension == 2) return take(corners, block.regions[e], nullptr);
+        const Element solid{block.tags[e], corners};
         for (const Quad& face : face_corners(block.shape)) {
             Quad points{};
             const std::size_t count = face[3] < 0 ? 3 : 4;
             for (std::size_t k = 0; k < count; ++k) points[k] = element[index(face[k])];
-            take(std::span<const Index>(points).first(count), block.regions[e]);
+            take(std::span<const Index>(points).first(count), block.regions[e], &solid);
         }
     }
 
@@ -234,6 +268,7 @@ private:
     Votes by_face_, by_side_;
     std::vector<bool> matched_;         ///< quads of the skin
     std::vector<std::size_t> touching_; ///< for each region, number of its faces on the skin
+    std::map<DeckTag, Index> inside_;   ///< elements that lie where the mesh lies, and their regions
 };
 
 template <class Mesh>

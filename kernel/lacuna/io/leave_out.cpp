@@ -410,6 +410,13 @@ Deck close_gap(Deck deck, const RunContext& context)
         log_line(context,
                  formatted("note: {}: these sets lost members that no mesh has replaced, or only in part: {}",
                            deck.path, listed(lost)));
+    std::erase_if(lost, [&](const std::string& name) {
+        return std::ranges::any_of(deck.sets, [&](const DeckSet& set) { return same_word(set.name, name); });
+    });
+    if (!lost.empty())
+        log_line(context, formatted("note: {}: these sets are empty and not written; remove lines that use "
+                                    "them: {}",
+                                    deck.path, listed(lost)));
     deck.gap.gone.clear();
     if (deck.gap.names.empty()) return deck;
     std::vector<std::string> empty; // empty element sets, whose sections are removed

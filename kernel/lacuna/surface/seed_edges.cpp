@@ -6,6 +6,7 @@
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/surface/detail/edge_turning.h>
 #include <lacuna/surface/shared/edge_nodes.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
 #include <cmath>
@@ -180,6 +181,27 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     piece.least = std::max(1, bends);
 }
 
+/// Note edges whose nodes are given by triangles alone, where a side is more than twice as long as the size.
+void note_coarse_edges(const SeedTask& task, Seeds& seeds)
+{
+    const auto has_quads = [&](const FaceUse& use) { return !task.model[use.face].given_quads.empty(); };
+    const auto is_coarse = [&](EdgeId edge, const SeedPiece& piece) {
+        if (!piece.fixed) return false;
+        SeedPiece by_size = piece;
+        ask_size(task, edge, by_size);
+        return by_size.count > 2 * std::ssize(piece.kept) + 2;
+    };
+    std::vector<EdgeId> coarse;
+    for (const auto& [edge, pieces] : seeds.pieces)
+        if (std::ranges::none_of(task.model.uses_of_edge(edge), has_quads) &&
+            std::ranges::any_of(pieces, [&](const SeedPiece& piece) { return is_coarse(edge, piece); }))
+            coarse.push_back(edge);
+    if (!coarse.empty())
+        seeds.notes.push_back(formatted("the nodes of given triangles are kept on {}, so the size does not "
+                                        "apply there; load with keep_mesh = false to mesh by size",
+                                        entities_of(task.model, coarse)));
+}
+
 } // namespace
 
 Seeds ask_edges(const SeedTask& task, std::span<const LinkingSurface> links,
@@ -213,6 +235,7 @@ Seeds ask_edges(const SeedTask& task, std::span<const LinkingSurface> links,
         if (model[edge].keeps_nodes && !task.rim.contains(edge))
             keep_nodes(model, *faces.begin(), edge, seeds);
     }
+    note_coarse_edges(task, seeds);
     return seeds;
 }
 
