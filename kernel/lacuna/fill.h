@@ -100,8 +100,9 @@ struct PatternOptions {
 /// @throw InvalidInput "fill.pattern_count"; "fill.copy_mixed"; as `sweep::sweep_assembly()`: copies that
 ///        overlap, or share a face in part. NotSweepable "assembly.not_shared"  faces coincide and their
 ///        quads differ; "assembly.hanging_node". Cancelled
-/// @note  24 bytes per node, and the quads of the source for each copy.
-FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const PatternOptions& options = {},
+/// @post  the copies of parts of order 1 do not store their nodes: see `hold_nodes()`.
+/// @note  the quads of the source for each copy; 24 bytes per node once they are stored.
+FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const PatternOptions& options = {},
                     const RunContext& context = {});
 
 /// Quads on faces, without layers.

@@ -79,7 +79,7 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh)
     return kept;
 }
 
-std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh)
+std::vector<std::unique_ptr<KeptMesh>> keep(FilledParts mesh)
 {
     if (!mesh.tets.empty())
         throw InvalidInput(
@@ -89,6 +89,7 @@ std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh)
         throw InvalidInput(
             Message("fill.split_member", "a mesh that was split cannot be a member of an assembly")
                 .remedy("join the meshes first, and split the joined one"));
+    hold_nodes(mesh);
     std::vector<std::unique_ptr<KeptMesh>> all;
     for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
         const std::string& group = mesh.swept.parts[p].mesh.volume_groups.front();

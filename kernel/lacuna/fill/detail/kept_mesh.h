@@ -34,7 +34,7 @@ struct KeptMesh {
 std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh);
 /// As above for each part, in the order of the parts.
 /// @throw InvalidInput "fill.mixed_member"  the mesh has tetrahedra.
-std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh);
+std::vector<std::unique_ptr<KeptMesh>> keep(FilledParts mesh);
 
 /// Move nodes of copies onto those of other meshes from which rounding separates them; make the skins.
 /// @throw InvalidInput  as `io::skin_of()`.
