@@ -831,7 +831,8 @@ function lacuna.assembly(volumes) end
 ---@param options lacuna.InterfaceOptions
 ---@return lacuna.AssemblyMesh
 function lacuna.split_interface(mesh, options) end
---- Quality of the solids of a mesh or deck in any format that is read.
+--- Quality of the solids of a mesh or deck in any format that is read; of a file without solids that of its
+--- quads, as QuadMesh:quality().
 ---@param path string
 ---@return lacuna.Quality
 function lacuna.check(path) end

@@ -131,8 +131,9 @@ struct PatternOptions {
 /// @throw InvalidInput "fill.pattern_count"; "fill.copy_mixed"; as `sweep::sweep_assembly()`: copies overlap,
 ///        or share part of a face. NotSweepable "assembly.not_shared": faces coincide, but their quads
 ///        differ; "assembly.hanging_node". Cancelled
-/// @note  Memory: 24 bytes per node, and the source quads of each copy.
-FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const PatternOptions& options = {},
+/// @post  The copies of parts of order 1 do not store their nodes: see `hold_nodes()`.
+/// @note  Memory: the source quads of each copy, and 24 bytes per node once nodes are stored.
+FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const PatternOptions& options = {},
                     const RunContext& context = {});
 
 /// Quads on faces, without layers.

@@ -417,7 +417,8 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
                  const Crew* crew, const RunContext& context)
 {
     if (!state.tets.empty() || !state.interfaces.empty()) return write_mixed(state, path, arguments, context);
-    if (std::ranges::any_of(state.swept.parts, [](const sweep::Swept& part) { return bool(part.layers); }))
+    const auto layered = [](const sweep::Swept& part) { return part.layers.has_value(); };
+    if (std::ranges::all_of(state.swept.parts, layered)) // which processes can share
         return team::write_parts(state.swept, path,
                                  {.binary = arguments.msh.binary,
                                   .version = arguments.msh.version,
@@ -431,7 +432,8 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
     }
     std::vector<mesh::LayeredPart> parts;
     for (std::size_t p = 0; p < state.regions.size(); ++p)
-        parts.push_back({state.swept.parts[p].mesh, nullptr, state.swept.numbering[p]});
+        parts.push_back(
+            {state.swept.parts[p].mesh, state.swept.parts[p].skin().layers, state.swept.numbering[p]});
     io::write_parts(format, parts, path, arguments.msh, arguments.deck, context);
 }
 
@@ -439,13 +441,15 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
 int write_assembly(lua_State* L)
 {
     lua_settop(L, 3);
-    const auto& state = hold<AssemblyMeshState>(L, 1);
+    auto& state = hold<AssemblyMeshState>(L, 1);
     const io::OutputPath& path = push_output_path(L, 2, "write");
     auto& arguments = temporary<WriteArguments>(L);
     read_options(L, 3, "write", kIoWriteOptions, arguments);
     RunContext& context = push_context(L);
     const Host& lent = host(L);
     guard(L, [&] {
+        if (!may_be_layered_of_parts(arguments, path) || arguments.msh.orientation || !arguments.with.empty())
+            fill::hold_nodes(state, context);
         write_pieces(state, path, arguments, lent.crew, context);
         write_options_beside(lent, path, arguments);
     });
@@ -579,11 +583,25 @@ std::vector<mesh::CellNodes> solids_of(const io::Deck& deck)
     for (const io::DeckBlock& block : deck.blocks)
         if (io::shape_info(block.shape).dimension == 3)
             for (std::size_t e = 0; e < block.count(); ++e) solids.push_back(io::solid_nodes(block, e));
-    if (!solids.empty()) return solids;
-    throw InvalidInput("lua.no_hexahedra", "check: {} holds no solids", deck.path);
+    return solids;
 }
 
-/// quality = lacuna.check(path): of the solids of a file
+/// The quads of a file without solids, as they are.
+fill::FilledShell quads_of(const io::Deck& deck, const RunContext& context)
+{
+    const bool has_quads = std::ranges::any_of(
+        deck.blocks, [](const io::DeckBlock& block) { return io::shape_info(block.shape).corners == 4; });
+    if (!has_quads)
+        throw InvalidInput("lua.no_hexahedra", "check: {} holds neither solids nor quads", deck.path);
+    sweep::SweepOptions options;
+    options.quads = sweep::Quads::keep;
+    RunContext quiet = context;
+    quiet.log = nullptr; // notes on the file are said
+    const topology::Model model = cad::load_files({deck.path}, {}, quiet).model;
+    return fill::quads(model, topology::all_faces(model), options, context);
+}
+
+/// quality = lacuna.check(path): of the solids of a file, or of its quads if it has no solids
 int check_file(lua_State* L)
 {
     lua_settop(L, 1);
@@ -592,16 +610,22 @@ int check_file(lua_State* L)
     RunContext& context = push_context(L);
     auto& source = temporary<QualitySource>(L);
     const int at = lua_gettop(L);
+    auto& shell = temporary<std::optional<fill::FilledShell>>(L);
     guard(L, [&] {
         check_input_path(lent, path);
         io::Deck deck = io::read_deck(path, context);
         const std::vector<mesh::CellNodes> cells = solids_of(deck);
+        if (cells.empty()) {
+            shell = quads_of(deck, context);
+            return;
+        }
         source.nodes = std::move(deck.points);
         source.quality = quality::measure_cells(source.nodes, cells, context);
         source.hexes.resize(cells.size());
         for (std::size_t c = 0; c < cells.size(); ++c)
             std::copy_n(cells[c].node.begin(), 8, source.hexes[c].begin());
     });
+    if (shell) return push_quads_quality(L, *shell);
     push_quality(L, at);
     return 1;
 }
@@ -631,7 +655,8 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
 
 bool may_be_layered_of_parts(const WriteArguments& arguments, const io::OutputPath& path)
 {
-    return io::needed_mesh_format("sweep_to", path.text()).streamed_parts && !arguments.partitions_given &&
+    const io::Format* const format = io::find_format(path.text());
+    return format != nullptr && format->streamed_parts && !arguments.partitions_given &&
            !arguments.msh.interfaces;
 }
 

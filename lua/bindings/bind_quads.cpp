@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // model:quads and QuadMesh. Writing, buffers and pages add their methods.
+#include "bindings/bind_quality.h"
 #include "bindings/classes.h"
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
@@ -32,7 +33,7 @@ int make_quad_mesh(lua_State* L)
 
 /// Number of quads, or of triangles.
 template <int Corners>
-std::size_t quad_mesh_count(const QuadMeshState& state)
+std::size_t quad_mesh_count(const fill::FilledShell& state)
 {
     std::size_t count = 0;
     for (const io::DeckBlock& block : state.deck.blocks)
@@ -117,19 +118,7 @@ int quad_mesh_groups(lua_State* L)
     return 1;
 }
 
-/// { min_scaled_jacobian =, mean_scaled_jacobian =, area =, face_area =, quads =, triangles = }
-int quad_mesh_quality(lua_State* L)
-{
-    const auto& state = check<QuadMeshState>(L, 1);
-    lua_createtable(L, 0, 6);
-    set_number(L, "min_scaled_jacobian", state.min_scaled_jacobian);
-    set_number(L, "mean_scaled_jacobian", state.mean_scaled_jacobian);
-    set_number(L, "area", state.area);
-    set_number(L, "face_area", state.face_area);
-    set_count(L, "quads", quad_mesh_count<4>(state));
-    set_count(L, "triangles", quad_mesh_count<3>(state));
-    return 1;
-}
+int quad_mesh_quality(lua_State* L) { return push_quads_quality(L, check<QuadMeshState>(L, 1)); }
 
 /// model = mesh:model(): a model whose faces keep the quads
 int quad_mesh_model(lua_State* L)
@@ -164,6 +153,18 @@ const Field kQuadMeshFields[] = {
 };
 
 } // namespace
+
+int push_quads_quality(lua_State* L, const fill::FilledShell& state)
+{
+    lua_createtable(L, 0, 6);
+    set_number(L, "min_scaled_jacobian", state.min_scaled_jacobian);
+    set_number(L, "mean_scaled_jacobian", state.mean_scaled_jacobian);
+    set_number(L, "area", state.area);
+    set_number(L, "face_area", state.face_area);
+    set_count(L, "quads", quad_mesh_count<4>(state));
+    set_count(L, "triangles", quad_mesh_count<3>(state));
+    return 1;
+}
 
 void bind_quads(lua_State* L)
 {

@@ -25,6 +25,9 @@ struct QualitySource {
 /// @param source  index of a `temporary<QualitySource>`
 void push_quality(lua_State* L, int source);
 
+/// { min_scaled_jacobian =, mean_scaled_jacobian =, area =, face_area =, quads =, triangles = }
+int push_quads_quality(lua_State* L, const fill::FilledShell& shell);
+
 /// The metric that is named at `index`.
 quality::Metric read_metric(lua_State* L, int index, const Where& where);
 

@@ -70,9 +70,10 @@ void write_page(const VolumeState& state, const io::OutputPath& path, const view
 {
     view::write_page(state.volume, path, options, context);
 }
-void write_page(const AssemblyMeshState& state, const io::OutputPath& path, const view::PageOptions& options,
+void write_page(AssemblyMeshState& state, const io::OutputPath& path, const view::PageOptions& options,
                 const RunContext& context)
 {
+    fill::hold_nodes(state, context);
     if (state.tets.empty()) return view::write_page(regions_of(state), path, options, context);
     view::write_page(fill::whole_deck(state, {.format = io::DeckFormat::msh}, false, context), path, options,
                      context);
@@ -191,9 +192,10 @@ void draw(const VolumeState& state, const io::OutputPath& path, const view::Pict
     view::write_picture(state.volume, path, options, context);
 }
 
-void draw(const AssemblyMeshState& state, const io::OutputPath& path, const view::PictureOptions& options,
+void draw(AssemblyMeshState& state, const io::OutputPath& path, const view::PictureOptions& options,
           const RunContext& context)
 {
+    fill::hold_nodes(state, context);
     if (state.tets.empty()) return view::write_picture(regions_of(state), path, options, context);
     view::write_picture(fill::whole_deck(state, {.format = io::DeckFormat::msh}, false, context), path,
                         options, context);

@@ -73,6 +73,15 @@ end
 
 function commands.check()
   local quality = lacuna.check(first)
+  if quality.quads then -- no solids
+    if option then
+      quality.file = first
+      return print(encode(quality))
+    end
+    local text = "%d quads, %d triangles, area %.6g; scaled Jacobian: %.3g at least, %.3g on average"
+    return print(text:format(quality.quads, quality.triangles, quality.area, quality.min_scaled_jacobian,
+      quality.mean_scaled_jacobian))
+  end
   if option then
     local told = {}
     for key, value in pairs(quality) do told[key] = value end

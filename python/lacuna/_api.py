@@ -1375,7 +1375,8 @@ def split_interface(mesh, faces, **keywords):
 
 
 def check(path):
-    """Quality of the solids of a mesh or deck in any format that is read."""
+    """Quality of the solids of a mesh or deck in any format that is read; of a file without solids that of
+    its quads, as QuadMesh:quality()."""
     return call("module", "check", path)
 
 

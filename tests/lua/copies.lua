@@ -218,10 +218,45 @@ local function bytes(name)
   return file:read "a"
 end
 check.that(bytes "a.msh" == bytes "b.msh", "the same bytes")
+-- Copies make their nodes as they are written; files are the same once another format has them stored.
+local function ring_of_eight()
+  return sector(8, "steel"):pattern { rotate = { origin, Z, 45 }, count = 8 }
+end
+local function grid_of_twelve()
+  return box():pattern({ translate = X, count = 3 }):pattern { translate = Y, count = 4 }
+end
+for _, made in ipairs { ring_of_eight, grid_of_twelve } do
+  for _, ending in ipairs { "msh", "vtu", "inp" } do
+    local pattern = made()
+    local path = "pattern." .. ending
+    pattern:write(params.scratch .. "/" .. path)
+    local before = bytes(path)
+    pattern:write(params.scratch .. "/stored.exo")
+    pattern:write(params.scratch .. "/" .. path)
+    check.that(before == bytes(path), "other bytes of " .. ending)
+  end
+end
+local function peak() -- in bytes, where the system tells it
+  local file <close> = io.open "/proc/self/status"
+  local kib = file and file:read("a"):match "VmHWM:%s*(%d+)"
+  return kib and tonumber(kib) * 1024
+end
+do
+  local mesh = swept({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, { vector = Z },
+    { size = 1 / 28, layers = 28 })
+  local before = peak()
+  local many = mesh:pattern { translate = X, count = 100 }
+  many:write(params.scratch .. "/many.vtu")
+  check.equal(many.hexes, 100 * 28 ^ 3)
+  if before then check.that(peak() < 1.2 * before + 24 * many.nodes, "memory of a pattern") end
+end
 
 -- --- refusals --------------------------------------------------------------------------------------------
 
 local one = box()
+-- A gap that is too small to be meant is said.
+local apart = one:pattern { translate = { 1.0001, 0, 0 }, count = 2 }
+check.that(tostring(apart.report):find("copies come within 0.0001", 1, true), "a gap")
 check.fails(function() one:copy {} end, "translate", "rotate", "mirror")
 check.fails(function() one:copy { translate = X, mirror = { origin, X } } end, "mirror", "translate")
 check.fails(function() one:copy { rotate = { origin, Z } } end, "angle")

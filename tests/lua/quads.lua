@@ -106,6 +106,9 @@ for order = 1, 2 do
     local read, area, quads = lacuna.load(path), 0, 0
     for _, face in ipairs(read:faces()) do area = area + face.area end
     check.near(area, mesh:quality().area, 1e-5)
+    local checked = lacuna.check(path)
+    check.equal(checked.quads, mesh.quads)
+    check.near(checked.min_scaled_jacobian, mesh:quality().min_scaled_jacobian, 1e-4)
     local named = ending == "msh" or ending == "inp" or ending == "exo"
     if named then check.equal(read:face("source").name, "source") end
     check.equal(read:quads({ quads = order == 1 and "keep" or "auto", size = 0.6 }).hexes, quads)
@@ -129,5 +132,12 @@ check.fails(function() panel:quads { quads = "keep" } end, "left")
 check.fails(function() ribbed:write(params.scratch .. "/x.vtu", { with = panel }) end, "with")
 check.fails(function() ribbed:write(params.scratch .. "/x.stl2") end, "stl2")
 check.fails(function() lacuna.assembly { ribbed } end, "Mesh")
+-- Triangles alone have no quality of quads.
+local triangle = params.scratch .. "/triangle.inp"
+do
+  local file <close> = assert(io.open(triangle, "w"))
+  file:write "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3, ELSET=A\n1, 1, 2, 3\n"
+end
+check.fails(function() lacuna.check(triangle) end, "lua.no_hexahedra", "quads")
 
 check.done()

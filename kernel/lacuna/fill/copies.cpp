@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -34,6 +35,31 @@ void move(sweep::Swept& swept, const Eigen::Affine3d& by)
     for (Quad& quad : mesh.quads) quad = mesh::turned_over(quad);
     for (Segment& side : mesh.rim) std::swap(side[0], side[1]);
     for (Quad& sides : mesh.middles.side_of) std::ranges::reverse(sides);
+}
+
+/// The nodes of a copy, made from those of the mesh. @param joined  nodes that an earlier copy has, ascending
+mesh::LayeredNodes copied_nodes(std::shared_ptr<const std::vector<Vec3>> nodes, std::size_t row,
+                                const Eigen::Affine3d& by, std::vector<std::pair<Index, Vec3>> joined)
+{
+    const auto places = std::make_shared<const std::vector<std::pair<Index, Vec3>>>(std::move(joined));
+    const auto from = [places](Index node) {
+        return std::ranges::lower_bound(*places, node, {}, &std::pair<Index, Vec3>::first);
+    };
+    mesh::LayeredNodes copied;
+    copied.place = [=](int first, int, std::span<Vec3> out, const RunContext&) {
+        const std::size_t begin = static_cast<std::size_t>(first) * row;
+        for (std::size_t n = 0; n < out.size(); ++n) out[n] = by * (*nodes)[begin + n];
+        for (auto at = from(static_cast<Index>(begin)); at != places->end(); ++at) {
+            const std::size_t n = index(at->first) - begin;
+            if (n >= out.size()) break;
+            out[n] = at->second;
+        }
+    };
+    copied.on_skin = [=](Index node) -> Vec3 {
+        const auto at = from(node);
+        return at != places->end() && at->first == node ? at->second : by * (*nodes)[index(node)];
+    };
+    return copied;
 }
 
 /// A part of a mesh, and one of its nodes or of the sides of its skin.
@@ -87,8 +113,11 @@ struct InCommon {
     std::vector<OfPart> of_copy, of_mesh;         ///< sides of the skins
 };
 
-/// Refuse a copy whose volumes overlap those of the mesh. @param number  of the copy, for messages.
-void check_volumes(const FilledParts& mesh, const FilledParts& copy, int number, const RunContext& context)
+/// Refuse a copy whose volumes overlap those of the mesh.
+/// @param number  of the copy, for messages
+/// @return  places where they nearly touch
+std::vector<sweep::NearMiss> check_volumes(const FilledParts& mesh, const FilledParts& copy, int number,
+                                           const RunContext& context)
 {
     std::array<FilledParts, 2> pair{mesh, copy};
     for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
@@ -100,7 +129,7 @@ void check_volumes(const FilledParts& mesh, const FilledParts& copy, int number,
     RunContext quiet = context;
     quiet.log = nullptr; // it would report faces that are shared in part as near misses
     const std::array<Member, 2> members{Member{nullptr, nullptr, &pair[0]}, {nullptr, nullptr, &pair[1]}};
-    sweep(members, quiet);
+    return std::get<FilledParts>(sweep(members, quiet).mesh).swept.near_misses;
 }
 
 /// Nodes and sides that a copy shares with the mesh: those in the same places.
@@ -180,12 +209,13 @@ void make_inner(std::vector<sweep::Swept>& parts, std::size_t first, std::span<c
     }
 }
 
+/// The box of a mesh and of all that comes near it.
 Eigen::AlignedBox3d box_of(const FilledParts& mesh)
 {
     Eigen::AlignedBox3d box;
     for (const sweep::Swept& part : mesh.swept.parts)
         for (const Vec3& p : part.mesh.nodes) box.extend(p);
-    const Vec3 slack = Vec3::Constant(kFileAccuracy * box.diagonal().norm());
+    const Vec3 slack = Vec3::Constant(sweep::kNearMiss * kFileAccuracy * box.diagonal().norm());
     return {box.min() - slack, box.max() + slack};
 }
 
@@ -216,6 +246,7 @@ FilledParts moved(FilledParts mesh, const Eigen::Affine3d& by, const std::string
     if (!mesh.tets.empty())
         throw InvalidInput(Message("fill.copy_mixed", "a mesh with tetrahedra cannot be copied")
                                .remedy("copy it in a solver, or mesh it without fallback = \"mixed\""));
+    hold_nodes(mesh);
     for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
         move(mesh.swept.parts[p], by);
         if (name.empty()) continue;
@@ -228,12 +259,13 @@ FilledParts moved(FilledParts mesh, const Eigen::Affine3d& by, const std::string
     return mesh;
 }
 
-FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const PatternOptions& options,
+FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const PatternOptions& options,
                     const RunContext& context)
 {
     if (options.count < 1)
         throw InvalidInput("fill.pattern_count", "a pattern needs at least {} copy, but {} are requested",
                            needed(1), found(options.count));
+    hold_nodes(mesh, context);
     const std::size_t parts = mesh.regions.size();
     const auto count = static_cast<std::size_t>(options.count);
     report_progress(context, "copies");
@@ -241,16 +273,30 @@ FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const 
     std::vector<Eigen::Affine3d> moves{Eigen::Affine3d::Identity()};
     std::vector<InCommon> common(count); // by distance in copies: what two copies that far apart share
     std::optional<Skin> skin;
+    std::vector<std::string> gaps;
     for (std::size_t k = 1; k < count; ++k) {
         check_cancelled(context);
         moves.push_back(step * moves.back());
         if (!box.intersects(box.transformed(moves[k]))) continue;
         if (!skin) skin.emplace(mesh);
-        check_volumes(mesh, moved(mesh, moves[k]), static_cast<int>(k), context);
+        const auto near = check_volumes(mesh, moved(mesh, moves[k]), static_cast<int>(k), context);
         common[k] = in_common(*skin, moves[k], box.diagonal().norm(), context);
+        if (near.empty() || !common[k].nodes.empty()) continue;
+        gaps.push_back(formatted("note: pattern: copies come within {:.3g} of each other and share no nodes "
+                                 "there; correct the motion to join them",
+                                 near.front().least));
+        log_line(context, gaps.back());
     }
+    skin.reset();
     FilledParts all = moved(mesh, moves[0]);
     sweep::SweptAssembly& whole = all.swept;
+    // Copies of order 1 make their nodes from these when they are needed.
+    std::vector<std::shared_ptr<const std::vector<Vec3>>> nodes(parts);
+    for (std::size_t p = 0; p < parts; ++p) {
+        mesh::HexMesh& part = mesh.swept.parts[p].mesh;
+        if (part.order() == 1)
+            nodes[p] = std::make_shared<const std::vector<Vec3>>(std::exchange(part.nodes, {}));
+    }
     whole.shared.clear();
     whole.parts.resize(count * parts);
     whole.numbering.clear();
@@ -259,6 +305,7 @@ FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const 
     for (std::size_t k = 0; k < count; ++k) {
         check_cancelled(context);
         std::vector<std::vector<std::pair<Index, Index>>> known(parts);
+        std::vector<std::vector<std::pair<Index, Vec3>>> places(parts); ///< of these nodes
         for (std::size_t p = 0; p < parts; ++p) {
             sweep::Swept& part = whole.parts[k * parts + p];
             if (k > 0) {
@@ -277,11 +324,21 @@ FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const 
             for (const auto& [own, there] : common[d].nodes) {
                 const std::size_t before = (k - d) * parts + there.part;
                 known[own.part].emplace_back(own.number, whole.numbering[before].of(there.number));
-                Vec3& place_there = place(whole.parts[k * parts + own.part].mesh, own.number);
-                place_there = whole.parts[before].mesh.node(index(there.number));
+                places[own.part].emplace_back(own.number, whole.parts[before].skin()[there.number]);
             }
             make_inner(whole.parts, k * parts, common[d].of_copy);
             make_inner(whole.parts, (k - d) * parts, common[d].of_mesh);
+        }
+        for (std::size_t p = 0; k > 0 && p < parts; ++p) {
+            sweep::Swept& part = whole.parts[k * parts + p];
+            std::ranges::stable_sort(places[p], {}, &std::pair<Index, Vec3>::first);
+            const auto again = std::ranges::unique(places[p], {}, &std::pair<Index, Vec3>::first);
+            places[p].erase(again.begin(), again.end());
+            if (nodes[p])
+                part.layers = copied_nodes(nodes[p], index(part.mesh.nodes_per_layer), moves[k],
+                                           std::move(places[p]));
+            else
+                for (const auto& [node, there] : places[p]) place(part.mesh, node) = there;
         }
         for (std::size_t p = 0; p < parts; ++p) {
             for (const auto& [own, number] : mesh.swept.numbering[p].known()) {
@@ -292,11 +349,14 @@ FilledParts pattern(const FilledParts& mesh, const Eigen::Affine3d& step, const 
             const auto again = std::ranges::unique(known[p], {}, &std::pair<Index, Index>::first);
             known[p].erase(again.begin(), again.end());
             joined += k > 0 ? known[p].size() - mesh.swept.numbering[p].known().size() : 0;
-            whole.numbering.emplace_back(next, std::move(known[p]), mesh.swept.parts[p].mesh.node_count());
+            const mesh::HexMesh& part = mesh.swept.parts[p].mesh;
+            whole.numbering.emplace_back(next, std::move(known[p]),
+                                         mesh::corner_count(part) + mesh::middle_count(part));
             next += static_cast<Index>(whole.numbering.back().fresh());
         }
     }
     whole.nodes = index(next);
+    whole.report.insert(whole.report.end(), gaps.begin(), gaps.end());
     whole.report.push_back(formatted("pattern: {} copies, {} nodes joined", count, joined));
     return all;
 }

@@ -134,6 +134,16 @@ std::vector<Group> groups(const FilledParts& mesh)
     return all;
 }
 
+void hold_nodes(FilledParts& mesh, const RunContext& context)
+{
+    for (sweep::Swept& part : mesh.swept.parts) {
+        if (!part.layers) continue;
+        part.mesh.nodes.resize(mesh::corner_count(part.mesh));
+        part.layers->place(0, part.mesh.layers + 1, part.mesh.nodes, context);
+        part.layers.reset();
+    }
+}
+
 WholeCells whole_cells(const FilledParts& mesh_of_all)
 {
     const sweep::SweptAssembly& swept = mesh_of_all.swept;
@@ -143,8 +153,9 @@ WholeCells whole_cells(const FilledParts& mesh_of_all)
     for (std::size_t p = 0; p < swept.parts.size(); ++p) {
         const mesh::HexMesh& mesh = swept.parts[p].mesh;
         const mesh::NodeNumbers& number = swept.numbering[p];
-        for (std::size_t n = 0; n < mesh.node_count(); ++n)
-            whole.nodes[index(number.of(static_cast<Index>(n)))] = mesh.node(n);
+        const mesh::SkinNodes node = swept.parts[p].skin();
+        const auto count = static_cast<Index>(mesh::corner_count(mesh) + mesh::middle_count(mesh));
+        for (Index n = 0; n < count; ++n) whole.nodes[index(number.of(n))] = node[n];
         const mesh::CellKinds kinds(mesh);
         for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
             Hex hex = mesh.hex(kinds.cell(c));
@@ -201,7 +212,8 @@ Vec3 node(const FilledParts& mesh, std::size_t node)
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
         const mesh::NodeNumbers& number = mesh.swept.numbering[p];
         const std::size_t fresh = node - index(number.first()); // among the nodes that this part has first
-        if (fresh < number.fresh()) return mesh.swept.parts[p].mesh.node(number.fresh_node(fresh));
+        if (fresh < number.fresh())
+            return mesh.swept.parts[p].skin()[static_cast<Index>(number.fresh_node(fresh))];
     }
     for (const FilledTets& tets : mesh.tets)
         if (const auto at = std::ranges::find(tets.number, static_cast<Index>(node)); at != tets.number.end())

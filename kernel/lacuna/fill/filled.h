@@ -111,6 +111,9 @@ struct Group {
 std::vector<Group> groups(const FilledVolume& mesh);
 std::vector<Group> groups(const FilledParts& mesh);
 
+/// Store the nodes of all parts. Those that have `layers` make them on demand.
+void hold_nodes(FilledParts& mesh, const RunContext& context = {});
+
 /// The nodes and cells of all parts, numbered as one mesh.
 struct WholeCells {
     std::vector<Vec3> nodes;

@@ -259,6 +259,7 @@ private:
 
 FilledParts split_interface(FilledParts mesh, const InterfaceFaces& faces, const RunContext& context)
 {
+    hold_nodes(mesh, context);
     const std::string& element = faces.element;
     const bool is_thin = element.starts_with("COH3D8") || element.starts_with("GK3D8");
     if (!is_thin)

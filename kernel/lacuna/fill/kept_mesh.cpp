@@ -79,7 +79,7 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh)
     return kept;
 }
 
-std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh)
+std::vector<std::unique_ptr<KeptMesh>> keep(FilledParts mesh)
 {
     if (!mesh.tets.empty())
         throw InvalidInput(
@@ -93,6 +93,7 @@ std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh)
         throw InvalidInput(
             Message("fill.contact_member", "a mesh with contact pairs cannot be a member of an assembly")
                 .remedy("give its volumes instead"));
+    hold_nodes(mesh);
     std::vector<std::unique_ptr<KeptMesh>> all;
     for (std::size_t p = 0; p < mesh.regions.size(); ++p) {
         const std::string& group = mesh.swept.parts[p].mesh.volume_groups.front();

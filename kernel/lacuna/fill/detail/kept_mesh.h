@@ -35,7 +35,7 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh);
 /// As above for each part, in the order of the parts.
 /// @throw InvalidInput "fill.mixed_member"  the mesh has tetrahedra; "fill.split_member";
 ///        "fill.contact_member"
-std::vector<std::unique_ptr<KeptMesh>> keep(const FilledParts& mesh);
+std::vector<std::unique_ptr<KeptMesh>> keep(FilledParts mesh);
 
 /// Move nodes of copies onto nodes of other meshes that differ from them by rounding only; then make the
 /// skins.

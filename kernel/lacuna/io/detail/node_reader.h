@@ -40,6 +40,13 @@ public:
         next_ = (next_ + 1) % kept_.size();
         return made;
     }
+    /// Forget part `i`, whose end was read: a mesh may have hundreds of readers.
+    void drop(std::size_t i) const
+    {
+        const std::lock_guard<std::mutex> hold(lock_);
+        for (auto& [number, values] : kept_)
+            if (number == i) values.reset();
+    }
 
 private:
     std::function<std::vector<Value>(std::size_t)> make_;
@@ -81,6 +88,7 @@ public:
             const auto part = of.made->part(number);
             const std::size_t first = of.begin + number * of.step, last = std::min(end, first + part->size());
             take(std::span(*part).subspan(begin - first, last - begin));
+            if (last == first + part->size()) of.made->drop(number);
             begin = last;
         }
     }
