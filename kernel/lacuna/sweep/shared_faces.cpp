@@ -228,25 +228,36 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
 /// Facets of a volume whose midpoints are tested for lying inside another volume.
 constexpr std::size_t kAsked = 64;
 
+/// The facets of a volume that has no free edges; of others, nothing.
+geometry::FacetTree closed_skin(const OpenVolume& volume)
+{
+    std::vector<Triangle> facets;
+    if (free_edges(volume).empty()) {
+        for (const Face& face : volume.model.faces)
+            facets.insert(facets.end(), face.triangles.begin(), face.triangles.end());
+    }
+    return {volume.model.points, facets};
+}
+
 /// Refuse a volume if part of its skin is inside another by more than the facet error of both. An open volume
-/// has no inside and is not checked.
+/// has no inside and is not checked. @param skin_of_b  see `closed_skin()`; made when first needed
 void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
                  const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
-                 std::span<const Side> sides_of_b, const Eigen::AlignedBox3d& box_of_b)
+                 std::span<const Side> sides_of_b, const Eigen::AlignedBox3d& box_of_b,
+                 std::optional<geometry::FacetTree>& skin_of_b)
 {
     const double inside_by = kInside * b.volume->model.diagonal;
     const Eigen::AlignedBox3d inner(box_of_b.min().array() + inside_by, box_of_b.max().array() - inside_by);
-    if (inner.isEmpty() || !inner.intersects(box_of_a) || !free_edges(*b.volume).empty()) return;
-    std::vector<Triangle> own, others;
+    if (inner.isEmpty() || !inner.intersects(box_of_a)) return;
+    if (!skin_of_b) skin_of_b = closed_skin(*b.volume);
+    const geometry::FacetTree& tree = *skin_of_b;
+    std::vector<Triangle> own;
     std::vector<double> sag; // of the face of each of `own`
     for (const Side& side : sides_of_a) {
         own.insert(own.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
         sag.resize(own.size(), side.sag);
     }
-    for (const Side& side : sides_of_b)
-        others.insert(others.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
     const Model& model = a.volume->model;
-    const geometry::FacetTree tree(b.volume->model.points, others);
     const std::size_t step = std::max<std::size_t>(1, own.size() / kAsked);
     for (std::size_t t = 0; t < own.size(); t += step) {
         const Vec3 p = (model.at(own[t][0]) + model.at(own[t][1]) + model.at(own[t][2])) / 3;
@@ -310,6 +321,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
     std::optional<Message> same_side;
     std::vector<NearPair> pairs;
     std::vector<NearMiss> hidden;
+    std::vector<std::optional<geometry::FacetTree>> skin(members.size());
     for (std::size_t a = 0; a < members.size(); ++a) {
         for (std::size_t b = a + 1; b < members.size(); ++b) {
             NearPair pair{a, b, pair_tolerance(members[a], members[b]), 0, {}};
@@ -319,8 +331,8 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
             if (!Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
                      .intersects(box[b]))
                 continue;
-            check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b]);
-            check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a]);
+            check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b], skin[b]);
+            check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a], skin[a]);
             pair.overlaps = face_overlaps(*members[a].volume, sag[a], *members[b].volume, sag[b],
                                           pair.tolerance, pair.window, context);
             for (const Side& one : sides[a]) {
