@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Models that were slow once, and how the time of each stage grows: each bar, the figure, met or not.
 
-usage: corners.py LACUNA [--runs 5] [--only assembly,plate,loops,bodies,gaps,stator,cylinders,blade,start,growth]
-                  [--folder /tmp] [--output CORNERS.jsonl] [--picture CORNERS.svg]
+usage: corners.py LACUNA [--runs 5] [--only assembly,plate,loops,bodies,gaps,stator,cylinders,blade,start,sources,
+                                             median,longest,growth]
+                  [--data FOLDER] [--folder /tmp] [--output CORNERS.jsonl] [--picture CORNERS.svg]
 
 Inputs are made here. Figures are seconds of the processor of whole processes, without the CAD process, and medians of
-`runs`; the start is the clock's. Growth is the power of the seconds of each stage over four
+`runs`; the start, and the sweeps of the CAD files below `--data`, are the clock's. Small sources are compared with
+Gmsh by `pave/against_gmsh.py`, with the bench_pave of the build. Growth is the power of the seconds of each stage over four
 sizes, of six families: plates with holes, bundles of tubes, honeycombs, assemblies of boxes, scanned tubes,
 perforated drums; stages below 0.05 s at the largest size are not judged. The exit code is 1 where a bar is missed.
 Inputs of CAD need python3-gmsh; without it their bars are unmeasured.
@@ -14,6 +16,7 @@ Inputs of CAD need python3-gmsh; without it their bars are unmeasured.
 import argparse
 import json
 import math
+import os
 import pathlib
 import random
 import resource
@@ -32,6 +35,9 @@ except ImportError:
     gmsh = None
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE / "pave"))
+import against_gmsh  # noqa: E402
+
 GROWTH = 1.15  # largest power of a stage
 LEAST = 0.05   # seconds of a stage that is judged [s]
 
@@ -233,16 +239,60 @@ def row_start(options, folder):
     return time.perf_counter() - start
 
 
+def row_sources(options, folder):
+    """Share of small sources that take longer than the fastest of Gmsh's ways."""
+    bench = pathlib.Path(options.lacuna).parent / "benchmarks" / "bench_pave"
+    if not bench.exists():
+        raise Unmeasured("bench_pave is not built")
+    os.environ.setdefault("LACUNA_CAD", str(pathlib.Path(options.lacuna).parent / "lacuna-cad"))
+    slower = []
+    for domain in against_gmsh.DOMAINS:
+        for quads in (40, 120, 400, 1000):
+            found = against_gmsh.measure_in_turn(str(bench), domain, quads, ["source", *against_gmsh.GMSH], 1)
+            ours = found.pop("source")
+            theirs = [r["seconds"] for r in found.values() if "failed" not in r]
+            if theirs and "failed" not in ours:
+                slower.append(ours["seconds"] > min(theirs))
+    if not slower:
+        raise Unmeasured("no source was meshed both ways")
+    return statistics.mean(slower)
+
+
+def seconds_of_sweeps(options, folder):
+    """Seconds of the sweep of each CAD file below --data, with nothing said about it."""
+    if options.data is None:
+        raise Unmeasured("--data names no folder")
+    seconds = []
+    for path in sorted(p for p in pathlib.Path(options.data).rglob("*") if p.suffix in (".step", ".stp", ".brep")):
+        start = time.perf_counter()
+        command = [options.lacuna, "--quiet"] + recipe(
+            folder, f'lacuna.load({json.dumps(str(path.resolve()))}):open_volume():sweep {{ fallback = "mixed" }}')
+        subprocess.run(command, cwd=folder, capture_output=True)
+        seconds.append(time.perf_counter() - start)
+    return seconds
+
+
+def row_median(options, folder):
+    return statistics.median(seconds_of_sweeps(options, folder))
+
+
+def row_longest(options, folder):
+    return max(seconds_of_sweeps(options, folder))
+
+
 ROWS = {
-    "assembly": ("info of 146 boxes with bores (1,022 faces), without reading", 3, row_assembly),
-    "plate": ("plate with 256 holes, no roles, size of the holes, without reading", 1, row_plate),
-    "loops": ("matching of 10,000 loops", 2, row_loops),
-    "bodies": ("21,000 bodies of facets", 5, row_bodies),
-    "gaps": ("a million facets with gaps of ten times the default tolerance, sewn", 3, row_gaps),
-    "stator": ("a stator, no roles", 1, row_stator),
-    "cylinders": ("three crossing cylinders, no roles", 1, row_cylinders),
-    "blade": ("an aerofoil with 5 degrees of twist, class V, 78,000 hexahedra", 1, row_blade),
-    "start": ("start of a STEP job", 0.05, row_start),
+    "assembly": ("info of 146 boxes with bores (1,022 faces), without reading", 3, row_assembly, " s"),
+    "plate": ("plate with 256 holes, no roles, size of the holes, without reading", 1, row_plate, " s"),
+    "loops": ("matching of 10,000 loops", 2, row_loops, " s"),
+    "bodies": ("21,000 bodies of facets", 5, row_bodies, " s"),
+    "gaps": ("a million facets with gaps of ten times the default tolerance, sewn", 3, row_gaps, " s"),
+    "stator": ("a stator, no roles", 1, row_stator, " s"),
+    "cylinders": ("three crossing cylinders, no roles", 1, row_cylinders, " s"),
+    "blade": ("an aerofoil with 5 degrees of twist, class V, 78,000 hexahedra", 1, row_blade, " s"),
+    "start": ("start of a STEP job", 0.05, row_start, " s"),
+    "sources": ("share of sources of 40 to 1,000 quads slower than Gmsh's fastest", 7 / 107, row_sources, ""),
+    "median": ("median sweep of the CAD files below --data", 0.3, row_median, " s"),
+    "longest": ("longest sweep of the CAD files below --data", 10, row_longest, " s"),
 }
 
 
@@ -376,6 +426,7 @@ def main():
     parser.add_argument("lacuna")
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--only", default=",".join([*ROWS, "growth"]))
+    parser.add_argument("--data")
     parser.add_argument("--folder", default=tempfile.gettempdir())
     parser.add_argument("--output", default="corners.jsonl")
     parser.add_argument("--picture")
@@ -385,7 +436,7 @@ def main():
     bars = Bars(pathlib.Path(options.output), {"lacuna": options.lacuna, "runs": options.runs})
     with tempfile.TemporaryDirectory(dir=options.folder) as name:
         folder = pathlib.Path(name)
-        for row, (words, limit, measure) in ROWS.items():
+        for row, (words, limit, measure, unit) in ROWS.items():
             if row not in wanted:
                 continue
             try:
@@ -393,7 +444,7 @@ def main():
             except (Unmeasured, RuntimeError) as error:
                 print(f"{row}: {error}")
                 figure = None
-            bars.tell(words, figure, limit, False, " s")
+            bars.tell(words, figure, limit, False, unit)
         curves = {}
         for family in FAMILIES if "growth" in wanted else ():
             try:

@@ -10,6 +10,8 @@
 #include <lacuna/matching/detail/problem.h>
 #include <lacuna/matching/detail/splits.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,8 +64,18 @@ void note_candidates(const Problem& problem, std::size_t s, std::size_t t, const
 class LoopAligner {
 public:
     LoopAligner(const Problem& problem, Match& match)
-        : problem_(problem), match_(match), chosen_(problem.source.size())
+        : problem_(problem),
+          match_(match),
+          chosen_(problem.source.size()),
+          aligned_(chosen_.size(), false),
+          sampled_(chosen_.size())
     {
+        Eigen::AlignedBox3d box;
+        for (const LoopShape& shape : problem.source) box.extend(shape.centroid);
+        box.sizes().maxCoeff(&axis_);
+        for (std::size_t s = 0; s < chosen_.size(); ++s)
+            along_.emplace_back(problem.source[s].centroid[axis_], s);
+        std::ranges::sort(along_);
     }
 
     void run(const Arrangement& arrangement)
@@ -124,18 +136,32 @@ private:
         if (!backward_) backward_ = flip ? !best.backward : best.backward;
         match_.loops[s].flipped = !best.backward;
         rate(s, found);
-        aligned_.push_back(s);
+        aligned_[s] = true;
+        sampled_[s] = samples(problem_, s, t, best);
     }
 
-    /// The `kNearLoops` loops of a list that are nearest to loop s, in ascending order.
-    [[nodiscard]] std::vector<std::size_t> nearest(std::size_t s, std::vector<std::size_t> loops) const
+    /// Of the loops that count, the `kNearLoops` that are nearest to loop s, in ascending order. Loops are
+    /// visited in the order of their distances along the axis, until no other can be nearer.
+    template <class Counts>
+    [[nodiscard]] std::vector<std::size_t> nearest(std::size_t s, const Counts& counts) const
     {
-        if (loops.size() <= kNearLoops) return loops;
-        const auto away = [&](std::size_t other) {
-            return (problem_.source[other].centroid - problem_.source[s].centroid).squaredNorm();
-        };
-        std::ranges::nth_element(loops, loops.begin() + kNearLoops, {}, away);
-        loops.resize(kNearLoops);
+        std::vector<std::pair<double, std::size_t>> near; // by distance²
+        const Vec3& centre = problem_.source[s].centroid;
+        const double at = centre[axis_];
+        auto above = std::ranges::lower_bound(along_, std::pair(at, std::size_t{0})), below = above;
+        while (below != along_.begin() || above != along_.end()) {
+            const double down = below == along_.begin() ? kInfinity : at - std::prev(below)->first;
+            const double up = above == along_.end() ? kInfinity : above->first - at;
+            const double gap = std::min(down, up);
+            if (near.size() == kNearLoops && gap * gap > near.back().first) break;
+            const std::size_t other = down < up ? (--below)->second : (above++)->second;
+            if (!counts(other)) continue;
+            const std::pair found((problem_.source[other].centroid - centre).squaredNorm(), other);
+            near.insert(std::ranges::upper_bound(near, found), found);
+            if (near.size() > kNearLoops) near.pop_back();
+        }
+        std::vector<std::size_t> loops;
+        for (const auto& [away, other] : near) loops.push_back(other);
         std::ranges::sort(loops);
         return loops;
     }
@@ -144,8 +170,8 @@ private:
     [[nodiscard]] PointPairs known_near(std::size_t s) const
     {
         PointPairs known;
-        for (const std::size_t other : nearest(s, aligned_))
-            known.add(samples(problem_, other, target(other), chosen_[other]));
+        for (const std::size_t other : nearest(s, [&](std::size_t o) { return aligned_[o]; }))
+            known.add(sampled_[other]);
         return known;
     }
 
@@ -194,13 +220,10 @@ private:
         const std::size_t t = target(s);
         if (!problem_.paired_by_length(s, t) || problem_.has_hard(s) || problem_.source[s].by_sides) return;
         PointPairs known;
-        std::vector<std::size_t> others;
-        for (std::size_t other = 0; other < chosen_.size(); ++other)
-            if (other != s) others.push_back(other);
-        for (const std::size_t other : nearest(s, std::move(others))) {
+        for (const std::size_t other : nearest(s, [&](std::size_t o) { return o != s; })) {
             const std::size_t its = target(other);
             if (!problem_.paired_by_length(other, its)) {
-                known.add(samples(problem_, other, its, chosen_[other]));
+                known.add(sampled_[other]);
                 continue;
             }
             known.from.insert(known.from.end(), kSamples, problem_.source[other].centroid);
@@ -297,7 +320,10 @@ private:
     const Problem& problem_;
     Match& match_;
     std::vector<Alignment> chosen_;
-    std::vector<std::size_t> aligned_; ///< loops aligned so far
+    std::vector<bool> aligned_;       ///< by loop
+    std::vector<PointPairs> sampled_; ///< corresponding points of the aligned loops, before loops are slid
+    Eigen::Index axis_ = 0;           ///< along which the loops extend farthest
+    std::vector<std::pair<double, std::size_t>> along_; ///< places of the loops on the axis
     std::optional<bool> backward_;
 };
 

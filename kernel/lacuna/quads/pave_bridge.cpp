@@ -170,9 +170,23 @@ private:
             place = {i, j};
         };
         const std::size_t n = one.size(), m = two.size(), step_n = stride_of(n), step_m = stride_of(m);
+        // The cost of one bridge, found among the shortest lines, bounds the lengths that are worth checking.
+        std::vector<std::tuple<double, std::size_t, std::size_t>> lines;
         for (std::size_t i = 0; i < n; i += step_n)
-            for (std::size_t j = 0; j < m; j += step_m) consider(i, j);
+            for (std::size_t j = 0; j < m; j += step_m)
+                lines.emplace_back((partial_.at(two[j]) - partial_.at(one[i])).norm(), i, j);
+        std::ranges::make_heap(lines, std::greater<>());
+        while (!lines.empty() && !best) {
+            std::ranges::pop_heap(lines, std::greater<>());
+            consider(std::get<1>(lines.back()), std::get<2>(lines.back()));
+            lines.pop_back();
+        }
         if (!best) return std::nullopt;
+        const double most = best->cost;
+        best.reset();
+        for (std::size_t i = 0; i < n; i += step_n)
+            for (std::size_t j = 0; j < m; j += step_m)
+                if ((partial_.at(two[j]) - partial_.at(one[i])).norm() <= most) consider(i, j);
         const Cut found = place; // then the nodes between those already tried
         for (std::size_t i = 0; i <= 2 * step_n; ++i)
             for (std::size_t j = 0; j <= 2 * step_m; ++j)

@@ -202,7 +202,6 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     height_ = area / width_;
 
     std::vector<std::array<Vec2, 3>> corners(facets.size());
-    std::vector<Vec3> flat;
     std::vector<Triangle> flat_triangles;
     for (std::size_t t = 0; t < facets.size(); ++t) {
         double least = kInfinity, most = -least;
@@ -214,14 +213,14 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         }
         // Add a copy for every whole turn that overlaps [0, 1].
         for (int shift = static_cast<int>(std::ceil(-most)); least + shift <= 1; ++shift) {
-            const auto base = static_cast<Index>(flat.size());
-            for (const Vec2& c : corners[t]) flat.emplace_back((c.x() + shift) * width_, c.y() * height_, 0);
+            const auto base = static_cast<Index>(flat_.size());
+            for (const Vec2& c : corners[t]) flat_.emplace_back((c.x() + shift) * width_, c.y() * height_, 0);
             flat_triangles.push_back({base, base + 1, base + 2});
             original_.push_back(static_cast<Index>(t));
         }
     }
     check_cancelled(context);
-    tree_ = geometry::FacetTree(flat, flat_triangles, context);
+    tree_ = geometry::FacetTree(flat_, flat_triangles, context);
     check_cancelled(context);
 
     if (upright.empty()) measure_heights(model);
@@ -234,12 +233,13 @@ void LinkingMap::measure_heights(const Model& model)
 {
     // Number of columns along the walls, and of steps along each; heuristic.
     constexpr std::size_t kColumns = 16, kSteps = 64;
+    std::size_t near = kNoIndex;
     even_.assign(kSteps + 1, 0.0);
     for (std::size_t c = 0; c < kColumns; ++c) {
         std::vector<Vec3> column;
         for (std::size_t k = 0; k <= kSteps; ++k) {
-            column.push_back(
-                on_facets(model, locate(static_cast<double>(c) / kColumns, static_cast<double>(k) / kSteps)));
+            const double s = static_cast<double>(c) / kColumns, t = static_cast<double>(k) / kSteps;
+            column.push_back(on_facets(model, locate(s, t, near)));
         }
         const std::vector<double> arc = geometry::arc_lengths(column);
         for (std::size_t k = 0; k <= kSteps; ++k) even_[k] += arc[k] / arc.back() / kColumns;
@@ -270,12 +270,15 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
     std::vector<std::vector<Vec3>> rings;
     std::vector<Vec3> middles, areas;
     std::vector<double> widths;
+    std::size_t near = kNoIndex;
     for (double row = 0; row <= rows; ++row) {
         check_cancelled(context);
         row_at_.push_back(from_even(row / rows));
         std::vector<Vec3>& ring = rings.emplace_back();
-        for (std::size_t i = 0; i < kColumnsRound; ++i)
-            ring.push_back(on_facets(model, locate(static_cast<double>(i) / kColumnsRound, row_at_.back())));
+        for (std::size_t i = 0; i < kColumnsRound; ++i) {
+            const double s = static_cast<double>(i) / kColumnsRound;
+            ring.push_back(on_facets(model, locate(s, row_at_.back(), near)));
+        }
         areas.push_back(geometry::newell_vector(ring).stableNormalized());
         ring.push_back(ring.front());
         middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
@@ -367,69 +370,87 @@ bool runs_straight(const Model& model, const LinkingSurface& link)
     });
 }
 
-WallPosition LinkingMap::locate(double s, double t) const
+WallPosition LinkingMap::locate(double s, double t, std::size_t& near) const
 {
     if (!columns_.empty()) s = 0.5 + std::remainder(harmonic(s, t) - 0.5, 1.0);
-    const auto hit = tree_.closest(Vec3(s * width_, t * height_, 0));
-    const auto original = static_cast<std::size_t>(original_[static_cast<std::size_t>(hit.triangle)]);
+    const Vec3 place(s * width_, t * height_, 0);
+    geometry::FacetTree::Hit hit;
+    if (near != kNoIndex)
+        hit = geometry::closest_on_triangle(place,
+                                            {flat_[3 * near], flat_[3 * near + 1], flat_[3 * near + 2]});
+    if (hit.barycentric.minCoeff() < kSamePlace) {
+        hit = tree_.closest(place);
+        near = index(hit.triangle);
+    }
+    const std::size_t original = index(original_[near]);
     return {facets_.face[original], {facets_.number[original], hit.barycentric}};
 }
 
-void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link,
-                            const std::vector<std::array<Vec2, 3>>& corners, bool void_edges)
+std::vector<EdgeUse> edges_between(const Model& model, const LinkingSurface& link, bool void_edges)
 {
-    const Model& model = volume.model;
-    std::unordered_map<std::uint64_t, std::size_t> half; // directed side → triangle
-    for (std::size_t t = 0; t < corners.size(); ++t) {
-        const Triangle& facet = facets_.triangles[t];
-        for (std::size_t i = 0; i < 3; ++i) half[directed_key(facet[i], facet[(i + 1) % 3])] = t;
-    }
     std::set<EdgeId> taken;
     for (const EdgeUse& use : link.source.uses()) taken.insert(use.edge);
     for (const EdgeUse& use : link.target.uses()) taken.insert(use.edge);
     for (const LinkingLine& line : link.lines) {
         for (const EdgeUse& use : line.line.uses) taken.insert(use.edge);
     }
-    std::vector<Ring> pieces;
+    std::vector<EdgeUse> between;
     for (const FaceId wall : link.walls) {
         for (const EdgeUse& use : uses_of(model[wall])) {
             if (!taken.insert(use.edge).second) continue;
             const std::span<const FaceUse> beside = model.uses_of_edge(use.edge);
             const bool seam = beside.size() == 2 && beside[0].face == beside[1].face;
-            if (seam || (!void_edges && is_void(model, use.edge))) continue;
-            Ring piece;
-            double along = 0, up = 0;
-            const std::vector<Index> points = use_points(model, use);
-            const std::vector<Vec3> line = places_at(model, points);
-            std::vector<double> share = geometry::arc_lengths(line);
-            const double length = share.back();
-            for (double& f : share) f = use.reversed ? 1 - f / length : f / length;
-            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-                const auto found = half.find(directed_key(points[i], points[i + 1]));
-                if (found == half.end()) continue;
-                const Triangle& t = facets_.triangles[found->second];
-                const auto c = static_cast<std::size_t>(std::ranges::find(t, points[i]) - t.begin());
-                const Vec2 a = upright(corners[found->second][c]);
-                const Vec2 b = upright(corners[found->second][(c + 1) % 3]);
-                piece.pieces.push_back({a, b, use.edge, share[i], share[i + 1]});
-                piece.height += (a.y() + b.y()) / 2;
-                along += std::abs(b.x() - a.x()) * width_;
-                up += b.y() - a.y();
-            }
-            // Kept quads have mesh nodes along their edges.
-            const bool stays = std::ranges::any_of(beside, [&](const FaceUse& user) {
-                return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
-            });
-            if (stays) continue;
-            const bool steep = piece.pieces.empty() || std::abs(up) * height_ > along;
-            if (steep) {
-                uprights_.push_back({use.edge, std::move(piece.pieces)});
-                continue;
-            }
-            piece.height /= static_cast<double>(piece.pieces.size());
-            piece.vertices = {use_from(model, use), use_to(model, use)};
-            pieces.push_back(std::move(piece));
+            if (!seam && (void_edges || !is_void(model, use.edge))) between.push_back(use);
         }
+    }
+    return between;
+}
+
+void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link,
+                            const std::vector<std::array<Vec2, 3>>& corners, bool void_edges)
+{
+    const Model& model = volume.model;
+    const std::vector<EdgeUse> between = edges_between(model, link, void_edges);
+    if (between.empty()) return;
+    std::unordered_map<std::uint64_t, std::size_t> half; // directed side → triangle
+    for (std::size_t t = 0; t < corners.size(); ++t) {
+        const Triangle& facet = facets_.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i) half[directed_key(facet[i], facet[(i + 1) % 3])] = t;
+    }
+    std::vector<Ring> pieces;
+    for (const EdgeUse& use : between) {
+        Ring piece;
+        double along = 0, up = 0;
+        const std::vector<Index> points = use_points(model, use);
+        const std::vector<Vec3> line = places_at(model, points);
+        std::vector<double> share = geometry::arc_lengths(line);
+        const double length = share.back();
+        for (double& f : share) f = use.reversed ? 1 - f / length : f / length;
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            const auto found = half.find(directed_key(points[i], points[i + 1]));
+            if (found == half.end()) continue;
+            const Triangle& t = facets_.triangles[found->second];
+            const auto c = static_cast<std::size_t>(std::ranges::find(t, points[i]) - t.begin());
+            const Vec2 a = upright(corners[found->second][c]);
+            const Vec2 b = upright(corners[found->second][(c + 1) % 3]);
+            piece.pieces.push_back({a, b, use.edge, share[i], share[i + 1]});
+            piece.height += (a.y() + b.y()) / 2;
+            along += std::abs(b.x() - a.x()) * width_;
+            up += b.y() - a.y();
+        }
+        // Kept quads have mesh nodes along their edges.
+        const bool stays = std::ranges::any_of(model.uses_of_edge(use.edge), [&](const FaceUse& user) {
+            return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
+        });
+        if (stays) continue;
+        const bool steep = piece.pieces.empty() || std::abs(up) * height_ > along;
+        if (steep) {
+            uprights_.push_back({use.edge, std::move(piece.pieces)});
+            continue;
+        }
+        piece.height /= static_cast<double>(piece.pieces.size());
+        piece.vertices = {use_from(model, use), use_to(model, use)};
+        pieces.push_back(std::move(piece));
     }
     // Pieces that meet at a vertex form one ring.
     geometry::UnionFind sets(pieces.size());

@@ -52,8 +52,9 @@ std::vector<Vec3> mapped_points(const Model& model, const LinkingMap& map,
                                 const std::vector<ColumnPlace>& places)
 {
     std::vector<WallPosition> on_walls;
+    std::size_t near = kNoIndex;
     for (const ColumnPlace& place : places)
-        on_walls.push_back(map.locate(place.s, map.from_even(place.share)));
+        on_walls.push_back(map.locate(place.s, map.from_even(place.share), near));
     return points_at(model, on_walls);
 }
 

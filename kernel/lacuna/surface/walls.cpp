@@ -345,8 +345,10 @@ std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const Linki
 
 void check_wall_edges(const OpenVolume& volume, const RunContext& context)
 {
-    for (const LinkingSurface& link : linking_surfaces(volume, Turning::each, {}, context))
-        wall_net(volume.model, link, LinkingMap(volume, link, true, context));
+    for (const LinkingSurface& link : linking_surfaces(volume, Turning::each, {}, context)) {
+        if (!edges_between(volume.model, link, true).empty())
+            wall_net(volume.model, link, LinkingMap(volume, link, true, context));
+    }
 }
 
 } // namespace lacuna::surface

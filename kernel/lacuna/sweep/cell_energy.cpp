@@ -2,6 +2,7 @@
 #include <lacuna/sweep/detail/cell_energy.h>
 
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/core/shared/vector_code.h>
 #include <lacuna/mesh/hex_mesh.h>
 
 #include <algorithm>
@@ -49,56 +50,98 @@ void each_wedge_corner(const Visit& visit)
     }
 }
 
-/// The foldover-free energy of a corner and its derivatives. Arguments are the corner's determinant divided
-/// by that of the box, and the squares of its edges divided by those of the box.
-struct Shape {
-    double value, by_determinant, by_squares;
-};
-
-Shape shape_energy(double epsilon, double determinant, double squares)
-{
-    const double root = std::sqrt(epsilon * epsilon + determinant * determinant);
-    const double chi = (determinant + root) / 2;
-    const double chi_slope = chi / root;
-    const double cube_root = std::cbrt(chi);
-    const double power = 1 / (cube_root * cube_root);
-    const double shape = squares * power;
-    const double volume = (1 + determinant * determinant) / chi;
-    return {(1 - kVolumeShare) * shape + kVolumeShare * volume,
-            (1 - kVolumeShare) * (-2.0 / 3) * shape / chi * chi_slope +
-                kVolumeShare * (2 * determinant - volume * chi_slope) / chi,
-            (1 - kVolumeShare) * power};
-}
-
-/// Energy of a corner; its gradient by the three edges is added to the output. `best` is the factor that
-/// makes the scaled Jacobian of an ideal corner 1.
-double corner_energy(const CellEnergy& energy, const std::array<const Vec3*, 3>& edge, double volume,
-                     const Vec3& by_square, double best, const std::array<Vec3*, 3>& by_edge)
-{
-    const Vec3 &u = *edge[0], &v = *edge[1], &w = *edge[2];
-    const Vec3 vw = v.cross(w), wu = w.cross(u), uv = u.cross(v);
-    const double det = u.dot(vw);
-    const Vec3 squares(u.squaredNorm(), v.squaredNorm(), w.squaredNorm());
-    const Shape shape = shape_energy(energy.epsilon, det / volume, squares.dot(by_square));
-    double sum = energy.shape * shape.value;
-    double by_det = energy.shape * shape.by_determinant / volume;
-    Vec3 by_edge_itself = 2 * energy.shape * shape.by_squares * by_square;
-    if (energy.sharpness > 0) {
-        const double lengths = std::sqrt(squares.prod());
-        if (lengths > 0) {
-            const double scaled = best * det / lengths;
-            const double term = std::exp(-energy.sharpness * scaled);
-            const double by_scaled = -energy.sharpness * term;
-            sum += term;
-            by_det += best * by_scaled / lengths;
-            by_edge_itself -= by_scaled * scaled * squares.cwiseInverse();
+/// Four corners side by side. All functions are inlined and compiled for the processor; no vector is passed
+/// by value, because the calling convention depends on the processor.
+class FourCorners {
+public:
+    /// The three edges at each corner, right-handed.
+    using Ends = std::array<const Vec3*, 3>;
+    LACUNA_INLINE void set(const Ends& a, const Ends& b, const Ends& c, const Ends& d)
+    {
+        for (int k = 0; k < 3; ++k) {
+            u_[k] = Four{(*a[0])[k], (*b[0])[k], (*c[0])[k], (*d[0])[k]};
+            v_[k] = Four{(*a[1])[k], (*b[1])[k], (*c[1])[k], (*d[1])[k]};
+            w_[k] = Four{(*a[2])[k], (*b[2])[k], (*c[2])[k], (*d[2])[k]};
         }
     }
-    *by_edge[0] += by_det * vw + by_edge_itself[0] * u;
-    *by_edge[1] += by_det * wu + by_edge_itself[1] * v;
-    *by_edge[2] += by_det * uv + by_edge_itself[2] * w;
-    return sum;
-}
+
+    /// @param best  factor that makes the scaled Jacobian of an ideal corner 1
+    LACUNA_INLINE void measure(const CellEnergy& energy, double volume, const Vec3& by_square, double best)
+    {
+        Vector vw, wu, uv;
+        cross(v_, w_, vw);
+        cross(w_, u_, wu);
+        cross(u_, v_, uv);
+        const Four det = u_[0] * vw[0] + u_[1] * vw[1] + u_[2] * vw[2];
+        const Vector squares{u_[0] * u_[0] + u_[1] * u_[1] + u_[2] * u_[2],
+                             v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2],
+                             w_[0] * w_[0] + w_[1] * w_[1] + w_[2] * w_[2]};
+        // The foldover-free energy by the determinant over the box's and the squares of the edges over the
+        // box's.
+        const Four determinant = det / volume;
+        const Four tall = energy.epsilon * energy.epsilon + determinant * determinant;
+        Four root{}, cube_root{};
+        for (int i = 0; i < 4; ++i) root[i] = std::sqrt(tall[i]);
+        const Four chi = (determinant + root) / 2, chi_slope = chi / root;
+        for (int i = 0; i < 4; ++i) cube_root[i] = std::cbrt(chi[i]);
+        const Four power = 1 / (cube_root * cube_root);
+        const Four shape =
+            (squares[0] * by_square[0] + squares[1] * by_square[1] + squares[2] * by_square[2]) * power;
+        const Four spread = (1 + determinant * determinant) / chi;
+        value_ = energy.shape * ((1 - kVolumeShare) * shape + kVolumeShare * spread);
+        Four by_det = energy.shape *
+                      ((1 - kVolumeShare) * (-2.0 / 3) * shape / chi * chi_slope +
+                       kVolumeShare * (2 * determinant - spread * chi_slope) / chi) /
+                      volume;
+        const Four by_squares = 2 * energy.shape * ((1 - kVolumeShare) * power);
+        Vector by_edge{by_squares * by_square[0], by_squares * by_square[1], by_squares * by_square[2]};
+        if (energy.sharpness > 0) add_sharpness(energy.sharpness, best, det, squares, by_det, by_edge);
+        for (int c = 0; c < 3; ++c) {
+            by_u_[c] = by_det * vw[c] + by_edge[0] * u_[c];
+            by_v_[c] = by_det * wu[c] + by_edge[1] * v_[c];
+            by_w_[c] = by_det * uv[c] + by_edge[2] * w_[c];
+        }
+    }
+
+    [[nodiscard]] LACUNA_INLINE double value(std::size_t lane) const { return value_[lane]; }
+    /// The gradient of a corner's energy by its three edges.
+    [[nodiscard]] LACUNA_INLINE std::array<Vec3, 3> slopes(std::size_t lane) const
+    {
+        return {Vec3(by_u_[0][lane], by_u_[1][lane], by_u_[2][lane]),
+                Vec3(by_v_[0][lane], by_v_[1][lane], by_v_[2][lane]),
+                Vec3(by_w_[0][lane], by_w_[1][lane], by_w_[2][lane])};
+    }
+
+private:
+    using Vector = Four[3];
+
+    LACUNA_INLINE static void cross(const Vector& a, const Vector& b, Vector& product)
+    {
+        product[0] = a[1] * b[2] - a[2] * b[1];
+        product[1] = a[2] * b[0] - a[0] * b[2];
+        product[2] = a[0] * b[1] - a[1] * b[0];
+    }
+
+    /// Add the term in the scaled Jacobian; corners with an edge of no length have none.
+    LACUNA_INLINE void add_sharpness(double sharpness, double best, const Four& det, const Vector& squares,
+                                     Four& by_det, Vector& by_edge)
+    {
+        const Four product = squares[0] * squares[1] * squares[2];
+        Four lengths{}, term{};
+        for (int i = 0; i < 4; ++i) lengths[i] = std::sqrt(product[i]);
+        const auto some = lengths > 0;
+        const Four over = some ? lengths : Four{1, 1, 1, 1};
+        const Four scaled = best * det / over;
+        for (int i = 0; i < 4; ++i) term[i] = some[i] != 0 ? std::exp(-sharpness * scaled[i]) : 0;
+        const Four by_scaled = -sharpness * term, by_square = by_scaled * scaled;
+        value_ += term;
+        by_det += best * by_scaled / over;
+        for (int d = 0; d < 3; ++d) by_edge[d] -= some ? by_square * (1 / squares[d]) : Four{};
+    }
+
+    Vector u_, v_, w_, by_u_, by_v_, by_w_;
+    Four value_;
+};
 
 Vec3 mean_wedge_edges(const std::array<Vec3, 8>& corners)
 {
@@ -111,27 +154,64 @@ Vec3 mean_wedge_edges(const std::array<Vec3, 8>& corners)
     return mean;
 }
 
-double wedge_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners, const Vec3& box,
-                    std::array<Vec3, 8>& slope)
+LACUNA_INLINE double wedge_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners,
+                                  const Vec3& box, std::array<Vec3, 8>& slope)
 {
-    slope.fill(Vec3::Zero());
-    const double volume = box.prod();
-    const Vec3 by_square = box.cwiseAbs2().cwiseInverse();
-    double sum = 0;
+    std::array<std::array<Vec3, 3>, 6> edges;
+    std::size_t set = 0;
     each_wedge_corner([&](std::size_t at, std::size_t one, std::size_t other, std::size_t above) {
-        const std::array<std::size_t, 3> ends{one, other, above};
-        std::array<Vec3, 3> edge, by_edge;
+        const Vec3& p = corners[at];
+        edges[set++] = {corners[one] - p, corners[other] - p, corners[above] - p};
+    });
+    const auto ends = [&](std::size_t k) {
+        return FourCorners::Ends{&edges[k][0], &edges[k][1], &edges[k][2]};
+    };
+    std::array<FourCorners, 2> lanes;
+    lanes[0].set(ends(0), ends(1), ends(2), ends(3));
+    lanes[1].set(ends(4), ends(5), ends(5), ends(5)); // the last two lanes are idle
+    const Vec3 by_square = box.cwiseAbs2().cwiseInverse();
+    for (FourCorners& four : lanes) four.measure(energy, box.prod(), by_square, 2 * std::numbers::inv_sqrt3);
+    double sum = 0;
+    std::size_t k = 0;
+    each_wedge_corner([&](std::size_t at, std::size_t one, std::size_t other, std::size_t above) {
+        const std::array<std::size_t, 3> tips{one, other, above};
+        const std::array<Vec3, 3> by_edge = lanes[k / 4].slopes(k % 4);
+        sum += lanes[k / 4].value(k % 4);
         for (std::size_t d = 0; d < 3; ++d) {
-            edge[d] = corners[ends[d]] - corners[at];
-            by_edge[d].setZero();
-        }
-        sum += corner_energy(energy, {&edge[0], &edge[1], &edge[2]}, volume, by_square,
-                             2 * std::numbers::inv_sqrt3, {&by_edge[0], &by_edge[1], &by_edge[2]});
-        for (std::size_t d = 0; d < 3; ++d) {
-            slope[ends[d]] += by_edge[d];
+            slope[tips[d]] += by_edge[d];
             slope[at] -= by_edge[d];
         }
+        ++k;
     });
+    return sum;
+}
+
+LACUNA_INLINE double hex_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners, const Vec3& box,
+                                std::array<Vec3, 8>& slope)
+{
+    const Edges edges = edges_of(corners);
+    std::array<FourCorners, 2> lanes;
+    const auto ends = [&](std::size_t k) {
+        return FourCorners::Ends{&edges[0][kAt[k][0]], &edges[1][kAt[k][1]], &edges[2][kAt[k][2]]};
+    };
+    lanes[0].set(ends(0), ends(1), ends(2), ends(3));
+    lanes[1].set(ends(4), ends(5), ends(6), ends(7));
+    const Vec3 by_square = box.cwiseAbs2().cwiseInverse();
+    for (FourCorners& four : lanes) four.measure(energy, box.prod(), by_square, 1);
+    Edges by_edge;
+    for (auto& along : by_edge) along.fill(Vec3::Zero());
+    double sum = 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+        const std::array<Vec3, 3> by = lanes[k / 4].slopes(k % 4);
+        for (std::size_t d = 0; d < 3; ++d) by_edge[d][kAt[k][d]] += by[d];
+        sum += lanes[k / 4].value(k % 4);
+    }
+    for (std::size_t d = 0; d < 3; ++d) {
+        for (std::size_t e = 0; e < 4; ++e) {
+            slope[kEdges[d][e][1]] += by_edge[d][e];
+            slope[kEdges[d][e][0]] -= by_edge[d][e];
+        }
+    }
     return sum;
 }
 
@@ -168,25 +248,11 @@ double least_determinant(const std::array<Vec3, 8>& corners, const Vec3& box, Ce
 double cell_energy(const CellEnergy& energy, const std::array<Vec3, 8>& corners, const Vec3& box,
                    std::array<Vec3, 8>& slope, CellKind kind)
 {
-    if (kind == CellKind::wedge) return wedge_energy(energy, corners, box, slope);
-    const Edges edges = edges_of(corners);
-    Edges by_edge;
-    for (auto& along : by_edge) along.fill(Vec3::Zero());
-    const double volume = box.prod();
-    const Vec3 by_square = box.cwiseAbs2().cwiseInverse();
-    double sum = 0;
-    for (const auto& at : kAt) {
-        sum += corner_energy(energy, {&edges[0][at[0]], &edges[1][at[1]], &edges[2][at[2]]}, volume,
-                             by_square, 1, {&by_edge[0][at[0]], &by_edge[1][at[1]], &by_edge[2][at[2]]});
-    }
     slope.fill(Vec3::Zero());
-    for (std::size_t d = 0; d < 3; ++d) {
-        for (std::size_t e = 0; e < 4; ++e) {
-            slope[kEdges[d][e][1]] += by_edge[d][e];
-            slope[kEdges[d][e][0]] -= by_edge[d][e];
-        }
-    }
-    return sum;
+    return with_avx2([&]() LACUNA_INLINE_BODY {
+        return kind == CellKind::wedge ? wedge_energy(energy, corners, box, slope)
+                                       : hex_energy(energy, corners, box, slope);
+    });
 }
 
 } // namespace lacuna::sweep

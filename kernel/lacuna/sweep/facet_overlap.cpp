@@ -41,7 +41,7 @@ public:
             if (a >= 0) kept[count++] = p;
             if ((a >= 0) != (b >= 0)) kept[count++] = p + a / (a - b) * (q - p);
         }
-        corner_ = kept;
+        std::copy_n(kept.begin(), count, corner_.begin());
         count_ = count;
     }
     void keep_heights(double most)
@@ -129,6 +129,7 @@ void add_overlap(const std::array<Vec3, 3>& one, const std::array<Vec3, 3>& othe
         const Vec3 side = below[(k + 1) % 3] - below[k];
         const Vec3 inward(-side.y(), side.x(), 0);
         piece.keep(inward, inward.dot(below[k]));
+        if (piece.corners().empty()) return;
     }
     const auto add = [&](double most, double OverlapAreas::*of) {
         piece.keep_heights(most);

@@ -228,25 +228,36 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
 /// Facets of a volume whose midpoints are tested for lying inside another volume.
 constexpr std::size_t kAsked = 64;
 
+/// The facets of a volume that has no free edges; of others, nothing.
+geometry::FacetTree closed_skin(const OpenVolume& volume)
+{
+    std::vector<Triangle> facets;
+    if (free_edges(volume).empty()) {
+        for (const Face& face : volume.model.faces)
+            facets.insert(facets.end(), face.triangles.begin(), face.triangles.end());
+    }
+    return {volume.model.points, facets};
+}
+
 /// Refuse a volume if part of its skin is inside another by more than the facet error of both. An open volume
-/// has no inside and is not checked.
+/// has no inside and is not checked. @param skin_of_b  see `closed_skin()`; made when first needed
 void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
                  const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
-                 std::span<const Side> sides_of_b, const Eigen::AlignedBox3d& box_of_b)
+                 std::span<const Side> sides_of_b, const Eigen::AlignedBox3d& box_of_b,
+                 std::optional<geometry::FacetTree>& skin_of_b)
 {
     const double inside_by = kInside * b.volume->model.diagonal;
     const Eigen::AlignedBox3d inner(box_of_b.min().array() + inside_by, box_of_b.max().array() - inside_by);
-    if (inner.isEmpty() || !inner.intersects(box_of_a) || !free_edges(*b.volume).empty()) return;
-    std::vector<Triangle> own, others;
+    if (inner.isEmpty() || !inner.intersects(box_of_a)) return;
+    if (!skin_of_b) skin_of_b = closed_skin(*b.volume);
+    const geometry::FacetTree& tree = *skin_of_b;
+    std::vector<Triangle> own;
     std::vector<double> sag; // sag of the face that each facet of `own` belongs to
     for (const Side& side : sides_of_a) {
         own.insert(own.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
         sag.resize(own.size(), side.sag);
     }
-    for (const Side& side : sides_of_b)
-        others.insert(others.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
     const Model& model = a.volume->model;
-    const geometry::FacetTree tree(b.volume->model.points, others);
     const std::size_t step = std::max<std::size_t>(1, own.size() / kAsked);
     for (std::size_t t = 0; t < own.size(); t += step) {
         const Vec3 p = (model.at(own[t][0]) + model.at(own[t][1]) + model.at(own[t][2])) / 3;
@@ -268,10 +279,11 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
 struct MemberSides {
     std::vector<std::vector<Side>> sides;
     std::vector<Eigen::AlignedBox3d> box;
+    std::vector<std::optional<geometry::FacetTree>> skin; ///< see `closed_skin()`; made when first needed
 
     /// @param sag  of each member's first faces; the others' are added.
     MemberSides(std::span<const AssemblyMember> members, std::vector<std::vector<double>>& sag)
-        : sides(members.size()), box(members.size())
+        : sides(members.size()), box(members.size()), skin(members.size())
     {
         sag.resize(members.size());
         for (std::size_t m = 0; m < members.size(); ++m) {
@@ -294,10 +306,10 @@ struct MemberSides {
         return Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
             .intersects(box[b]);
     }
-    void check_apart(std::span<const AssemblyMember> members, std::size_t a, std::size_t b) const
+    void check_apart(std::span<const AssemblyMember> members, std::size_t a, std::size_t b)
     {
-        sweep::check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b]);
-        sweep::check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a]);
+        sweep::check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b], skin[b]);
+        sweep::check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a], skin[a]);
     }
 };
 
@@ -328,7 +340,7 @@ double facet_sag(const Model& model, const Face& face)
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
                               std::vector<std::vector<double>> sag)
 {
-    const MemberSides all(members, sag);
+    MemberSides all(members, sag);
     const std::vector<std::vector<Side>>& sides = all.sides;
     FacesInCommon found;
     std::optional<Message> same_side;
@@ -382,7 +394,7 @@ std::vector<FaceContact> faces_in_contact(std::span<const AssemblyMember> member
                                           const RunContext& context)
 {
     std::vector<std::vector<double>> sag;
-    const MemberSides all(members, sag);
+    MemberSides all(members, sag);
     std::vector<NearPair> pairs;
     std::vector<std::vector<char>> covered; // faces that mostly lie on another member
     for (const AssemblyMember& member : members) covered.emplace_back(member.volume->model.faces.size(), 0);

@@ -2,7 +2,6 @@
 #include <lacuna/topology/shared/patches.h>
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/core/shared/edge_key.h>
 #include <lacuna/geometry/shared/angle.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/detail/directed_sides.h>
@@ -13,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <unordered_map>
 
 namespace lacuna::topology {
@@ -22,22 +22,27 @@ namespace {
 /// The facets next to the segments of edges: one per face at a segment.
 class FacetsAtEdges {
 public:
-    FacetsAtEdges(const Model& model, const RunContext& context) : model_(model)
+    FacetsAtEdges(const Model& model, const RunContext& context)
+        : model_(model), start_(model.points.size() + 1)
     {
-        std::vector<bool> on_edge(model.points.size(), false);
-        for (const Edge& edge : model.edges) {
-            for (const Index p : edge.points) on_edge[index(p)] = true;
-            for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
-                beside_[edge_key(edge.points[i], edge.points[i + 1])];
-        }
+        const auto each_segment = [&](const auto& visit) {
+            for (const Edge& edge : model.edges)
+                for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
+                    visit(std::minmax(edge.points[i], edge.points[i + 1]));
+        };
+        each_segment([&](const auto& segment) { ++start_[index(segment.first) + 1]; });
+        std::partial_sum(start_.begin(), start_.end(), start_.begin());
+        segments_.resize(start_.back());
+        std::vector<std::size_t> next = start_;
+        each_segment(
+            [&](const auto& segment) { segments_[next[index(segment.first)]++].high = segment.second; });
         for (std::size_t f = 0; f < model.faces.size(); ++f) {
             check_cancelled(context);
             for (const Triangle& t : model.faces[f].triangles) {
                 for (std::size_t i = 0; i < 3; ++i) {
-                    if (!on_edge[index(t[i])] || !on_edge[index(t[(i + 1) % 3])]) continue;
-                    const auto found = beside_.find(edge_key(t[i], t[(i + 1) % 3]));
-                    if (found == beside_.end()) continue;
-                    std::vector<Beside>& facets = found->second; // of each face the first one
+                    const std::size_t found = segment(t[i], t[(i + 1) % 3]);
+                    if (found == segments_.size()) continue;
+                    std::vector<Beside>& facets = segments_[found].facets; // of each face the first one
                     if (facets.empty() || facets.back().face != FaceId(f)) facets.push_back({FaceId(f), t});
                 }
             }
@@ -51,7 +56,7 @@ public:
         const std::vector<Index>& points = model_[edge].points;
         double sum = 0, above = 0;
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-            const std::vector<Beside>& facets = beside_.at(edge_key(points[i], points[i + 1]));
+            const std::vector<Beside>& facets = segments_[segment(points[i], points[i + 1])].facets;
             std::vector<Vec3> normals, middles;
             for (const FaceUse& use : model_.uses_of_edge(edge)) {
                 const auto found = std::find_if(facets.begin(), facets.end(),
@@ -75,8 +80,23 @@ private:
         Triangle facet;
     };
 
+    struct Segment {
+        Index high; ///< the higher of its points
+        std::vector<Beside> facets;
+    };
+
+    /// The first segment between two points; the number of segments: none.
+    [[nodiscard]] std::size_t segment(Index a, Index b) const
+    {
+        const auto [low, high] = std::minmax(a, b);
+        for (std::size_t s = start_[index(low)]; s < start_[index(low) + 1]; ++s)
+            if (segments_[s].high == high) return s;
+        return segments_.size();
+    }
+
     const Model& model_;
-    std::unordered_map<std::uint64_t, std::vector<Beside>> beside_; ///< by the segment
+    std::vector<std::size_t> start_; ///< of each point's segments, those that have it as their lower point
+    std::vector<Segment> segments_;
 };
 
 template <class Id>

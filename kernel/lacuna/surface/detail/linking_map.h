@@ -2,6 +2,7 @@
 #pragma once
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/shared/projector.h>
@@ -40,7 +41,14 @@ public:
     LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link, bool void_edges = true,
                const RunContext& context = {});
 
-    [[nodiscard]] WallPosition locate(double s, double t) const;
+    [[nodiscard]] WallPosition locate(double s, double t) const
+    {
+        std::size_t near = kNoIndex;
+        return locate(s, t, near);
+    }
+    /// The same, for a sequence of places.
+    /// @param near  triangle of the place before, at first kNoIndex; updated
+    [[nodiscard]] WallPosition locate(double s, double t, std::size_t& near) const;
 
     /// Strip coordinates of a model point of the walls; s modulo 1.
     [[nodiscard]] Vec2 place_of(Index point) const { return upright(strip_.row(point).transpose()); }
@@ -106,6 +114,7 @@ private:
 
     Eigen::MatrixXd strip_; ///< (s, t) of every model point
     FacetSet facets_;
+    std::vector<Vec3> flat_;      ///< corners of the triangles of the tree, three each
     std::vector<Index> original_; ///< triangle of the linking surface behind each triangle of the tree
     double width_ = 1, height_ = 1;
     double branch_ = 0;
@@ -123,6 +132,11 @@ private:
 /// chain's start with the least shear [running length], and its branch: see `LinkingSurface::branch`.
 std::pair<double, double> unguided_target(const topology::OpenVolume& volume, const LinkingSurface& link,
                                           const RunContext& context = {});
+
+/// The edges between stacked or adjacent walls of a linking surface, without its rims and side lines.
+/// @param void_edges  with those between two void faces
+std::vector<topology::EdgeUse> edges_between(const topology::Model& model, const LinkingSurface& link,
+                                             bool void_edges);
 
 /// Whether the walls of a linking surface consist of nearly parallel straight lines.
 bool runs_straight(const topology::Model& model, const LinkingSurface& link);
