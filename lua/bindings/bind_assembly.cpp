@@ -273,7 +273,9 @@ const Option<Pair> kPairOptions[] = {
     {"least", ignore},
     {"width", ignore},
     {"area", ignore},
-    {"faces", ignore},      {"slave", ignore},     {"master", ignore},
+    {"faces", ignore},
+    {"slave", ignore},
+    {"master", ignore},
 };
 
 void read_pairs(lua_State* L, int index, const Where& where, fill::ContactRequest& request)
