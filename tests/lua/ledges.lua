@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Ledges, shelves, stairs and bosses in a tray, flush with its walls or with each other, with a lid or without.
+-- Ledges, shelves, stairs and bosses in a tray, flush with its walls or with each other, with a lid or not.
+-- Each is filled to the brim, and to levels below it.
 -- usage: lacuna ledges.lua
 local lacuna = require "lacuna"
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
@@ -25,10 +26,12 @@ local function tray(height, side, with_lid)
         end
       end
       for k = math.min(z, x), j > 0 and math.max(z, x) - 1 or -1 do
-        add(("x %d %s"):format(i, z < x), j, k, { i, j - 1, k }, { i, j, k }, { i, j, k + 1 }, { i, j - 1, k + 1 })
+        add(("x %d %s"):format(i, z < x), j, k,
+          { i, j - 1, k }, { i, j, k }, { i, j, k + 1 }, { i, j - 1, k + 1 })
       end
       for k = math.min(z, y), i > 0 and math.max(z, y) - 1 or -1 do
-        add(("y %d %s"):format(j, z < y), i, k, { i - 1, j, k }, { i, j, k }, { i, j, k + 1 }, { i - 1, j, k + 1 })
+        add(("y %d %s"):format(j, z < y), i, k,
+          { i - 1, j, k }, { i, j, k }, { i, j, k + 1 }, { i - 1, j, k + 1 })
       end
     end
   end
@@ -71,8 +74,24 @@ local function touch_at_an_edge(height, side)
   end
 end
 
+--- The volume below a level, and the number of separate parts that the piles leave of it.
+local function below(height, side, level)
+  local volume, parts, seen = 0, 0, {}
+  local function walk(i, j)
+    if not height[i] or not height[i][j] or height[i][j] >= level or seen[i * 100 + j] then return false end
+    seen[i * 100 + j] = true
+    volume = volume + (level - height[i][j]) * unit ^ 3
+    for _, step in ipairs { { 1, 0 }, { -1, 0 }, { 0, 1 }, { 0, -1 } } do walk(i + step[1], j + step[2]) end
+    return true
+  end
+  for i = 1, side do
+    for j = 1, side do parts = parts + (walk(i, j) and 1 or 0) end
+  end
+  return volume, parts
+end
+
 local random = check.random(7)
-local members = 0
+local members, tried, refused = 0, 0, 0
 while members < (check.whole and 200 or 16) do
   local side, height, text = members % 2 + 3, {}, {}
   for i = 1, side do
@@ -88,7 +107,32 @@ while members < (check.whole and 200 or 16) do
     check.that(quality.certified, at)
     check.that(quality.min_scaled_jacobian >= 0.5, ("%s: %g"):format(at, quality.min_scaled_jacobian))
     check.that(math.abs(quality.volume / volume - 1) < 1e-9, at .. ": volume")
+    local level = ({ 0.5, 1, 1.5, 2.5 })[members % 4 + 1]
+    local filled, parts = below(height, side, level)
+    roles.fill_to = { { 0, 0, unit * level }, { 0, 0, 1 } }
+    if parts == 1 then
+      local void = model:open_volume(roles)
+      local fine, own = pcall(function() return void:sweep { size = 2 }:quality() end)
+      tried, refused = tried + 1, refused + (fine and 0 or 1)
+      check.that(not fine or own.certified and math.abs(own.volume / filled - 1) < 1e-9,
+        ("%s, filled to %g: volume, wanted is %g"):format(at, level, filled))
+    elseif parts > 1 then
+      check.fails(function() model:open_volume(roles) end, parts .. " separate parts", "closure.fill_to")
+    end
     members = members + 1
   end
+end
+-- Where the side of a ledge and of a pile above the level are one face, a few are refused.
+check.that(refused <= 0.05 * tried, ("%d of %d levels refused"):format(refused, tried))
+
+-- Levels above the brim and planes that are none.
+local model, roles = tray({ { 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 } }, 3)
+for _, wrong in ipairs { { 99, "closure.cut_misses" }, { deep * unit, "closure.cut_misses" } } do
+  roles.fill_to = { { 0, 0, wrong[1] }, { 0, 0, 1 } }
+  check.fails(function() model:open_volume(roles) end, wrong[2])
+end
+for _, wrong in ipairs { 3, { { 0, 0, 1 } }, { { 0, 0, 1 }, { 0, 0, 0 } } } do
+  roles.fill_to = wrong
+  check.fails(function() model:open_volume(roles) end, "fill_to")
 end
 check.done()

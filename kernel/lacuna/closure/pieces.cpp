@@ -313,12 +313,17 @@ std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<V
 }
 
 void straighten_lines(Model& model, const std::vector<FaceId>& parts, const geometry::Plane& plane,
-                      const std::vector<std::vector<EdgeUse>>& lines, const RunContext& context)
+                      const std::vector<std::vector<EdgeUse>>& lines, const RunContext& context,
+                      const std::function<bool(const Vec3&)>& keeps)
 {
     ModelBuilder builder(std::move(model));
     for (const EdgeUse& use : lines | std::views::join) {
         Edge& edge = builder[use.edge];
-        edge.points = {edge.points.front(), edge.points.back()};
+        std::vector<Index> kept{edge.points.front()};
+        for (std::size_t i = 1; keeps && i + 1 < edge.points.size(); ++i)
+            if (keeps(builder.at(edge.points[i]))) kept.push_back(edge.points[i]);
+        kept.push_back(edge.points.back());
+        edge.points = std::move(kept);
         edge.params.clear();
         edge.curve = nullptr;
     }

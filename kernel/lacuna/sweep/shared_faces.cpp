@@ -108,8 +108,9 @@ struct InCommon {
     double limit = 0; ///< maximum distance of the facets of the same surface
     /// Reason if a part is shared; if nothing is shared, the reason for overlapping volumes.
     std::optional<Message> refusal;
-    double apart = 0; ///< for one common face: distance of the arcs of both rims
-    double sag = 0;   ///< maximum distance of their chords from these
+    bool same_side = false; ///< both volumes are on the same side of it
+    double apart = 0;       ///< for one common face: distance of the arcs of both rims
+    double sag = 0;         ///< maximum distance of their chords from these
 };
 
 /// One face in two members, whose rims may be apart. @return  whether they are the same face nevertheless
@@ -144,7 +145,7 @@ bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& 
 
 /// @param overlap  null: no part of one face is near the other
 InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
-                   const FaceOverlap* overlap, double tolerance, double window)
+                   const FaceOverlap* overlap, double tolerance, double window, MayOverlap may_overlap)
 {
     const double limit = tolerance + one.sag + other.sag;
     if (!share_area(one.box, other.box, limit)) return {};
@@ -154,6 +155,8 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
     if (!same && overlap == nullptr) return {};
     InCommon common;
     common.limit = limit;
+    common.same_side = overlap != nullptr && overlap->a.same_way > 0.5 * overlap->a.on;
+    const bool refused = common.same_side && may_overlap == MayOverlap::no;
     const NamedEntity entity_a = entity_in(a, one.face), entity_b = entity_in(b, other.face);
     double percent_a = 0, percent_b = 0;
     if (!same) {
@@ -167,7 +170,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                                                  rim_chords(other.model(), other.face), tolerance);
             if (overlap->a.on <= under + kNothing * std::min(whole, whole_other)) return {};
         }
-        same = there >= kMostly && back >= kMostly && overlap->a.same_way <= 0.5 * overlap->a.on &&
+        same = there >= kMostly && back >= kMostly && !refused &&
                rims_agree(a, one, b, other, tolerance, window, common);
         // Faces that curve away from each other at a common rim are close only along it.
         if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
@@ -179,7 +182,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                                  found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
                              .remedy("split one along the other's rim");
     }
-    if (overlap != nullptr && overlap->a.same_way > 0.5 * overlap->a.on) {
+    if (refused) {
         const bool part = common.refusal &&
                           std::max(overlap->a.on / face_area(one.model(), one.face),
                                    overlap->b.on / face_area(other.model(), other.face)) < kMostly;
@@ -289,7 +292,7 @@ double facet_sag(const Model& model, const Face& face)
 }
 
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
-                              std::vector<std::vector<double>> sag)
+                              std::vector<std::vector<double>> sag, MayOverlap may_overlap)
 {
     std::vector<std::vector<Side>> sides(members.size());
     sag.resize(members.size());
@@ -319,8 +322,10 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
             if (!Eigen::AlignedBox3d(box[a].min().array() - margin, box[a].max().array() + margin)
                      .intersects(box[b]))
                 continue;
-            check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b]);
-            check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a]);
+            if (may_overlap == MayOverlap::no) {
+                check_apart(members[a], sides[a], box[a], members[b], sides[b], box[b]);
+                check_apart(members[b], sides[b], box[b], members[a], sides[a], box[a]);
+            }
             pair.overlaps = face_overlaps(*members[a].volume, sag[a], *members[b].volume, sag[b],
                                           pair.tolerance, pair.window, context);
             for (const Side& one : sides[a]) {
@@ -328,12 +333,13 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
                     const auto overlap = pair.overlaps.find({one.face, other.face});
                     InCommon common = in_common(members[a], one, members[b], other,
                                                 overlap == pair.overlaps.end() ? nullptr : &overlap->second,
-                                                pair.tolerance, pair.window);
+                                                pair.tolerance, pair.window, may_overlap);
                     if (!common.any) {
                         if (!same_side) same_side = std::move(common.refusal);
                         continue;
                     }
                     const SharedFace faces{a, b, one.face, other.face};
+                    if (common.same_side) found.same_side.emplace(a, b);
                     if (common.apart > 0)
                         hidden.push_back(welded(members[a], members[b], faces, common, overlap->second.a.on,
                                                 pair.tolerance));
@@ -346,7 +352,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
             pairs.push_back(std::move(pair));
         }
     }
-    found.near = near_misses(members, sag, pairs, found, context);
+    if (may_overlap == MayOverlap::no) found.near = near_misses(members, sag, pairs, found, context);
     found.near.insert(found.near.end(), hidden.begin(), hidden.end());
     if (same_side) throw InvalidInput(*same_side);
     found.sag = std::move(sag);
