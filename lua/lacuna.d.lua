@@ -61,6 +61,7 @@
 ---@field reading? integer with roles to be found: which of the voids that were found, from 1
 ---@field full_turn? boolean the walls are a ring, swept round its whole turn; no ends; default false
 ---@field along? lacuna.Along with a source alone: the path along which it is swept
+---@field fill_to? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal: only the part of the void behind this plane
 ---@field class? lacuna.Class override
 ---@field name? string what the cells are called: their group, set or property in files; default "volume"
 ---@field material? string|integer of the cells, in decks; default: as the elements beside them

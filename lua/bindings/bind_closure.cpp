@@ -112,18 +112,9 @@ struct CutArguments {
     FaceId face;
 };
 
-/// { point, normal }
-void read_plane(lua_State* L, int index, const Where& where, CutArguments& arguments)
+void read_cutting_plane(lua_State* L, int index, const Where& where, CutArguments& arguments)
 {
-    if (length_of(L, index) != 2)
-        fail_value(L, where, "a plane { point, normal }, as { { 0, 0, 1 }, { 0, 0, 1 } }", index);
-    lua_rawgeti(L, index, 1);
-    lua_rawgeti(L, index, 2);
-    const Vec3 point = read_vector(L, lua_absindex(L, -2), where),
-               normal = read_vector(L, lua_absindex(L, -1), where);
-    lua_pop(L, 2);
-    if (!(normal.stableNorm() > 0)) fail_option(L, where, "has a normal of no length");
-    arguments.plane = geometry::plane_across(point, normal.stableNormalized());
+    arguments.plane = read_plane(L, index, where);
 }
 
 /// A Face of any model, or one of the volume's own by tag, name or selector.
@@ -146,7 +137,7 @@ void read_cutting_face(lua_State* L, int index, const Where& where, CutArguments
 }
 
 const Option<CutArguments> kClosureCutOptions[] = {
-    {"plane", read_plane}, {"face", read_cutting_face}, {"auto", boolean<&CutArguments::automatic>}};
+    {"plane", read_cutting_plane}, {"face", read_cutting_face}, {"auto", boolean<&CutArguments::automatic>}};
 
 /// The faces of a volume as a model of their own, on top of the stack.
 Box<ModelState>& push_model(lua_State* L, const VolumeState& state)

@@ -78,6 +78,11 @@ void read_material(lua_State* L, int index, const Where& where, RoleArguments& a
     guard(L, [&] { arguments.material = name; });
 }
 
+void read_fill_to(lua_State* L, int index, const Where& where, RoleArguments& arguments)
+{
+    arguments.fill_to = read_plane(L, index, where);
+}
+
 // --- along ----------------------------------------------------------------------------------------------
 
 using closure::Along;
@@ -332,6 +337,7 @@ const Option<RoleArguments> kRoleOptions[] = {
     {"material", read_material},
     {"along", read_along},
     {"glued", boolean<&RoleArguments::glued>},
+    {"fill_to", read_fill_to},
 };
 
 /// volume = model:open_volume { source=, target=, walls= [, class=] [, name=] [, material=] }

@@ -360,6 +360,19 @@ const Option<GrowArguments> kGrowOptions[] = {
 
 } // namespace
 
+geometry::Plane read_plane(lua_State* L, int index, const Where& where)
+{
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2)
+        fail_value(L, where, "a plane { point, normal }, as { { 0, 0, 1 }, { 0, 0, 1 } }", index);
+    lua_rawgeti(L, index, 1);
+    lua_rawgeti(L, index, 2);
+    const Vec3 point = read_vector(L, lua_absindex(L, -2), where),
+               normal = read_vector(L, lua_absindex(L, -1), where);
+    lua_pop(L, 2);
+    if (!(normal.stableNorm() > 0)) fail_option(L, where, "has a normal of no length");
+    return geometry::plane_across(point, normal.stableNormalized());
+}
+
 FaceId grow_face(lua_State* L, int index, const Box<ModelState>& state)
 {
     auto& arguments = temporary<GrowArguments>(L);

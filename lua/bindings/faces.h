@@ -47,6 +47,9 @@ void mark_found_nothing(lua_State* L, int selector);
 void read_faces(lua_State* L, int index, const Where& where, const Box<ModelState>& model,
                 std::vector<FaceId>& faces);
 
+/// A plane { point, normal }.
+geometry::Plane read_plane(lua_State* L, int index, const Where& where);
+
 /// Grow a face by the options of face_from at `index`, which replaces the model. Leaves temporaries on the
 /// stack. @pre the model is up to date.
 FaceId grow_face(lua_State* L, int index, const Box<ModelState>& model);

@@ -314,6 +314,7 @@ class Model(Shown):
         reading: int; with roles to be found: which of the voids that were found, from 1
         full_turn: bool; the walls are a ring, swept round its whole turn; no ends; default False
         along: dict; with a source alone: the path along which it is swept
+        fill_to: list[(x, y, z)]; point and normal: only the part of the void behind this plane
         class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"; override
         name: str; what the cells are called: their group, set or property in files; default "volume"
         material: str | int; of the cells, in decks; default: as the elements beside them

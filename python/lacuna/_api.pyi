@@ -167,8 +167,9 @@ class Model(Shown):
             self, roles: Mapping[str, Any] | None = None, /, *, source: FaceRefs | None = ...,
             target: FaceRefs | None = ..., walls: FaceRefs | Literal["auto"] | None = ...,
             faces: FaceRefs | None = ..., reading: int | None = ..., full_turn: bool | None = ...,
-            along: Mapping[str, Any] | None = ..., class_: Class | None = ..., name: str | None = ...,
-            material: str | int | None = ..., glued: bool | None = ...,
+            along: Mapping[str, Any] | None = ..., fill_to: Sequence[Vector] | None = ...,
+            class_: Class | None = ..., name: str | None = ..., material: str | int | None = ...,
+            glued: bool | None = ...,
     ) -> Volume: ...
     def quads(
             self, options: Mapping[str, Any] | None = None, /, *, faces: FaceRefs | None = ...,

@@ -171,16 +171,24 @@ private:
                 continue;
             }
             std::vector<FaceId>* const facing = faced_as(cut, part, roles);
-            const bool touched = touches(cut, roles.source) || touches(cut, roles.target);
+            const auto touch_ends = [&](const std::vector<FaceId>& faces) {
+                return touches(faces, roles.source) || touches(faces, roles.target);
+            };
+            const bool touched = touch_ends(cut);
             if (facing != nullptr && !touched)
                 facing->insert(facing->end(), cut.begin(), cut.end());
-            else if (touched || (!roles.source.empty() && !roles.target.empty()))
+            else if (touched || (!roles.source.empty() && !roles.target.empty()) ||
+                     touch_ends(with_coplanar(cut, roles.walls)))
                 roles.walls.insert(roles.walls.end(), cut.begin(), cut.end());
             else
                 across.push_back(std::move(cut));
         }
         if (across.empty()) return turned(roles);
-        for (std::vector<FaceId>& cut : across) take_coplanar(roles.walls, cut);
+        for (std::vector<FaceId>& cut : across) {
+            cut = with_coplanar(std::move(cut), roles.walls);
+            std::erase_if(roles.walls,
+                          [&](FaceId wall) { return std::ranges::find(cut, wall) != cut.end(); });
+        }
         if (roles.source.empty() && roles.target.empty() && across.size() == 1) take_end(roles);
         for (std::size_t c = 0; c < across.size(); ++c) {
             const bool first = c == 0 && roles.source.empty();
@@ -216,18 +224,15 @@ private:
                                    [&](FaceId face) { return lies_in_cut(face) && touches(cut, {face}); });
     }
 
-    /// If a cut is an end, adjacent walls in its plane, such as a shoulder, become part of that end.
-    void take_coplanar(std::vector<FaceId>& walls, std::vector<FaceId>& cut) const
+    /// A cut with the walls in its plane that continue it, such as a shoulder: they have one role.
+    [[nodiscard]] std::vector<FaceId> with_coplanar(std::vector<FaceId> cut,
+                                                    const std::vector<FaceId>& walls) const
     {
         std::vector<FaceId> both = cut;
-        for (const FaceId wall : walls)
-            if (lies_in_cut(wall)) both.push_back(wall);
-        if (both.size() == cut.size()) return;
-        for (const std::vector<FaceId>& end : connected_parts(model_, both)) {
-            if (std::ranges::find(end, cut.front()) == end.end()) continue;
-            cut = end;
-            std::erase_if(walls, [&](FaceId wall) { return std::ranges::find(end, wall) != end.end(); });
-        }
+        std::ranges::copy_if(walls, std::back_inserter(both), [&](FaceId wall) { return lies_in_cut(wall); });
+        for (std::vector<FaceId>& end : connected_parts(model_, both))
+            if (std::ranges::find(end, cut.front()) != end.end()) return std::move(end);
+        return cut;
     }
 
     [[nodiscard]] Roles turned(Roles roles) const
@@ -308,12 +313,17 @@ std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<V
 }
 
 void straighten_lines(Model& model, const std::vector<FaceId>& parts, const geometry::Plane& plane,
-                      const std::vector<std::vector<EdgeUse>>& lines, const RunContext& context)
+                      const std::vector<std::vector<EdgeUse>>& lines, const RunContext& context,
+                      const std::function<bool(const Vec3&)>& keeps)
 {
     ModelBuilder builder(std::move(model));
     for (const EdgeUse& use : lines | std::views::join) {
         Edge& edge = builder[use.edge];
-        edge.points = {edge.points.front(), edge.points.back()};
+        std::vector<Index> kept{edge.points.front()};
+        for (std::size_t i = 1; keeps && i + 1 < edge.points.size(); ++i)
+            if (keeps(builder.at(edge.points[i]))) kept.push_back(edge.points[i]);
+        kept.push_back(edge.points.back());
+        edge.points = std::move(kept);
         edge.params.clear();
         edge.curve = nullptr;
     }

@@ -501,6 +501,24 @@ void cover_step_holes(OpenVolume& volume, const RunContext& context)
     volume.model = with_loops(std::move(volume.model));
 }
 
+std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round);
+
+/// Cut a volume in the planes of walls at steps; the remaining steps have rims with such walls all round.
+std::vector<StepPiece> cut_at_risers(const OpenVolume& volume, const std::vector<FaceId>& risers,
+                                     const RunContext& context, int round)
+{
+    std::vector<StepPiece> result;
+    const std::vector<StepPiece> cut = cut_by_planes(volume, risers, context);
+    const std::vector<int> levels = levels_by_length(cut, sweep_way(volume));
+    for (std::size_t p = 0; p < cut.size(); ++p) {
+        for (StepPiece& own : hang_all(cut[p].volume, context, round)) {
+            own.level += levels[p];
+            result.push_back(std::move(own));
+        }
+    }
+    return result;
+}
+
 /// Extrude void faces from closed rims, one end after the other, until no piece has such a rim.
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round)
 {
@@ -524,8 +542,10 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
         return result;
     }
     for (const Role end : {Role::source, Role::target}) {
-        const std::vector<std::vector<FaceId>>& parts = steps[end == Role::source ? 0 : 1].parts;
+        const auto& [parts, closed, risers] = steps[end == Role::source ? 0 : 1];
         if (parts.size() < 2) continue;
+        // A step with walls all round may be flush with an earlier cut, and its walls end there.
+        if (!risers.empty() && round < kRounds) return cut_at_risers(volume, risers, context, round + 1);
         throw NotSweepable(
             Message("closure.steps",
                     "the {} has several separate parts, such as {} and {}, and no walls lead from one to the "
@@ -579,15 +599,7 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
     risers.insert(risers.end(), steps[1].risers.begin(), steps[1].risers.end());
     std::vector<StepPiece> result;
     if (!risers.empty()) {
-        // After these cuts, the walls at the rim of each remaining step lead away all round.
-        const std::vector<StepPiece> cut = cut_by_planes(volume, risers, context);
-        const std::vector<int> levels = levels_by_length(cut, sweep_way(volume));
-        for (std::size_t p = 0; p < cut.size(); ++p) {
-            for (StepPiece& own : hang_all(cut[p].volume, context, 0)) {
-                own.level += levels[p];
-                result.push_back(std::move(own));
-            }
-        }
+        result = cut_at_risers(volume, risers, context, 0);
     } else {
         try {
             result = hang_all(volume, context, 0);

@@ -8,6 +8,7 @@
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/members.h>
+#include <lacuna/fill/detail/touching_parts.h>
 #include <lacuna/topology/shared/auto_walls.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/hollows.h>
@@ -114,6 +115,40 @@ std::shared_ptr<const closure::SweptSource> open_along(const Model& model, const
     return swept;
 }
 
+/// The request for the faces of a model whose touching parts were joined.
+RoleRequest joined_request(RoleRequest request, const JoinedParts& joined)
+{
+    const auto rename = [&](std::vector<FaceId>& faces) {
+        std::vector<FaceId> now;
+        for (const FaceId face : faces)
+            now.insert(now.end(), joined.faces_of[face.index()].begin(), joined.faces_of[face.index()].end());
+        faces = std::move(now);
+    };
+    if (request.faces) rename(*request.faces);
+    if (request.roles)
+        for (std::vector<FaceId>* role :
+             {&request.roles->source, &request.roles->target, &request.roles->walls})
+            rename(*role);
+    return request;
+}
+
+/// The part of a volume behind a plane.
+Volume part_behind(const Volume& volume, const geometry::Plane& plane, const RunContext& context)
+{
+    std::vector<Volume> pieces = cut(volume, {.plane = plane}, context);
+    std::erase_if(pieces, [&](const Volume& piece) {
+        const Model& model = piece.volume.model;
+        return geometry::height(plane, topology::centroid_of(model, topology::all_faces(model))) > 0;
+    });
+    if (pieces.size() != 1)
+        throw NotSweepable(Message("closure.fill_to",
+                                   "open_volume: the void behind the plane of 'fill_to' is {} separate parts",
+                                   found(pieces.size()))
+                               .remedy("open the whole void, and volume:cut{{ plane = … }} gives each part"));
+    pieces.front().name = volume.name;
+    return std::move(pieces.front());
+}
+
 void take(closure::Reading found, Volume& volume)
 {
     volume.volume = std::move(found.volume);
@@ -134,6 +169,13 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
     Volume volume;
     std::vector<FaceId> faces;
     if (!request.roles) faces = request.faces ? *request.faces : topology::all_faces(model);
+    if (!request.along && !request.full_turn) {
+        const std::vector<FaceId> named = request.roles ? topology::all_faces(*request.roles) : faces;
+        if (const auto joined = join_touching_parts(model, named, request.find_walls, context)) {
+            log_line(context, joined->note);
+            return open(joined->model, joined_request(request, *joined), context);
+        }
+    }
     if (request.along) {
         volume.along = open_along(model, request, context);
         volume.volume = volume.along->source;
@@ -183,6 +225,7 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
     volume.name = request.name;
     volume.material = request.material;
     volume.glued = request.glued;
+    if (request.fill_to) return part_behind(volume, *request.fill_to, context);
     return volume;
 }
 

@@ -57,6 +57,7 @@ struct RoleRequest {
     int reading = 0; ///< number of a found reading, from 1; with `roles`, 1 accepts ambiguous geometry
     std::optional<topology::VolumeClass> override_class;
     bool full_turn = false; ///< the volume makes a full turn: all faces are walls
+    std::optional<geometry::Plane> fill_to; ///< only the part of the void behind this plane
     /// Path along which the source is swept. Only for a volume without a target and walls.
     std::optional<closure::Along> along;
     /// With `along`: meshes that the model was read from. Their sets of edges become sets of the walls.
@@ -71,6 +72,7 @@ struct RoleRequest {
 /// between is an error only for the stages that need them: match(), cut() and a sweep without a fallback.
 /// @throw InvalidInput "lua.walls_without_ends", "lua.class_of_found_roles"; as `topology::open_volume()`,
 ///                     `topology::find_walls()`, `closure::find_reading()` and `require_none_left_out()`.
+///                     "closure.fill_to": the plane leaves several parts; otherwise as cut() by a plane.
 ///                     "closure.along_roles": a path with other roles than a source; "closure.along_…" and
 ///                     "geometry.path_…": a path or a source that cannot be swept along it.
 Volume open(const topology::Model& model, const RoleRequest& request = {}, const RunContext& context = {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/matching/side_lines.h>
 
+#include <lacuna/core/error.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/polyline.h>
@@ -333,6 +334,11 @@ std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& con
     std::set<VertexId> taken;
     for (const VertexId start : rim_vertices(volume, Role::source)) {
         check_cancelled(context);
+        if (targets.contains(start)) // after the rims of steps were divided, say
+            throw InvalidInput(Message("topology.ends_touch",
+                                       "source and target meet in {}; the ends of a sweep must not touch",
+                                       entity_of(model, start))
+                                   .remedy("choose other faces"));
         if (auto path = climb_from(start, graph, targets, taken, model)) waiting.push_back(std::move(*path));
     }
     std::vector<SideLine> lines;

@@ -436,4 +436,39 @@ ImprintedVolumes imprinted(std::span<const AssemblyMember> members, const RunCon
     return result;
 }
 
+ImprintedVolumes imprinted_parts(std::span<const AssemblyMember> members,
+                                 const std::function<bool(const SharedFace&, bool)>& takes,
+                                 const RunContext& context)
+{
+    ImprintedVolumes result;
+    std::vector<AssemblyMember> split(members.begin(), members.end());
+    for (const AssemblyMember& member : members) result.volumes.push_back(*member.volume);
+    for (std::size_t m = 0; m < split.size(); ++m) split[m].volume = &result.volumes[m];
+    result.parents.resize(members.size());
+    const auto is_taken = [&](const FacesInCommon& found, const SharedFace& pair) {
+        const auto parent = [&](std::size_t m, FaceId face) {
+            const std::size_t given = members[m].volume->model.faces.size();
+            return face.index() < given ? face : result.parents[m][face.index() - given];
+        };
+        return takes({pair.a, pair.b, parent(pair.a, pair.face_a), parent(pair.b, pair.face_b)},
+                     found.same_side.contains({pair.a, pair.b}));
+    };
+    const auto keep_taken = [&](FacesInCommon& found) {
+        std::erase_if(found.whole, [&](const SharedFace& pair) { return !is_taken(found, pair); });
+        std::erase_if(found.partly, [&](const PartlyShared& pair) { return !is_taken(found, pair.faces); });
+    };
+    FacesInCommon found = faces_in_common(split, context, {}, MayOverlap::yes);
+    keep_taken(found);
+    if (!found.partly.empty()) {
+        FaceImprint imprint = imprint_faces(result.volumes, split, found.partly, context);
+        found = faces_in_common(split, context, with_sag_of_parts(std::move(found.sag), imprint),
+                                MayOverlap::yes);
+        result.parents = std::move(imprint.parents);
+        keep_taken(found);
+        refuse_partly_shared(found);
+    }
+    result.shared = std::move(found.whole);
+    return result;
+}
+
 } // namespace lacuna::sweep

@@ -110,8 +110,9 @@ struct InCommon {
     /// The reason to refuse the pair: a face that is shared in part or, if nothing is shared, overlapping
     /// volumes.
     std::optional<Message> refusal;
-    double apart = 0; ///< for one common face: distance of the arcs of both rims
-    double sag = 0;   ///< maximum distance of the rims' chords from these arcs
+    bool same_side = false; ///< both volumes are on the same side of it
+    double apart = 0;       ///< for one common face: distance of the arcs of both rims
+    double sag = 0;         ///< maximum distance of the rims' chords from these arcs
 };
 
 /// One face in two members, whose rims may be apart. @return  whether they are the same face nevertheless
@@ -146,7 +147,7 @@ bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& 
 
 /// @param overlap  null: no part of one face is near the other
 InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
-                   const FaceOverlap* overlap, double tolerance, double window)
+                   const FaceOverlap* overlap, double tolerance, double window, MayOverlap may_overlap)
 {
     const double limit = tolerance + one.sag + other.sag;
     if (!share_area(one.box, other.box, limit)) return {};
@@ -156,6 +157,8 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
     if (!same && overlap == nullptr) return {};
     InCommon common;
     common.limit = limit;
+    common.same_side = overlap != nullptr && overlap->a.same_way > 0.5 * overlap->a.on;
+    const bool refused = common.same_side && may_overlap == MayOverlap::no;
     const NamedEntity entity_a = entity_in(a, one.face), entity_b = entity_in(b, other.face);
     double percent_a = 0, percent_b = 0;
     if (!same) {
@@ -169,7 +172,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                                                  rim_chords(other.model(), other.face), tolerance);
             if (overlap->a.on <= under + kNothing * std::min(whole, whole_other)) return {};
         }
-        same = there >= kMostly && back >= kMostly && overlap->a.same_way <= 0.5 * overlap->a.on &&
+        same = there >= kMostly && back >= kMostly && !refused &&
                rims_agree(a, one, b, other, tolerance, window, common);
         // Faces that curve away from each other at a common rim are close only along it.
         if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
@@ -181,7 +184,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                                  found(percent_a), entity_a, a.region, entity_b, b.region, found(percent_b))
                              .remedy("split one along the other's rim");
     }
-    if (overlap != nullptr && overlap->a.same_way > 0.5 * overlap->a.on) {
+    if (refused) {
         const bool part = common.refusal &&
                           std::max(overlap->a.on / face_area(one.model(), one.face),
                                    overlap->b.on / face_area(other.model(), other.face)) < kMostly;
@@ -338,7 +341,7 @@ double facet_sag(const Model& model, const Face& face)
 }
 
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
-                              std::vector<std::vector<double>> sag)
+                              std::vector<std::vector<double>> sag, MayOverlap may_overlap)
 {
     MemberSides all(members, sag);
     const std::vector<std::vector<Side>>& sides = all.sides;
@@ -351,7 +354,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
             NearPair pair{a, b, pair_tolerance(members[a], members[b]), 0, {}};
             pair.window = near_window(members[a], members[b]);
             if (!all.are_near(a, b, kAround * pair.window)) continue;
-            all.check_apart(members, a, b);
+            if (may_overlap == MayOverlap::no) all.check_apart(members, a, b);
             pair.overlaps = face_overlaps(*members[a].volume, sag[a], *members[b].volume, sag[b],
                                           pair.tolerance, pair.window, context);
             for (const Side& one : sides[a]) {
@@ -359,12 +362,13 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
                     const auto overlap = pair.overlaps.find({one.face, other.face});
                     InCommon common = in_common(members[a], one, members[b], other,
                                                 overlap == pair.overlaps.end() ? nullptr : &overlap->second,
-                                                pair.tolerance, pair.window);
+                                                pair.tolerance, pair.window, may_overlap);
                     if (!common.any) {
                         if (!same_side) same_side = std::move(common.refusal);
                         continue;
                     }
                     const SharedFace faces{a, b, one.face, other.face};
+                    if (common.same_side) found.same_side.emplace(a, b);
                     if (common.apart > 0)
                         hidden.push_back(welded(members[a], members[b], faces, common, overlap->second.a.on,
                                                 pair.tolerance));
@@ -377,7 +381,7 @@ FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const Run
             pairs.push_back(std::move(pair));
         }
     }
-    found.near = near_misses(members, sag, pairs, found, context);
+    if (may_overlap == MayOverlap::no) found.near = near_misses(members, sag, pairs, found, context);
     found.near.insert(found.near.end(), hidden.begin(), hidden.end());
     if (same_side) throw InvalidInput(*same_side);
     found.sag = std::move(sag);

@@ -3,7 +3,9 @@
 
 #include <lacuna/sweep/assembly.h>
 
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 /// Faces shared by members of an assembly. Internal to this folder.
@@ -22,13 +24,20 @@ struct FacesInCommon {
     std::vector<PartlyShared> partly;
     std::vector<NearMiss> near;           ///< near misses of faces that are not shared completely
     std::vector<std::vector<double>> sag; ///< for each member: of each face, as `facet_sag()`
+    /// Members that share faces and lie on the same side of one of them: one is inside the other.
+    std::set<std::pair<std::size_t, std::size_t>> same_side;
 };
+
+/// Whether a member may lie inside another one, as the parts of one skin do. Near misses are then not
+/// searched.
+enum class MayOverlap : bool { no, yes };
 
 /// @param sag  for each member, sag of its first faces, as from `facet_sag()`; given where the faces were
 ///          divided, because their facets no longer show it.
 /// @throw InvalidInput "assembly.overlap", "assembly.rims_apart", "assembly.crack"  as `shared_faces()`
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
-                              std::vector<std::vector<double>> sag = {});
+                              std::vector<std::vector<double>> sag = {},
+                              MayOverlap may_overlap = MayOverlap::no);
 
 /// @throw InvalidInput "assembly.part_of_face"  where faces are shared in part.
 void refuse_partly_shared(const FacesInCommon& found);

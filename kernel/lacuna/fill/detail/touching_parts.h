@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/core/run_context.h>
+#include <lacuna/topology/model.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::fill {
+
+/// A model whose parts no longer touch: they are connected along the rims of their contacts instead.
+struct JoinedParts {
+    topology::Model model;
+    /// For each face of the model before, its faces now: none if it is in contact as a whole.
+    std::vector<std::vector<FaceId>> faces_of;
+    std::string note; ///< names a pair of faces in contact
+};
+
+/// Join the parts of a volume's skin that touch, such as a box and a product of another solid on its floor.
+/// What two faces share is split off both and left out, for it does not bound the volume.
+///
+/// Whole solids side by side are not joined, unless they stand inside another part.
+/// @param named  faces of the volume, or some of them if `all_follow`: then the others are found later.
+/// @return  empty if nothing touches.
+/// @throw InvalidInput "assembly.part_of_face"  faces in contact that cannot be split; names both.
+///        "assembly.rims_apart"  as `sweep::shared_faces()`.
+/// @note  Only parts with named faces whose boxes meet are compared.
+std::optional<JoinedParts> join_touching_parts(const topology::Model& model, const std::vector<FaceId>& named,
+                                               bool all_follow, const RunContext& context = {});
+
+} // namespace lacuna::fill

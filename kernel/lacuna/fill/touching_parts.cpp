@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/fill/detail/touching_parts.h>
+
+#include <lacuna/closure/shared/straighten_lines.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/healing/shared/stitch.h>
+#include <lacuna/sweep/shared/imprinted.h>
+#include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/use_places.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace lacuna::fill {
+
+using namespace topology;
+using sweep::SharedFace;
+
+namespace {
+
+/// A connected part of the model.
+struct Body {
+    std::vector<FaceId> faces; ///< of the model
+    Eigen::AlignedBox3d box;
+    bool complete = false; ///< closed, and all its faces are named
+};
+
+/// The parts with named faces. Where more than two faces meet at an edge, solids touch along it.
+std::vector<Body> bodies_named(const Model& model, const std::vector<char>& is_named)
+{
+    geometry::UnionFind sets(model.faces.size());
+    std::vector<char> is_free(model.faces.size(), 0);
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() == 2)
+            sets.unite_least(uses[0].face.index(), uses[1].face.index());
+        else
+            for (const FaceUse& use : uses) is_free[use.face.index()] = 1;
+    }
+    std::map<std::size_t, Body> by_root;
+    for (const FaceId face : all_faces(model)) by_root[sets.find(face.index())].faces.push_back(face);
+    std::vector<Body> bodies;
+    for (auto& [root, body] : by_root) {
+        if (std::ranges::none_of(body.faces, [&](FaceId f) { return is_named[f.index()] != 0; })) continue;
+        body.complete = std::ranges::all_of(
+            body.faces, [&](FaceId f) { return is_named[f.index()] != 0 && is_free[f.index()] == 0; });
+        for (const FaceId face : body.faces)
+            for (const Triangle& t : model[face].triangles)
+                for (const Index p : t) body.box.extend(model.at(p));
+        body.box.min().array() -= model.tolerance;
+        body.box.max().array() += model.tolerance;
+        bodies.push_back(std::move(body));
+    }
+    return bodies;
+}
+
+/// Keep the bodies whose boxes meet others.
+void keep_near(std::vector<Body>& bodies)
+{
+    std::vector<std::size_t> order(bodies.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t b) { return bodies[b].box.min().x(); });
+    std::vector<char> meets(bodies.size(), 0);
+    for (auto a = order.begin(); a != order.end(); ++a) {
+        for (auto b = a + 1; b != order.end() && bodies[*b].box.min().x() <= bodies[*a].box.max().x(); ++b)
+            if (bodies[*a].box.intersects(bodies[*b].box)) meets[*a] = meets[*b] = 1;
+    }
+    std::vector<Body> kept;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (meets[b] != 0) kept.push_back(std::move(bodies[b]));
+    bodies = std::move(kept);
+}
+
+/// Add the faces of a model; edges made by imprints become given ones.
+void add(ModelBuilder& builder, const Model& more)
+{
+    const auto points = static_cast<Index>(builder.points.size());
+    const std::size_t vertices = builder.vertices.size(), edges = builder.edges.size();
+    const auto moved = [&](Index& p) { p += points; };
+    builder.points.insert(builder.points.end(), more.points.begin(), more.points.end());
+    for (Vertex vertex : more.vertices) {
+        moved(vertex.point);
+        vertex.origin = Origin::given;
+        builder.vertices.push_back(vertex);
+    }
+    for (Edge edge : more.edges) {
+        edge.from = VertexId(edge.from.index() + vertices);
+        edge.to = VertexId(edge.to.index() + vertices);
+        std::ranges::for_each(edge.points, moved);
+        edge.origin = Origin::given;
+        builder.edges.push_back(std::move(edge));
+    }
+    for (Face face : more.faces) {
+        for (Loop& loop : face.loops)
+            for (EdgeUse& use : loop.uses) use.edge = EdgeId(use.edge.index() + edges);
+        for (Triangle& t : face.triangles) std::ranges::for_each(t, moved);
+        for (Quad& q : face.given_quads) std::ranges::for_each(q, moved);
+        builder.faces.push_back(std::move(face));
+    }
+}
+
+/// A tree of points.
+geometry::FacetTree tree_of(const std::vector<Vec3>& points)
+{
+    std::vector<Triangle> dots;
+    for (Index p = 0; p < std::ssize(points); ++p) dots.push_back({p, p, p});
+    return {points, dots};
+}
+
+/// An edge with an exact curve, and its points.
+struct CurvedEdge {
+    Edge edge;
+    std::vector<Vec3> places;
+};
+
+/// Take the curves off the edges along some points: `stitch()` merges an exact edge and a polyline only if
+/// the chords of this lie on the curve.
+std::vector<CurvedEdge> take_curves(ModelBuilder& model, const std::vector<Vec3>& along)
+{
+    const geometry::FacetTree tree = tree_of(along);
+    std::vector<CurvedEdge> taken;
+    for (Edge& edge : model.edges) {
+        std::vector<Vec3> places = places_at(model, edge.points);
+        if (!edge.curve || !std::ranges::all_of(places, [&](const Vec3& p) {
+                return tree.closest(p, model.tolerance * model.tolerance).triangle >= 0;
+            }))
+            continue;
+        taken.push_back({edge, std::move(places)});
+        edge.curve = nullptr;
+        edge.params.clear();
+    }
+    return taken;
+}
+
+void give_curves(ModelBuilder& model, const std::vector<CurvedEdge>& curves)
+{
+    for (Edge& edge : model.edges) {
+        if (edge.curve) continue;
+        std::vector<Vec3> places = places_at(model, edge.points);
+        for (const bool reversed : {false, true}) {
+            const auto own = std::ranges::find_if(curves, [&](const CurvedEdge& curved) {
+                return std::ranges::equal(curved.places, places, [&](const Vec3& p, const Vec3& q) {
+                    return (p - q).norm() <= model.tolerance;
+                });
+            });
+            std::ranges::reverse(places);
+            if (own == curves.end()) continue;
+            edge.curve = own->edge.curve;
+            edge.params = own->edge.params;
+            if (reversed) std::ranges::reverse(edge.params);
+            break;
+        }
+    }
+}
+
+template <class Entity>
+void make_tags_unique(std::vector<Entity>& entities)
+{
+    int last = 0;
+    for (const Entity& entity : entities) last = std::max(last, entity.tag);
+    std::set<int> taken;
+    for (Entity& entity : entities)
+        if (!taken.insert(entity.tag).second) entity.tag = ++last;
+}
+
+/// The parts of one model as members of an assembly, whose faces in contact are found and split.
+class Joiner {
+public:
+    Joiner(const Model& model, std::vector<Body> bodies, std::vector<char> is_named, bool all_follow,
+           const RunContext& context)
+        : model_(model),
+          bodies_(std::move(bodies)),
+          is_named_(std::move(is_named)),
+          all_follow_(all_follow),
+          context_(context)
+    {
+    }
+
+    std::optional<JoinedParts> run()
+    {
+        std::vector<OpenVolume> given(bodies_.size());
+        std::vector<sweep::AssemblyMember> members(bodies_.size());
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            given[b].model = extract(model_, bodies_[b].faces);
+            given[b].role.assign(bodies_[b].faces.size(), Role::wall);
+            if (bodies_[b].complete) orient_consistently(given[b].model); // the others have no inside
+            members[b].volume = &given[b];
+            members[b].region = "the body of " + name_of(model_, bodies_[b].faces.front());
+        }
+        sweep::ImprintedVolumes split = sweep::imprinted_parts(
+            members, [&](const SharedFace& pair, bool same_side) { return is_contact(pair, same_side); },
+            context_);
+        if (split.shared.empty()) return std::nullopt;
+        volumes_ = std::move(split.volumes);
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            for (const FaceId parent : split.parents[b]) bodies_[b].faces.push_back(original(b, parent));
+            take_rims_of_others(b, split.parents[b]);
+        }
+        return joined(split.shared);
+    }
+
+private:
+    /// The face of the model that a face is part of.
+    [[nodiscard]] FaceId original(std::size_t body, FaceId face) const
+    {
+        return bodies_[body].faces[face.index()];
+    }
+
+    /// Of two closed skins one inside the other touches it from the same side.
+    [[nodiscard]] bool is_contact(const SharedFace& pair, bool same_side) const
+    {
+        const Body &a = bodies_[pair.a], &b = bodies_[pair.b];
+        if (!all_follow_ && is_named_[original(pair.a, pair.face_a).index()] == 0 &&
+            is_named_[original(pair.b, pair.face_b).index()] == 0)
+            return false;
+        if (!a.complete || !b.complete || same_side) return true;
+        return std::ranges::any_of(bodies_, [&](const Body& other) {
+            return &other != &a && &other != &b && other.box.contains(a.box) && other.box.contains(b.box);
+        });
+    }
+
+    /// Lines across flat faces have only the points of the rims that they follow, so that they become one
+    /// edge.
+    void take_rims_of_others(std::size_t b, const std::vector<FaceId>& parents)
+    {
+        std::vector<Vec3> points;
+        for (const Edge& edge : model_.edges)
+            for (const Index p : edge.points) points.push_back(model_.at(p));
+        const geometry::FacetTree tree = tree_of(points);
+        const double near = model_.tolerance * model_.tolerance;
+        Model& model = volumes_[b].model;
+        for (const FaceId face : std::set<FaceId>(parents.begin(), parents.end())) {
+            const auto flat = plane_of(model, face);
+            if (!flat) continue;
+            std::vector<FaceId> parts;
+            for (const FaceId part : all_faces(model))
+                if (original(b, part) == original(b, face)) parts.push_back(part);
+            std::vector<EdgeUse> lines;
+            for (std::size_t e = 0; e < model.edges.size(); ++e)
+                if (std::ranges::all_of(model.uses_of_edge(EdgeId(e)), [&](const FaceUse& use) {
+                        return std::ranges::find(parts, use.face) != parts.end();
+                    }))
+                    lines.push_back({EdgeId(e), false});
+            closure::straighten_lines(model, parts, *flat, {lines}, context_,
+                                      [&](const Vec3& p) { return tree.closest(p, near).triangle >= 0; });
+        }
+    }
+
+    /// Points of the rims of faces in contact.
+    [[nodiscard]] std::vector<Vec3> rims_of(const std::vector<SharedFace>& contacts) const
+    {
+        std::vector<Vec3> places;
+        const auto add_rim = [&](const Model& model, FaceId face) {
+            for (const EdgeUse& use : uses_of(model[face])) {
+                const std::vector<Vec3> own = places_at(model, model[use.edge].points);
+                places.insert(places.end(), own.begin(), own.end());
+            }
+        };
+        for (const SharedFace& pair : contacts) {
+            add_rim(volumes_[pair.a].model, pair.face_a);
+            add_rim(volumes_[pair.b].model, pair.face_b);
+        }
+        return places;
+    }
+
+    /// The model without the faces in contact, its edges merged along their rims.
+    JoinedParts joined(const std::vector<SharedFace>& contacts)
+    {
+        std::set<std::pair<std::size_t, FaceId>> gone;
+        for (const SharedFace& pair : contacts) {
+            gone.emplace(pair.a, pair.face_a);
+            gone.emplace(pair.b, pair.face_b);
+        }
+        ModelBuilder parts;
+        parts.diagonal = model_.diagonal;
+        parts.tolerance = model_.tolerance;
+        parts.source = model_.source;
+        parts.notes = model_.notes;
+        std::vector<FaceId> was; // the face of the model, for each of `parts`
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            std::vector<FaceId> kept;
+            for (const FaceId face : all_faces(volumes_[b].model)) {
+                if (gone.contains({b, face})) continue;
+                kept.push_back(face);
+                was.push_back(original(b, face));
+            }
+            add(parts, extract(volumes_[b].model, kept));
+        }
+        // Tags tell the faces that are left after stitching.
+        for (std::size_t f = 0; f < was.size(); ++f) parts.faces[f].tag = static_cast<int>(f);
+        const std::vector<CurvedEdge> curves = take_curves(parts, rims_of(contacts));
+        Model stitched = std::move(parts).finish();
+        healing::stitch(stitched, model_.tolerance, context_);
+        ModelBuilder whole(std::move(stitched));
+        give_curves(whole, curves);
+        JoinedParts result;
+        result.faces_of.resize(model_.faces.size());
+        std::vector<char> is_other(model_.faces.size(), 1);
+        for (std::size_t f = 0; f < whole.faces.size(); ++f) {
+            const FaceId before = was[static_cast<std::size_t>(whole.faces[f].tag)];
+            whole.faces[f].tag = model_[before].tag;
+            result.faces_of[before.index()].emplace_back(f);
+        }
+        for (const Body& body : bodies_)
+            for (const FaceId face : body.faces) is_other[face.index()] = 0;
+        std::vector<FaceId> others;
+        for (const FaceId face : all_faces(model_)) {
+            if (is_other[face.index()] == 0) continue;
+            result.faces_of[face.index()].emplace_back(whole.faces.size() + others.size());
+            others.push_back(face);
+        }
+        add(whole, extract(model_, others));
+        make_tags_unique(whole.edges);
+        make_tags_unique(whole.vertices);
+        result.model = std::move(whole).finish();
+        const SharedFace& first = contacts.front();
+        result.note = formatted("note: {} and {} touch, and what they share does not bound the volume",
+                                entity_of(model_, original(first.a, first.face_a)),
+                                entity_of(model_, original(first.b, first.face_b)));
+        return result;
+    }
+
+    const Model& model_;
+    std::vector<Body> bodies_; ///< with the parts of their faces, as in `volumes_`
+    std::vector<char> is_named_;
+    bool all_follow_;
+    const RunContext& context_;
+    std::vector<OpenVolume> volumes_;
+};
+
+} // namespace
+
+std::optional<JoinedParts> join_touching_parts(const Model& model, const std::vector<FaceId>& named,
+                                               bool all_follow, const RunContext& context)
+{
+    std::vector<char> is_named(model.faces.size(), 0);
+    for (const FaceId face : named) is_named[face.index()] = 1;
+    std::vector<Body> bodies = bodies_named(model, is_named);
+    keep_near(bodies);
+    if (bodies.size() < 2) return std::nullopt;
+    return Joiner(model, std::move(bodies), std::move(is_named), all_follow, context).run();
+}
+
+} // namespace lacuna::fill

@@ -1,0 +1,134 @@
+-- SPDX-License-Identifier: MIT
+-- A tray and boards in it as solids of their own: on its floor, on each other, flush with its walls. What two
+-- faces share does not bound the void. Rounded products touch the floor in less than their outline.
+-- usage: lacuna touching.lua scratch=FOLDER
+local lacuna = require "lacuna"
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local params = lacuna.params { scratch = "." }
+
+local unit, side, deep = 4, 4, 4 -- of the grid that the boards lie on; side and depth of the tray in units
+
+local function add(model, name, ...)
+  local points = { ... }
+  for i, p in ipairs(points) do points[i] = { unit * p[1], unit * p[2], unit * p[3] } end
+  model:add_face { name = name, points = points, cells = { { 1, 2, 3 }, { 1, 3, 4 } } }
+end
+
+--- The six faces of a box, the names of those at its bottom and top last.
+local function box(model, name, x, y, z, u, v, w)
+  add(model, name .. " 1", { x, y, z }, { x, v, z }, { x, v, w }, { x, y, w })
+  add(model, name .. " 2", { u, y, z }, { u, y, w }, { u, v, w }, { u, v, z })
+  add(model, name .. " 3", { x, y, z }, { x, y, w }, { u, y, w }, { u, y, z })
+  add(model, name .. " 4", { x, v, z }, { u, v, z }, { u, v, w }, { x, v, w })
+  add(model, name .. " 5", { x, y, z }, { u, y, z }, { u, v, z }, { x, v, z })
+  add(model, name .. " 6", { x, y, w }, { x, v, w }, { u, v, w }, { u, y, w })
+end
+
+local function touch_at_an_edge(height)
+  for i = 1, side - 1 do
+    for j = 1, side - 1 do
+      local a, b, c, d = height[i][j], height[i + 1][j + 1], height[i][j + 1], height[i + 1][j]
+      if math.min(a, b) > math.max(c, d) or math.min(c, d) > math.max(a, b) then return true end
+    end
+  end
+end
+
+local random = check.random(11)
+local function whole(low, high) return math.floor(random(low, high + 0.999)) end
+local members = 0
+while members < (check.whole and 150 or 12) do
+  local height, boards, volume = {}, {}, deep * side * side
+  for i = 1, side do
+    height[i] = {}
+    for j = 1, side do height[i][j] = 0 end
+  end
+  for _ = 1, whole(1, 3) do
+    local x, y = whole(0, side - 1), whole(0, side - 1)
+    local u, v, thick = whole(x + 1, math.min(x + 2, side)), whole(y + 1, math.min(y + 2, side)), whole(1, 2)
+    local low, level = height[x + 1][y + 1], true
+    for i = x + 1, u do for j = y + 1, v do level = level and height[i][j] == low end end
+    for _, other in ipairs(boards) do -- a face of both would be given once
+      level = level and not (x == other[1] and y == other[2] and u == other[4] and v == other[5])
+    end
+    if level and low + thick < deep then
+      for i = x + 1, u do for j = y + 1, v do height[i][j] = low + thick end end
+      boards[#boards + 1] = { x, y, low, u, v, low + thick }
+      volume = volume - (u - x) * (v - y) * thick
+    end
+  end
+  if not touch_at_an_edge(height) then
+    local open = members % 3 > 0 -- without a lid
+    local model, text = lacuna.model(), {}
+    box(model, "tray", 0, 0, 0, side, side, deep)
+    for n, board in ipairs(boards) do
+      box(model, "board " .. n, table.unpack(board))
+      text[n] = table.concat(board, " ")
+    end
+    local roles = { source = { "tray 5" }, target = {}, walls = members % 3 == 1 and "auto" or {} }
+    if not open then roles.target[1] = "tray 6" end
+    for n = 0, #boards do
+      if n > 0 then table.insert(roles.source, ("board %d 6"):format(n)) end
+      for k = 1, roles.walls ~= "auto" and 4 or 0 do
+        table.insert(roles.walls, (n > 0 and "board " .. n or "tray") .. " " .. k)
+      end
+    end
+    if open and roles.walls == "auto" then roles.target[1] = "tray 6" end
+    local at = ("%s, way %d"):format(table.concat(text, ", "), members % 3)
+    local fine, mesh = pcall(function() return model:open_volume(roles):sweep { size = 2 } end)
+    check.that(fine, ("%s: %s"):format(at, mesh))
+    local quality = mesh:quality()
+    check.that(quality.certified and quality.min_scaled_jacobian >= 0.3,
+      ("%s: %g"):format(at, quality.min_scaled_jacobian))
+    check.that(math.abs(quality.volume / (volume * unit ^ 3) - 1) < 1e-9, at .. ": volume")
+    members = members + 1
+  end
+end
+
+-- Ends that meet in the circle of a floor and a product with other facets are an error, not a crash.
+local function turned(model, name, count, from, to)
+  local points, cells = {}, {}
+  for _, ring in ipairs { from, to } do
+    for i = 0, count - 1 do
+      local t = 2 * math.pi * i / count
+      points[#points + 1] = { ring[1] * math.cos(t), ring[1] * math.sin(t), ring[2] }
+    end
+  end
+  for i = 0, count - 1 do
+    local j = (i + 1) % count
+    cells[2 * i + 1] = { i + 1, j + 1, count + j + 1 }
+    cells[2 * i + 2] = { i + 1, count + j + 1, count + i + 1 }
+  end
+  model:add_face { name = name, points = points, cells = cells }
+end
+local apart = lacuna.model()
+turned(apart, "floor", 36, { 8, 0 }, { 40, 0 })
+turned(apart, "outer", 36, { 40, 0 }, { 40, 40 })
+turned(apart, "lid", 36, { 40, 40 }, { 0, 40 })
+turned(apart, "round", 48, { 8, 0 }, { 12, 4 })
+turned(apart, "side", 48, { 12, 4 }, { 12, 20 })
+turned(apart, "top", 48, { 12, 20 }, { 0, 20 })
+check.fails(function()
+  apart:open_volume { source = { "floor", "top" }, target = "lid", walls = { "outer", "round", "side" } }
+    :sweep { size = 4 }
+end, "meet in vertex")
+
+-- A product of CAD with rounded edges all round stands on the floor of its box, on less than its outline.
+for round = 2, 6, 2 do
+  local path = params.scratch .. "/rounded.geo"
+  check.write(path, ([[SetFactory("OpenCASCADE");
+Box(1) = {0,0,0, 60,60,40};
+Cylinder(2) = {30,30,0, 0,0,20, 12};
+Fillet{2}{13,15}{%d}]]):format(round))
+  local spandrel = (1 - math.pi / 4) * round ^ 2 -- its centre is 0.2234 radii off the corner
+  local taken = math.pi * 12 ^ 2 * 20 - 2 * 2 * math.pi * (12 - 0.2234 * round) * spandrel
+  local model = lacuna.load(path)
+  local roles = { source = { 5, 11 }, target = 6, walls = "auto" }
+  for way, volume in ipairs { model:open_volume(), model:open_volume(roles) } do
+    local quality = volume:sweep { size = 4 }:quality()
+    local at = ("round %d, way %d"):format(round, way)
+    check.that(quality.certified and quality.min_scaled_jacobian >= 0.2,
+      ("%s: %g"):format(at, quality.min_scaled_jacobian))
+    check.that(math.abs(quality.volume / (60 * 60 * 40 - taken) - 1) < 0.01, at .. ": volume")
+  end
+end
+check.done()
