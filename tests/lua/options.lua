@@ -111,7 +111,7 @@ wrong("close", "void_edges", { { { 1, 2, { { 0, 0, nan } } } } }, "void_edges[1]
 wrong("close", "cap", { "round", 1 }, "flat, parallel")
 wrong("close", "holes", { "covr", "auto", 1 }, "cover, through")
 wrong("sweep", "layers", { 0, -3, 2.5, nan, huge, "8", true }, "a positive whole number")
-wrong("sweep", "layers", { { 0.5, 0.5, 1 }, { 0, 1 }, { 0.5, 1.5 } }, "a height that rises")
+wrong("sweep", "layers", { { 0.5, 0.5, 1 }, { 0, 1 }, { 0.5, 1.5 } }, "increasing heights")
 wrong("sweep", "layers", { { 0.2, 0.5 } }, "must end with the height 1")
 wrong("sweep", "layers", { { bias = 2 } }, "no 'count'")
 check.fails(function() volume():sweep { layers = { count = 0 } } end, "sweep: layers", "'count'", "found 0")

@@ -135,7 +135,9 @@ RoleRequest joined_request(RoleRequest request, const JoinedParts& joined)
 /// The part of a volume behind a plane.
 Volume part_behind(const Volume& volume, const geometry::Plane& plane, const RunContext& context)
 {
-    std::vector<Volume> pieces = cut(volume, {.plane = plane}, context);
+    Cut where;
+    where.plane = plane;
+    std::vector<Volume> pieces = cut(volume, where, context);
     std::erase_if(pieces, [&](const Volume& piece) {
         const Model& model = piece.volume.model;
         return geometry::height(plane, topology::centroid_of(model, topology::all_faces(model))) > 0;

@@ -17,8 +17,8 @@ FilledShell quads(const topology::Model& model, const std::vector<FaceId>& faces
     if (faces.empty()) throw InvalidInput("fill.no_faces", "quads: there are no faces to mesh");
     const topology::Model own = topology::extract(model, faces);
     sweep::ShellQuads mesh = sweep::shell_quads(own, options, context);
-    FilledShell shell{{}, mesh.min_scaled_jacobian, mesh.mean_scaled_jacobian, mesh.area, {}};
-    shell.report = std::move(mesh.report);
+    FilledShell shell{{}, mesh.min_scaled_jacobian, mesh.mean_scaled_jacobian, mesh.area,
+                      0,  std::move(mesh.report)};
     io::Deck& deck = shell.deck;
     deck.format = io::DeckFormat::msh;
     deck.version = 4.1;

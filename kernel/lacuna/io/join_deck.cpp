@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/mesh_deck.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/run_context.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
@@ -37,7 +38,6 @@ public:
     std::vector<Index> points(const std::vector<bool>& gone)
     {
         match();
-        check_beside();
         check_patches(gone);
         std::vector<Index> points(mesh_.nodes.size(), -1);
         for (std::size_t n = 0; n < points.size(); ++n) points[n] = point_of(n);
@@ -56,6 +56,18 @@ public:
                 most = touching_[r];
             }
         return best;
+    }
+
+    /// Note elements of the deck that lie where the mesh lies. @pre points() was called
+    void note_inside(const RunContext& context) const
+    {
+        if (inside_.empty()) return;
+        const auto [tag, region] = *inside_.begin();
+        const std::string name = region >= 0 ? deck_.regions[index(region)].name : std::string();
+        log_line(context,
+                 formatted("note: the mesh lies over {} of the deck's elements, such as element {}{}; "
+                           "the option 'without' leaves them out",
+                           inside_.size(), tag, name.empty() ? "" : " of " + name));
     }
 
 private:
@@ -134,18 +146,6 @@ private:
             for (std::size_t k = 0; k < 4; ++k)
                 height += normal.dot(deck_.points[index(point)] * scale_ - at(k));
         return height < 0;
-    }
-
-    /// Check that the elements of the deck at the skin lie outside the mesh.
-    void check_beside() const
-    {
-        if (inside_.empty()) return;
-        const auto [tag, region] = *inside_.begin();
-        const std::string name = region >= 0 ? deck_.regions[index(region)].name : std::string();
-        throw InvalidInput(Message("io.overlap",
-                                   "the mesh lies over {} of the deck's elements, such as element {}{}",
-                                   found(inside_.size()), tag, name.empty() ? "" : " of " + name)
-                               .remedy("leave them out with the option 'without', or do not write the deck"));
     }
 
     /// Faces of an element with at least two corners on the skin.
@@ -279,6 +279,7 @@ Deck joined(const Deck& deck, const topology::Model& model, double scale, const 
     if (gone != nullptr) was_there = Joiner(*gone, model, scale, mesh).match();
     Joiner joiner(deck, model, scale, mesh);
     const std::vector<Index> points = joiner.points(was_there);
+    joiner.note_inside(context);
     AddedMesh added{.points = points, .scale = scale};
     added.skin_cells = !format_of(options.format).is_numbered;
     if (const DeckRegion* neighbour = joiner.neighbour()) {
