@@ -24,11 +24,16 @@ const std::string& region_of(const AssemblyMember& member)
     return member.whole.empty() ? member.region : member.whole;
 }
 
+bool is_of(const ContactRequest::Pair& pair, const std::string& a, const std::string& b)
+{
+    return pair.regions == std::array{a, b} || pair.regions == std::array{b, a};
+}
+
 const ContactRequest::Pair* asked(const ContactRequest& request, const std::string& a, const std::string& b)
 {
-    for (const ContactRequest::Pair& pair : request.pairs)
-        if (pair.regions == std::array{a, b} || pair.regions == std::array{b, a}) return &pair;
-    return nullptr;
+    const auto found = std::ranges::find_if(
+        request.pairs, [&](const ContactRequest::Pair& pair) { return is_of(pair, a, b); });
+    return found != request.pairs.end() ? &*found : nullptr;
 }
 
 void check_regions(std::span<const AssemblyMember> members, const ContactRequest& request)
@@ -112,7 +117,10 @@ std::vector<FoundContact> find_contacts(std::span<const AssemblyMember> members,
             all, [&](const FoundContact& of) { return of.contact.regions == regions; });
         if (known == all.end()) {
             const ContactRequest::Pair* const pair = pair_of(face.a, face.b);
-            Contact contact{.regions = regions, .gap = gap(face.a, face.b), .least = face.least};
+            Contact contact;
+            contact.regions = regions;
+            contact.gap = gap(face.a, face.b);
+            contact.least = face.least;
             contact.pair.name = pair != nullptr && !pair->name.empty() ? pair->name
                                                                        : regions[0] + "_" + regions[1];
             contact.pair.tied = pair != nullptr ? pair->tied : request.tied;
@@ -129,7 +137,7 @@ std::vector<FoundContact> find_contacts(std::span<const AssemblyMember> members,
     }
     for (const ContactRequest::Pair& pair : request.pairs)
         if (std::ranges::none_of(all, [&](const FoundContact& of) {
-                return asked({.pairs = {pair}}, of.contact.regions[0], of.contact.regions[1]) != nullptr;
+                return is_of(pair, of.contact.regions[0], of.contact.regions[1]);
             }))
             throw InvalidInput(
                 Message("fill.contact_none",
@@ -191,6 +199,7 @@ void add_contact(FilledParts& mesh, std::span<const AssemblyMember> members, con
         std::size_t count = 0;
     };
     std::array<Side, 2> sides;
+    std::map<std::size_t, std::vector<SkinOf>> skins; // by member
     double tolerance = 0;
     for (const sweep::FaceContact& face : found.faces)
         for (const std::size_t s : {0, 1}) {
@@ -201,7 +210,9 @@ void add_contact(FilledParts& mesh, std::span<const AssemblyMember> members, con
             const topology::Model& model = members[member].volume->model;
             tolerance = std::max(tolerance, model.tolerance);
             side.area += topology::face_area(model, own);
-            for (const SkinOf& skin : skins_of(mesh, member)) {
+            const auto [known, fresh] = skins.try_emplace(member);
+            if (fresh) known->second = skins_of(mesh, member);
+            for (const SkinOf& skin : known->second) {
                 side.off = std::max(side.off, skin.off);
                 for (const std::size_t p : patches_on(skin, own, model.faces.size()))
                     if (side.patches.insert(&(*skin.patches)[p]).second) side.count += skin.sides[p];

@@ -163,21 +163,13 @@ void take(closure::Reading found, Volume& volume)
     volume.no_roles = std::move(found.no_roles);
 }
 
-} // namespace
-
-Volume open(const Model& model, const RoleRequest& request, const RunContext& context)
+/// Open a volume from a model without the faces that solids share where they touch.
+Volume open_apart(const Model& model, const RoleRequest& request, const RunContext& context)
 {
     report_progress(context, "roles");
     Volume volume;
     std::vector<FaceId> faces;
     if (!request.roles) faces = request.faces ? *request.faces : topology::all_faces(model);
-    if (!request.along && !request.full_turn) {
-        const std::vector<FaceId> named = request.roles ? topology::all_faces(*request.roles) : faces;
-        if (const auto joined = join_touching_parts(model, named, request.find_walls, context)) {
-            log_line(context, joined->note);
-            return open(joined->model, joined_request(request, *joined), context);
-        }
-    }
     if (request.along) {
         volume.along = open_along(model, request, context);
         volume.volume = volume.along->source;
@@ -229,6 +221,21 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
     volume.glued = request.glued;
     if (request.fill_to) return part_behind(volume, *request.fill_to, context);
     return volume;
+}
+
+} // namespace
+
+Volume open(const Model& model, const RoleRequest& request, const RunContext& context)
+{
+    if (request.along || request.full_turn) return open_apart(model, request, context);
+    const std::vector<FaceId> named = request.roles   ? topology::all_faces(*request.roles)
+                                      : request.faces ? *request.faces
+                                                      : topology::all_faces(model);
+    report_progress(context, "roles");
+    const auto joined = join_touching_parts(model, named, request.find_walls, context);
+    if (!joined) return open_apart(model, request, context);
+    log_line(context, joined->note);
+    return open_apart(joined->model, joined_request(request, *joined), context);
 }
 
 } // namespace lacuna::fill

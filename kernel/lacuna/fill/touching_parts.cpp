@@ -199,9 +199,13 @@ public:
             context_);
         if (split.shared.empty()) return std::nullopt;
         volumes_ = std::move(split.volumes);
+        std::vector<Vec3> on_edges;
+        for (const Edge& edge : model_.edges)
+            for (const Index p : edge.points) on_edges.push_back(model_.at(p));
+        const geometry::FacetTree tree = tree_of(on_edges);
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
             for (const FaceId parent : split.parents[b]) bodies_[b].faces.push_back(original(b, parent));
-            take_rims_of_others(b, split.parents[b]);
+            take_rims_of_others(b, split.parents[b], tree);
         }
         return joined(split.shared);
     }
@@ -226,14 +230,12 @@ private:
         });
     }
 
-    /// Lines across flat faces have only the points of the rims that they follow, so that they become one
-    /// edge.
-    void take_rims_of_others(std::size_t b, const std::vector<FaceId>& parents)
+    /// Remove points from the lines that divide flat faces, except those of the rims that they follow: so
+    /// line and rim become one edge.
+    /// @param tree  of the points on the model's edges
+    void take_rims_of_others(std::size_t b, const std::vector<FaceId>& parents,
+                             const geometry::FacetTree& tree)
     {
-        std::vector<Vec3> points;
-        for (const Edge& edge : model_.edges)
-            for (const Index p : edge.points) points.push_back(model_.at(p));
-        const geometry::FacetTree tree = tree_of(points);
         const double near = model_.tolerance * model_.tolerance;
         Model& model = volumes_[b].model;
         for (const FaceId face : std::set<FaceId>(parents.begin(), parents.end())) {
