@@ -153,6 +153,10 @@ struct FilledShell {
 FilledShell quads(const topology::Model& model, const std::vector<FaceId>& faces,
                   const sweep::SweepOptions& options = {}, const RunContext& context = {});
 
+/// The quads and triangles of a deck without solids, measured as those of `quads()`.
+/// @throw  as `io::read_facets()` and `quads()`
+FilledShell measured_quads(const io::Deck& deck, const RunContext& context = {});
+
 /// A model of the shell with one face for each region. The faces keep the quads. It can be shown or swept.
 topology::Model model_of(const FilledShell& shell, const RunContext& context = {});
 

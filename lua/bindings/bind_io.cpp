@@ -586,22 +586,6 @@ std::vector<mesh::CellNodes> solids_of(const io::Deck& deck)
     return solids;
 }
 
-/// The quads of a file without solids, as they are.
-fill::FilledShell quads_of(const io::Deck& deck, const RunContext& context)
-{
-    const bool has_quads = std::ranges::any_of(
-        deck.blocks, [](const io::DeckBlock& block) { return io::shape_info(block.shape).corners == 4; });
-    if (!has_quads)
-        throw InvalidInput("lua.no_hexahedra", "check: {} holds neither solids nor quads", deck.path);
-    sweep::SweepOptions options;
-    options.quads = sweep::Quads::keep;
-    RunContext quiet = context;
-    quiet.log = nullptr; // notes on the file are said
-    const topology::Model model = cad::load_files({deck.path}, {}, quiet).model;
-    return fill::quads(model, topology::all_faces(model), options, context);
-}
-
-/// quality = lacuna.check(path): of the solids of a file, or of its quads if it has no solids
 int check_file(lua_State* L)
 {
     lua_settop(L, 1);
@@ -616,7 +600,12 @@ int check_file(lua_State* L)
         io::Deck deck = io::read_deck(path, context);
         const std::vector<mesh::CellNodes> cells = solids_of(deck);
         if (cells.empty()) {
-            shell = quads_of(deck, context);
+            const auto is_quad = [](const io::DeckBlock& block) {
+                return io::shape_info(block.shape).corners == 4;
+            };
+            if (std::ranges::none_of(deck.blocks, is_quad))
+                throw InvalidInput("lua.no_hexahedra", "check: {} holds neither solids nor quads", deck.path);
+            shell = fill::measured_quads(deck, context);
             return;
         }
         source.nodes = std::move(deck.points);

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/healing/shared/add_facet.h>
+#include <lacuna/io/shared/deck_facets.h>
 #include <lacuna/sweep/shared/shell_quads.h>
 
 #include <algorithm>
@@ -61,6 +62,14 @@ FilledShell quads(const topology::Model& model, const std::vector<FaceId>& faces
                                     "size, or a larger curvature",
                                     100 * std::abs(share), share < 0 ? "less" : "more"));
     return shell;
+}
+
+FilledShell measured_quads(const io::Deck& deck, const RunContext& context)
+{
+    sweep::SweepOptions options;
+    options.quads = sweep::Quads::keep;
+    const topology::Model model = healing::split_facets(io::facets_of(deck).soup, {}, context);
+    return quads(model, topology::all_faces(model), options, context);
 }
 
 topology::Model model_of(const FilledShell& shell, const RunContext& context)

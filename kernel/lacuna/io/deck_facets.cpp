@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // facets_of(): match the sides of solids with each other and with the shells.
-#include <lacuna/io/detail/deck_facets.h>
+#include <lacuna/io/shared/deck_facets.h>
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/criteria.h>

@@ -4,7 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/healing/shared/stitch.h>
 #include <lacuna/io/detail/deck_builder.h>
-#include <lacuna/io/detail/deck_facets.h>
+#include <lacuna/io/shared/deck_facets.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/input_file.h>
 #include <lacuna/io/leave_out.h>

@@ -4,7 +4,7 @@
 #include <lacuna/io/deck.h>
 #include <lacuna/io/load_facets.h>
 
-/// Faces from finite element meshes. Internal to this folder.
+/// Faces from finite element meshes.
 namespace lacuna::io {
 
 /// The facets of a deck, each once: its shells, and the sides of solids that are free or lie between two
