@@ -339,7 +339,7 @@ private:
         return period_ == -along(inner);
     }
 
-    /// Number of sides along heading 0 minus those back.
+    /// Number of sides along heading 0 minus the number in the opposite direction.
     static int along(const PatternLoop& loop)
     {
         int sum = 0;

@@ -858,7 +858,7 @@ private:
         std::map<std::size_t, std::vector<Vec3>> nodes;
         const std::vector<bool> on_frame = find_frame();
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            // Given nodes on the rim of a face whose mesh is only its shape are dropped if the planned number
+            // A face with triangles only is a shape. Given nodes on its rim are dropped if the planned number
             // of sides differs.
             const bool gives_way = kept_[e] == Kept::rim && sides_of(e) != count_.at(classes_.find(e));
             if (!(common_[e] || gives_way) || !on_frame[e]) continue;

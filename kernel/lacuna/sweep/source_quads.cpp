@@ -82,8 +82,8 @@ double quads_by_turns(std::span<const surface::LinkingSurface> links, const Mode
     return more / kGrading;
 }
 
-/// Estimate the number of cells from areas, lengths and given meshes. Numbers that exceed the node numbers
-/// are refused here, before any memory is used.
+/// Estimate the number of cells from areas, lengths and given meshes. A mesh with more nodes than node
+/// numbers is refused here, before any memory is used.
 ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
                              KnownLinks& links, const RunContext& context)
 {

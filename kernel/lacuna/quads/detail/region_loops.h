@@ -75,7 +75,7 @@ RegionWithin region_within(std::span<const Vec2> points, const std::vector<Cycle
 
 /// Add quads over a region made by `region_within()` to the mesh.
 /// @param own    the mesh's numbers of the region's points.
-/// @param inner  the further points of the quads, which are added.
+/// @param inner  points inside the region; they are added to the mesh.
 void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std::vector<Index>& own,
                  std::span<const Vec2> inner, std::span<const Quad> filling);
 void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQuads& filling);

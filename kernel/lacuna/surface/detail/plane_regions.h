@@ -16,7 +16,7 @@ struct PlaneChain {
     bool left = true, right = true; ///< whether the region on that side is part of the result
 };
 
-/// A chain as a loop uses it.
+/// A chain in a loop, and its direction there.
 struct PlaneUse {
     std::size_t chain = 0;
     bool reversed = false;
