@@ -729,7 +729,7 @@ private:
         const std::set<FaceId> shared = shared_faces_of(m);
         if (!middles_.add(part.mesh, [&](Index patch) { return shared.contains(part.faces[index(patch)]); }))
             throw NotSweepable("assembly.not_shared",
-                               "{}: middle nodes on common faces are not where its neighbours have theirs",
+                               "middle nodes of {} on shared faces differ from those of its neighbours",
                                members_[m].region);
     }
 
@@ -770,8 +770,8 @@ private:
                                           quads_of(n.other, n.there), within);
             if (!pairs)
                 throw UnlikeNeighbour("assembly.unlike",
-                                      "{} of {} is meshed differently from its neighbour's; the neighbour's "
-                                      "mesh is copied to it",
+                                      "the mesh of {} of {} differs from its neighbour's mesh of that face; "
+                                      "the neighbour's mesh is copied",
                                       entity_in(members_[m], n.own), members_[m].region);
             for (const NodePair& pair : *pairs) settled.nodes.emplace_back(pair.own, theirs[pair.other]);
             settled.faces.insert(n.own);
@@ -847,7 +847,7 @@ private:
             }
             throw NotSweepable(
                 "assembly.not_shared",
-                "{} of {} and {} of {} are one face, centred at {}, but their meshes on it differ: "
+                "{} of {} and {} of {} are one face, centred at {}, but were meshed differently: "
                 "{} quads and {}{}",
                 face_a, region_a, face_b, region_b,
                 place_with_digits(face_centroid(members_[m].volume->model, own), 4), found(a.size()),
