@@ -16,19 +16,20 @@ namespace {
 
 using namespace paving;
 
-/// Share of a row's height by which the node where the row ends may miss it. Nodes are placed along curves,
-/// but heights are measured square to the side, so the two differ slightly.
+/// Share of a row's height by which the node at the row's end may miss this height. Nodes are placed along
+/// curves, but heights are measured square to the side, so the two differ slightly.
 constexpr double kOffHeight = 0.05;
 
-/// A loop while rows are placed along it.
+/// A loop to which rows are being added.
 struct Front {
     Cycle nodes;
     std::vector<int> table; ///< table of the side from each node to the next
 };
 
-/// A run: consecutive sides of a front with the same table, between two ends of rows.
+/// A run: consecutive sides of a front with the same table, which get rows together.
 struct Run {
-    /// Position in the front and number of sides. A run of all the front's sides is closed.
+    /// First position in the front and number of sides. A run is closed if it contains all sides of the
+    /// front.
     std::size_t first = 0, sides = 0;
     bool closed = false;
 };
@@ -109,8 +110,8 @@ private:
         return partial_.is_fixed(node) ? node : foot_[index(node) - partial_.fixed];
     }
 
-    /// How the front turns at a place. The input gives the turn at boundary nodes; at row nodes, and where
-    /// rows take up a part of the angle, the angle of the front decides.
+    /// How the front turns at a position. At boundary nodes the input states the turn. At nodes of rows, and
+    /// where rows take up a part of the angle, the angle of the front decides.
     [[nodiscard]] RowTurn turn_at(const Front& front, std::size_t i) const
     {
         const Index node = front.nodes[i];
@@ -119,7 +120,7 @@ private:
                                                                                         : RowTurn::smooth;
     }
 
-    /// Whether rows continue past a place of the front.
+    /// Whether rows continue past a position of the front.
     [[nodiscard]] bool goes_on(const Front& front, std::size_t i) const
     {
         const std::size_t n = front.nodes.size();
@@ -150,7 +151,7 @@ private:
 
     /// How the rows of a run end at one end of the run.
     struct RunEnd {
-        /// Nodes on which the rows end, from the lowest; new ones if the rows have a side of their own.
+        /// Nodes on which the rows end, from the lowest. They are new if the rows end on a side of their own.
         std::vector<Index> nodes;
         std::vector<double> lean; ///< offset of each row's end node along the run [length]
         /// Length from the end over which the rows of the adjacent side cross these rows.
@@ -158,8 +159,8 @@ private:
         bool own = false; ///< whether the rows end on a side of their own
     };
 
-    /// The run's nodes and their inward normals. Moving a node by h times its normal puts it at height h
-    /// above both its sides.
+    /// The run's nodes, with vectors inward. Moving a node by h times its vector puts it at height h above
+    /// both of its sides.
     struct Base {
         std::vector<Index> nodes;
         std::vector<Vec2> normal, along;
@@ -206,13 +207,13 @@ private:
         if (turn == RowTurn::smooth && beyond >= 0 && beyond != table)
             return refuse(RowsFinding::Why::unlike, corner, table, heights.front(), 0);
         end.own = turn != RowTurn::inner;
-        // If the adjacent side has rows too, they continue along the new side. The new side then extends the
+        // If the adjacent side has rows too, these continue along the new side, which therefore extends the
         // line of the adjacent side.
         Vec2 way = normal;
         if (turn == RowTurn::outer && beyond >= 0) {
             const Vec2 line = (at - partial_.at(front.nodes[(place + (last ? 1 : n - 1)) % n])).normalized();
-            // Least sine of the angle between this line and the run; with less, the new side is square to the
-            // run. A choice, not measured.
+            // Minimum sine of the angle between this line and the run. If it is smaller, the new side is
+            // square to the run. A choice, not measured.
             constexpr double kUpright = 0.5;
             if (line.dot(normal) >= kUpright) way = line;
         }
@@ -247,8 +248,8 @@ private:
         return partial_.add(p);
     }
 
-    /// Share of an end's lean that applies to a node at this distance from the end. Within the block it is 1;
-    /// beyond, it decreases so slowly that nodes keep their order.
+    /// Share of an end's lean that applies to a node at a distance from the end. Within the block it is 1.
+    /// Beyond, it decreases slowly enough for the nodes to keep their order.
     static double share_of(const RunEnd& end, double distance, double length)
     {
         constexpr double kSlowly = 3; // the share falls to 0 over this multiple of the largest lean; a
@@ -315,8 +316,8 @@ private:
         if (partial_.is_fixed(node)) is_cut_[index(node)] = true;
     }
 
-    /// Mark the boundary node that is now the corner between the ends of these rows and the adjacent side.
-    /// Rows of the adjacent side will end there on these rows.
+    /// Mark the boundary node that is now a corner between the ends of these rows and the adjacent side. Rows
+    /// of the adjacent side will end on these rows.
     void mark_inner(Index node)
     {
         if (partial_.is_fixed(node)) turn_[index(node)] = RowTurn::inner;
@@ -335,10 +336,10 @@ private:
             return;
         }
         const std::size_t rows = level.size() - 1, n = front.nodes.size();
-        const std::size_t after = run.first + run.sides; // the place of the last node
+        const std::size_t after = run.first + run.sides; // position of the last node
         const int before_table = front.table[(run.first + n - 1) % n], after_table = front.table[after % n];
-        // The part of the front without rows: from the last node, or from where the rows end, around to the
-        // first.
+        // The part of the front without rows: from the last node of the run, or from where its rows end,
+        // around to its first node.
         std::size_t from = after, left = n - run.sides;
         if (end.own) {
             // The rows' end is a side for the rows of the adjacent side.

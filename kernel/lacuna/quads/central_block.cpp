@@ -11,16 +11,16 @@ namespace lacuna::quads {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Angle between a block's first or last quad side and the line between the block's corners. The block's
-/// corners then have 132°, which leaves 114° for each of the two quads outside, close to the 120° of three
-/// equal quads. A larger bulge flattens the block's own corners.
+/// Angle between the first or last side of a quad on the block's boundary and the line between the block's
+/// corners. The block's corners then have 132°, and each of the two quads outside has 114°, close to the 120°
+/// of three equal quads. A larger bulge flattens the block's own corners.
 constexpr double kBulge = 21 * kPi / 180;
 /// Distances from the centre to the block's corners and to the middles of its sides, as shares of the
 /// distance to the boundary. With a half, the quads around the block get about the size of those inside.
 constexpr double kCornerReach = 0.5, kSideReach = 0.5;
 
-/// Distance from the centre to the boundary in a direction: the least within an eighth of a turn on either
-/// side.
+/// Distance from the centre to the boundary in a direction: the smallest one within an eighth of a turn to
+/// either side.
 double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
 {
     double least = kInfinity;
@@ -63,7 +63,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
         angle += kPi / 4;
         std::swap(free[0], free[1]);
     }
-    // Distance from the centre to the middle of a side if the corners are at distance 1.
+    // If the corners are at distance 1 from the centre, this is the distance of the middle of a side.
     const double half = std::numbers::sqrt2 / 2, middle = half * (1 + std::tan(kBulge / 2));
     const double reach = std::min(kCornerReach * free[0], kSideReach * free[1] / middle);
     if (!(reach > 0) || !std::isfinite(reach)) return std::nullopt;

@@ -12,9 +12,9 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// A boundary point keeps its number of quads if this number differs by less than kFits from the point's
-/// angle divided by 90°. The bound exceeds 0.5, so that an angle half way between two numbers accepts both.
-/// Larger values leave more distorted corners.
+/// A boundary point keeps its number of quads if this number differs from the point's angle divided by 90° by
+/// less than this. The value exceeds 0.5, so that an angle halfway between two numbers accepts both. Larger
+/// values leave more distorted corners.
 constexpr double kFits = 0.65;
 /// kSizeLoss weighs size against shape: it is the loss of a quad whose area is off by a factor e. The loss is
 /// quadratic in the logarithm of the factor; kFarOff is the logarithm used for a folded quad.
@@ -71,7 +71,7 @@ int CleanMesh::right_angles(Index p) const
         any = true;
         last = at(net_.from(QuadNet::before(side))) - at(p);
     });
-    // An angle half way between two numbers suits both, so the present number is kept.
+    // An angle halfway between two numbers suits both, so the present number is kept.
     const double fit = turn_between(first, last) / kRightAngle;
     const int valence = net_.valence(p);
     return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));

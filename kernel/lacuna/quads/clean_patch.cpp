@@ -5,8 +5,8 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// Limit of points visited in the search for irregular ones around a seed; it bounds the distance over which
-/// irregular points are paired.
+/// Maximum number of points that are visited in the search for irregular ones around a seed. It bounds the
+/// distance over which irregular points are paired.
 constexpr std::size_t kLookedAt = 900;
 
 } // namespace
@@ -126,7 +126,7 @@ bool PatchGrower::walk_outline()
     Index p = start_;
     do {
         const int valence = net.valence(p), inside = count_[p], wanted = mesh_.ideal_valence(p);
-        // A filling may change the number of quads at a point of the mesh's boundary.
+        // On the mesh's boundary, a filling may change the number of quads at a point.
         const bool whole = inside == valence;
         const int corner = whole ? wanted : inside;
         if (corner > 2) return false;

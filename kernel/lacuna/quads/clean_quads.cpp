@@ -25,9 +25,9 @@ struct SearchLimits {
     int sweeps;           ///< smoothing sweeps over a filling before its second judgement
     double hopeless;      ///< a filling is rejected early if its loss exceeds the allowed loss by this factor
 };
-/// Small patches come first: they are cheap and remove most irregular points. Then larger ones follow, with
-/// more effort while the budget lasts. Larger limits remove slightly more irregular points for much more
-/// time.
+/// Stages of the search. Small patches come first: they are cheap and remove most irregular points. Larger
+/// patches follow with more effort, as long as the budget lasts. Larger limits remove slightly more irregular
+/// points but take much more time.
 constexpr std::array<SearchLimits, 3> kStages{
     {{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
 /// Base budget of quads in fillings, for a thorough and for a quick search. The quick one was measured on the
@@ -100,7 +100,7 @@ bool Cleaner::refill(const QuadPatch& patch)
     return false;
 }
 
-/// Grow a patch from an irregular point to further ones, until a filling is better.
+/// Grow a patch from an irregular point to further irregular points, until one of its fillings is better.
 bool Cleaner::improve(Index seed)
 {
     grower_.start(seed, limits_.growths);

@@ -7,16 +7,16 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// Allowed loss of scaled Jacobian, summed over a patch's quads, for each irregular point removed. Compared
-/// with 0.15, this value leaves a sixth fewer irregular points on meshes below 1,000 quads and two fifths
-/// fewer from 20,000 quads on, while the mean scaled Jacobian falls by at most 0.0003; at 2.5 it falls by
+/// Allowed loss of scaled Jacobian for each irregular point removed, summed over a patch's quads. Compared
+/// with 0.15, this value leaves a sixth fewer irregular points on meshes below 1,000 quads, and two fifths
+/// fewer from 20,000 quads on, while the mean scaled Jacobian falls by at most 0.0003. With 2.5 it falls by
 /// 0.002. Measured on the named outlines, 30 of the held family and 60 generated ones.
 constexpr double kLossForgiven = 1.2;
-/// In 99 % of 6,000 fillings from six domains, at least this share of the loss remains after the first
-/// smoothing sweeps. A filling whose loss is above the limit even at this share is rejected early.
+/// At least this share of a filling's loss remains after the first smoothing sweeps, in 99 % of 6,000
+/// fillings from six domains. A filling is rejected early if its loss times this share is above the limit.
 constexpr double kLeft = 0.6;
-/// Number of smoothing sweeps over a filling and its surroundings, and of rounds over its poor quads, before
-/// the last judgement.
+/// Number of smoothing sweeps over a filling and its surroundings before the last judgement, and number of
+/// rounds over the poor quads there.
 constexpr int kSweeps = 6, kRepairs = 4;
 
 } // namespace
@@ -71,8 +71,8 @@ bool Trial::exceeds(std::size_t filled, double most) const
 /// `most`
 bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
 {
-    // Smoothing makes no quad worse than the worst quad it is given. The worst surrounding quad is included
-    // to set this bound.
+    // Smoothing makes no quad worse than the worst one it is given. To set this bound, the worst surrounding
+    // quad is included.
     points_.clear();
     quads_.clear();
     if (worst_ >= 0) {

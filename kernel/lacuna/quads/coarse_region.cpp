@@ -13,8 +13,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Limit of runs with an odd number of sides. Until smoothing, a row of quads of double width leads from each
-/// of them. A larger limit coarsens more regions but distorts more rows.
+/// Maximum number of runs with an odd number of sides. From each of them leads a row of quads that have
+/// double width until smoothing. A larger limit coarsens more regions but distorts more rows.
 constexpr std::size_t kMostOdd = 8;
 
 void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
@@ -57,7 +57,7 @@ std::size_t longest_run(const std::vector<std::size_t>& corners)
     return longest;
 }
 
-/// @param of_longest  number of whole sides of run `longest`; each other odd run has one.
+/// @param of_longest  number of whole sides of run `longest`; every other odd run has one whole side.
 void add_runs(CoarseRegion& made, const PlanarRegion& region, const std::vector<Index>& loop,
               const std::vector<std::size_t>& corners, std::size_t longest, std::size_t of_longest)
 {
@@ -74,9 +74,9 @@ struct Row {
     std::size_t quads = std::numeric_limits<std::size_t>::max();
 };
 
-/// Find where the row from a boundary side ends, calling `visit(a, b)` with the two sides of each quad
-/// crossed.
-/// @return -1 if it ends at a triangle.
+/// Find the boundary side at which the row from another boundary side ends. Calls `visit(a, b)` with the two
+/// sides of each quad that the row crosses.
+/// @return  -1 if the row ends at a triangle.
 template <class Visit>
 Index follow_row(const std::vector<Quad>& quads, const std::vector<Index>& opposite, Index side,
                  const Visit& visit)
@@ -90,7 +90,7 @@ Index follow_row(const std::vector<Quad>& quads, const std::vector<Index>& oppos
     }
 }
 
-/// Rows between whole sides; each whole side is the end of one row.
+/// A set of rows between whole sides; each whole side is the end of exactly one row.
 struct Pairing {
     std::vector<Row> rows;
     std::size_t quads = std::numeric_limits<std::size_t>::max(); ///< number of quads of all rows
@@ -102,8 +102,8 @@ struct Pairing {
 void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pairing& now, Pairing& best)
 {
     const std::size_t runs = left.size();
-    // Runs are paired in reverse order, so that those of the outer loop, which may have many whole sides,
-    // come last.
+    // Runs are paired in reverse order, so that runs of the outer loop, which may have many whole sides, come
+    // last.
     std::size_t r = runs;
     while (r > 0 && left[r - 1] == 0) --r;
     if (r == 0) {
@@ -125,8 +125,8 @@ void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pa
     ++left[r];
 }
 
-/// Put the points of a run on nodes of the region. @param whole  positions of its points that precede whole
-/// sides
+/// Put the points of a run on nodes of the region.
+/// @param whole  positions of the points after which the side is whole
 void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::size_t>& whole)
 {
     std::size_t place = 0;
@@ -142,8 +142,8 @@ void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::
 
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place)
 {
-    // A node that turns by more than 20° stays, so that round holes keep at least nine nodes. A larger angle
-    // coarsens more and rounds corners off.
+    // A node at which the loop turns by more than 20° stays, so that round holes keep at least nine nodes. A
+    // larger angle coarsens more but rounds corners off.
     constexpr double kTurnsLeftOut = std::numbers::pi / 9;
     return std::abs(corner_angle(region.points, loop, place) - std::numbers::pi) > kTurnsLeftOut;
 }
@@ -177,8 +177,8 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides
                      takes_all ? odd - own_of_longest : own_of_longest);
             continue;
         }
-        // The runs are even, so the nodes that stay are all at even positions or all at odd ones. If no node
-        // must stay, the first one does, because symmetries often pass through it.
+        // All runs have even numbers of sides, so the nodes that stay are all at even or all at odd
+        // positions. If no node must stay, the first one does, because symmetries often pass through it.
         for (std::size_t i = corners[l].front() % 2; i < loop.size(); i += 2)
             add_point(made, region.points[index(loop[i])], loop[i], loop[(i + 1) % loop.size()]);
     }
@@ -200,7 +200,7 @@ std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const Pl
     }
     const std::vector<Index> opposite = mesh::opposite_sides(coarse.quads,
                                                              static_cast<Index>(coarse.points.size()));
-    // Sides of cells on the boundary run in the direction of the loops, each from a point of the coarse
+    // Sides of cells on the boundary have the direction of the loops. Each starts at a point of the coarse
     // region.
     const auto point_before = [&](Index side) {
         return index(coarse.quads[index(side / 4)][index(side % 4)]);
@@ -270,7 +270,7 @@ PlanarQuads cut_in_four(const PlanarRegion& fine, const CoarseRegion& made, cons
         }
         if (sides[0] < 0 && sides[1] < 0) {
             result.quads.push_back(corners);
-        } else if (sides[0] < 0 || sides[1] < 0) { // into two, from the first side that is cut to the other
+        } else if (sides[0] < 0 || sides[1] < 0) { // cut it in two, from one cut side to the other
             const std::size_t k = sides[0] < 0 ? 1 : 0;
             result.quads.push_back({corners[k], sides[k], sides[k + 2], corners[(k + 3) % 4]});
             result.quads.push_back({sides[k], corners[k + 1], corners[k + 2], sides[k + 2]});

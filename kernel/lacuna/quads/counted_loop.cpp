@@ -16,7 +16,7 @@ void add(CountedLoop& loop, CountedRun& run, int by)
     advance(loop.excess, run.quarter, by);
 }
 
-/// Whether a run may have `count` sides if its segment now has `now` in all.
+/// Whether a run may be changed to `count` sides, given that its segment now has `now` sides in all.
 bool may_be(const CountTask& task, int now, const CountedRun& run, int count, const CountRange& range)
 {
     const BoundarySegment& own = task.segments[run.segment];
@@ -33,7 +33,7 @@ bool improves(const CountedLoop& loop, const CountedRun& run, int by, const Coun
     return badness(now) < badness(loop.excess);
 }
 
-/// The runs into which a loop's headings divide its segments.
+/// The runs of a loop: its segments divided where the heading changes.
 std::vector<CountedRun> runs_of(const CountTask& task, const PatternLoop& loop, double share)
 {
     std::vector<CountedRun> runs;
@@ -118,7 +118,7 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
         if (!task.segments[run.segment].fixed)
             add(counted, run, std::max(1, static_cast<int>(std::lround(run.wanted))) - run.count);
     }
-    // Rounding may have left a segment of several runs with fewer sides than its minimum.
+    // After rounding, a segment of several runs may have fewer sides than its minimum.
     for (CountedRun& run : counted.runs) {
         const BoundarySegment& own = task.segments[run.segment];
         if (!own.fixed && sides_of(counted, run.segment) < own.least) add(counted, run, 1);
@@ -143,7 +143,7 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
         CountedRun *best = nullptr, *other = nullptr;
         int best_by = 0;
         for (CountedRun& run : loop.runs) {
-            // A given segment with a single run has no turn to move.
+            // A segment whose number is given and that has a single run contains no turn that could be moved.
             if (task.segments[run.segment].fixed && runs[run.segment] == 1) continue;
             for (const int by : {1, -1}) {
                 if (!may_be(task, sides[run.segment], run, run.count + by, range)) continue;
@@ -156,7 +156,7 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
                     best_by = by;
                     continue;
                 }
-                // The segment's number of sides is given, so the turn within it moves.
+                // If the segment's number of sides is given, the turn within the segment is moved instead.
                 for (CountedRun& next : loop.runs) {
                     if (next.segment != run.segment || &next == &run || next.count - by < 1) continue;
                     const double both = cost + cost_of(next, next.count - by) - cost_of(next, next.count);

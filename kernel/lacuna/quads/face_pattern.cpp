@@ -22,11 +22,12 @@ namespace {
 /// A coordinate around a ring, from 0 up to the period.
 int wrapped(int along, int period) { return ((along % period) + period) % period; }
 
-/// The lines of a grid around a hole, from the outer loop to the hole: one for every side along the ring.
+/// The lines of a grid around a hole that lead from the outer loop to the hole: one for every side along the
+/// ring.
 class Spokes {
 public:
-    /// @param outer, inner  closed loops; `outer` runs once along the first grid axis, `inner` once against
-    ///                      it.
+    /// @param outer, inner  closed loops. `outer` runs once along the first grid axis, and `inner` once in
+    ///         the opposite direction.
     Spokes(const std::vector<Vec2>& points, const GridLoop& outer, const GridLoop& inner, int period)
         : outer_(ends_of(points, outer, period, true)), inner_(ends_of(points, inner, period, false))
     {
@@ -85,7 +86,8 @@ private:
         int row = 0;
     };
 
-    /// The node of a loop at each place along the ring; of several, the one farthest into the region.
+    /// For each position along the ring, the node of a loop; if there are several, the one farthest into the
+    /// region.
     static std::vector<End> ends_of(const std::vector<Vec2>& points, const GridLoop& loop, int period,
                                     bool outer)
     {
@@ -101,12 +103,12 @@ private:
         return ends;
     }
 
-    /// Shift the inner loop to where the spokes are shortest.
+    /// Shift the inner loop along the ring so that the spokes are shortest.
     void turn_inner()
     {
         const std::size_t n = outer_.size();
-        // Of a large loop, only 64 to 127 spokes are evaluated for each place of the inner loop; of a small
-        // one, all.
+        // On a large loop, only 64 to 127 spokes are evaluated for each shift of the inner loop; on a small
+        // one, all are.
         const std::size_t step = std::max<std::size_t>(1, n / 64);
         double least = kInfinity;
         std::size_t best = 0;
@@ -133,8 +135,8 @@ private:
     int shift_ = 0;
 };
 
-/// The nearest integer. Half-way values are rounded down, even with rounding errors, so that holes that are
-/// images of each other all move in the same direction.
+/// The nearest integer. Halfway values are rounded down, even with rounding errors, so that all holes that
+/// are images of each other move in the same direction.
 int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kCountSlack)); }
 
 void move(GridLoop& loop, int along, int across, int period)
@@ -154,8 +156,8 @@ struct FacePattern {
     TurnStyle style = TurnStyle::soft;
 };
 
-/// If quads fold, move inner nodes to the middle of their neighbours a few times, and keep this if the worst
-/// quad improves: the smoother's own untangling takes far longer for rows that overlap.
+/// If quads fold, move inner nodes to the middle of their neighbours a few times. The result is kept if the
+/// worst quad improves. The smoother's own untangling takes far longer if rows overlap.
 void spread_folds(PlanarQuads& mesh, std::size_t fixed)
 {
     constexpr int kSweeps = 20; // limit of sweeps; not measured
@@ -270,9 +272,9 @@ private:
         return sum / static_cast<double>(goal.size());
     }
 
-    /// Move a hole to the grid position nearest to its goal. If the goal lies between two lines in both
-    /// directions, a round hole trades a column for a row, which places it on lines.
-    /// @return false if it has no position in the grid.
+    /// Move a hole to the grid position nearest to its goal. If the goal lies between two grid lines in both
+    /// directions, a round hole becomes one column narrower and one row higher, which places it on lines.
+    /// @return  false if the hole has no position in the grid.
     bool settle(std::size_t l, const std::vector<Vec2>& goal)
     {
         const auto off = [](const Vec2& by) {
@@ -337,7 +339,7 @@ private:
         return period_ == -along(inner);
     }
 
-    /// Number of sides along heading 0 minus those back.
+    /// Number of sides along heading 0 minus the number in the opposite direction.
     static int along(const PatternLoop& loop)
     {
         int sum = 0;
@@ -375,8 +377,8 @@ private:
     bool may_change_ = false;
 };
 
-/// The patterns for a ring whose loops have different numbers of sides, those with the fewest irregular nodes
-/// first.
+/// The patterns for a ring whose loops have different numbers of sides. Patterns with the fewest irregular
+/// nodes come first.
 std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeField& size, std::size_t about,
                                       int more_sides)
 {
@@ -397,8 +399,8 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeFiel
     return patterns;
 }
 
-/// Whether nearly all quads of a mesh are square and of the size asked, and the boundary rows of the height
-/// asked. Higher bounds continue the search more often, for a better mesh in more time.
+/// Whether nearly all quads of a mesh are square and have the requested size, and the rows along the boundary
+/// have the requested height. Higher bounds continue the search more often, for a better mesh in more time.
 bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
     constexpr double kMean = 0.92;
@@ -438,8 +440,8 @@ public:
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
-    /// The meshes. If the region has no holes, or has ends of 135°, only those with the number of quads asked
-    /// for, if there are any.
+    /// The meshes found. If the region has no holes, or has ends of 135°, only meshes with the wanted number
+    /// of quads are returned, if there are any.
     std::vector<PlanarQuads> take()
     {
         std::vector<PlanarQuads> fit;
@@ -510,9 +512,9 @@ private:
 
     void keep(PlanarQuads mesh)
     {
-        // Bounds of the worst quad that end the search. Above kSquare, neither hard ends of 135° nor rows
-        // that change their number of sides are tried; above kFine with the promised share of good rows,
-        // nothing else is. Discs get no better than kFine.
+        // Quality of the worst quad at which the search ends. Above kSquare, hard ends of 135° and rows that
+        // change their number of quads are no longer tried. Above kFine, with the promised share of good
+        // rows, nothing else is tried. Discs do not exceed kFine.
         constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
         const bool decides = has_half_ends_ || region_.loops.size() == 1;

@@ -104,7 +104,7 @@ private:
     [[nodiscard]] double sine(const Quad& q) const { return scaled_jacobian(mesh_.points, q); }
 
     /// Swap an edge opposite the node in one of its quads, so that the new edge starts at the node.
-    /// @param least  the least sines of both new quads must exceed this
+    /// @param least  the smallest sine of each of the two new quads must exceed this
     bool swap_edge(Index p, double least)
     {
         double best = least;

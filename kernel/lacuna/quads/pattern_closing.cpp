@@ -8,7 +8,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// Number of sides along headings 0 and 1 minus those back.
+/// For headings 0 and 1: number of sides along the heading minus the number in the opposite direction.
 std::array<int, 2> excess_of(const PatternLoop& loop)
 {
     std::array<int, 2> excess{};

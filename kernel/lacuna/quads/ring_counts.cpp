@@ -15,8 +15,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// A narrower range for rings with further holes: their rows bend around the holes, which uses up a part of
-/// the tolerance.
+/// A narrower range for rings with further holes, because their rows bend around these holes, which uses a
+/// part of the tolerance.
 constexpr CountRange kRingWithHoles{1 / 1.55, 1.55};
 
 /// The hole with the most nodes, the first of several; 0: there is none.
@@ -29,7 +29,7 @@ std::size_t longest_hole(const PlanarRegion& region)
     return longest;
 }
 
-/// Number of a loop's sides whose length is outside the accepted range; each costs as much as one missing
+/// Number of a loop's sides whose length is outside the accepted range. Each costs as much as one missing
 /// side.
 double out_of_size(const CountedLoop& loop)
 {
@@ -70,9 +70,10 @@ double wanted_along(const CountedLoop& loop)
     return std::abs(sum);
 }
 
-/// The loops of a ring at the least total cost, each cost relative to the loop's wanted number.
+/// The two loops of a ring with the smallest total cost, where the cost of each is relative to its wanted
+/// number of sides.
 /// @param multiple  the outer loop's number of sides along the ring must be a multiple of this.
-/// @param more      candidates for how many sides the outer loop has more than the inner one.
+/// @param more      candidates for the number of sides that the outer loop has more than the inner one.
 std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
                                                   const std::array<CountedLoop, 2>& ends,
                                                   const std::array<int, 2>& along, int multiple,
@@ -81,8 +82,8 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
     std::optional<std::vector<CountedLoop>> best;
     double least = kInfinity;
     const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
-    // Weight of a wrong number of quads for rows that keep their number of sides; changing rows correct the
-    // number themselves. Chosen on gears of 400 and 3,000 quads.
+    // Weight of the deviation from the wanted number of sides along the ring. It does not apply to rows whose
+    // number of quads changes (`by` is not 0): these adapt. Chosen on gears of 400 and 3,000 quads.
     constexpr double kQuads = 3;
     const double mean = (wanted_along(ends[0]) + wanted_along(ends[1])) / 2;
     for (const int by : more) {
@@ -142,7 +143,9 @@ std::optional<RingLoops> ring_loops(const CountTask& task, std::size_t about)
     return ring;
 }
 
-/// Numbers for a ring without other holes that cannot have rows of a constant number of sides.
+/// Numbers of sides for a ring with a single hole, if no constant number of quads per row fits
+/// `kRingSegment`. Symmetric loops first get one side per corner, within a wider range; otherwise the rows
+/// change their number of quads.
 /// @param symmetric  how often segments repeat along both loops.
 std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, const RingLoops& ring,
                                                       int symmetric, int changing)
@@ -150,7 +153,8 @@ std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, con
     const auto& [ends, along, others] = ring;
     std::optional<std::vector<CountedLoop>> best;
     if (symmetric > 2) {
-        // A loop of many corners has one side per corner, and the other loop as many, for a symmetric mesh.
+        // If a loop has many corners, it gets one side per corner, and the other loop as many, for a
+        // symmetric mesh.
         constexpr CountRange kMany{kRing.least, 4}; // up to four times as many sides as asked
         const auto corners = static_cast<int>(
             std::ranges::count_if(ends[0].runs, [](const CountedRun& run) { return run.quarter == 0; }));
@@ -158,7 +162,7 @@ std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, con
             best = ring_ends(task, ends, {corners, corners}, corners, std::array{0}, kMany);
     }
     if (best) return best;
-    // Rows that change their number of sides, symmetrically at two nodes.
+    // Rows change their number of quads symmetrically, at two nodes.
     std::vector<int> more;
     for (int rows = 1; rows <= changing; ++rows) more.push_back(along[0] > along[1] ? 4 * rows : -4 * rows);
     best = ring_ends(task, ends, along, 2, more, kSegment);
@@ -182,7 +186,8 @@ std::optional<std::vector<int>> ring_counts(const CountTask& task)
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
     const double size = mean_size(task);
     const int steps = alone ? widths.steps(size) : 0;
-    // Prefer an even number, so that quads alone can fill the area beyond a loop.
+    // Prefer an even number of sides along the ring, so that the face across a loop can be meshed with quads
+    // only.
     for (int last = 0; const int multiple : {std::lcm(symmetric, 2), 2, 1}) {
         if (!best && multiple != std::exchange(last, multiple))
             best = ring_ends(task, ring->ends, ring->along, multiple, std::array{2 * steps},

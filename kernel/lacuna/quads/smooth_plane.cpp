@@ -194,7 +194,7 @@ private:
         }
     }
 
-    /// Move a point to where the least sine around it is largest. @return whether it increased
+    /// Move a point to where the smallest sine around it is largest. @return  whether this sine increased
     bool raise_at(std::size_t p)
     {
         // First and last step as shares of the shortest side, and the least gain of sine. Not measured.

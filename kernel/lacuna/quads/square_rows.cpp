@@ -214,8 +214,9 @@ private:
         return cost;
     }
 
-    /// The nodes of row quads that exceed their limits, of all quads around these, and of sides that are too
-    /// short or too long. Of nodes that are images of each other, only the first.
+    /// The nodes of row quads that exceed their limits, the nodes of all quads around these, and the ends of
+    /// sides that are too short or too long. Of nodes that are images of each other, only the first is
+    /// included.
     [[nodiscard]] std::vector<Index> nodes_to_move() const
     {
         std::vector<char> moves(mesh_.points.size(), 0);

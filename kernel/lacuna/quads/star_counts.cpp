@@ -13,8 +13,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// Added cost of numbers that miss the promised number of quads (within a quarter): exceeds any cost of sides
-/// within their range.
+/// Additional cost of numbers of sides that miss the wanted number of quads by more than a quarter. It
+/// exceeds any cost of sides within their range.
 constexpr double kOffAsked = 1e6;
 
 /// The segments between the corners of a patch; empty if a side bends or is not one segment.

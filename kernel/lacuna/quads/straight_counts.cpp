@@ -114,7 +114,7 @@ bool have_place(const std::vector<LoopGrid>& grids)
     return SubmapGrid(loops).enclose(loops);
 }
 
-/// Whether some quads between two loops would be much flatter than asked.
+/// Whether some quads between two loops would be much flatter than the size requires.
 bool are_close(const CountTask& task)
 {
     constexpr double kNarrow = 0.5; // share of the size asked. Not measured
@@ -189,9 +189,9 @@ std::vector<int> run_counts(const ClosedLoops& closed)
     return counts;
 }
 
-/// Solutions for one style of ends, for several numbers of rows before soft turns and several factors on the
-/// wanted sides.
-/// @return the solutions and their costs; for a part, only those that may still be the cheapest.
+/// Solutions for one style of ends, for several numbers of rows in front of soft turns and several factors on
+/// the wanted sides.
+/// @return  the solutions with their costs; for a part, only solutions that may still be the cheapest.
 std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, TurnStyle style)
 {
     // Weights of the deviations of the number of quads from the requested one, and of the number of rows from

@@ -74,7 +74,7 @@ private:
     /// The side `by` sides further around the same quad.
     static Index beyond(Index side, Index by) { return (side & ~3) + ((side + by) & 3); }
 
-    /// Map the corners of the quad of a side. @return false if one already has another image
+    /// Map the corners of the quad of a side. @return  false if a corner already has another image
     bool maps_corners(Symmetry& symmetry, const SidePair& side) const
     {
         for (Index i = 0; i < 4; ++i) {

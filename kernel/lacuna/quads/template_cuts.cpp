@@ -11,7 +11,8 @@ namespace lacuna::quads {
 
 namespace {
 
-/// Cuts that slant more than this are excluded: 0 is square to the outline, 1 along it.
+/// A cut that meets the outline at a larger deviation from a right angle is excluded: 0 is square to the
+/// outline, 1 along it.
 constexpr double kMostSlant = 0.7;
 
 /// Twice the foot that `spoke_feet()` finds for side i: the sum of the edges of sides i, i + 2, i + 4 …, with

@@ -18,17 +18,17 @@ using namespace topology;
 
 namespace {
 
-/// Vertices without a side line are paired only if their positions along the rims differ by less than this
-/// [share of the rim]. Heuristic.
+/// Vertices without a side line are paired only if their positions along the two rims differ by less than
+/// this share of the rim. Heuristic.
 constexpr double kFarRound = 0.125;
 
-/// Inner loops of two faces are matched if their vertices lie within this distance [radii of the loop].
+/// Inner loops of two faces are matched if their vertices are closer than this, in radii of the loop.
 /// Heuristic.
 constexpr double kNearInside = 0.5;
 
 /// An item of a face's loop: an inner edge, or a run of rim edges between two inner edges.
 struct Item {
-    EdgeUse use; ///< rim items only: first edge use of the run
+    EdgeUse use; ///< for rim items only: the first edge use of the run
     bool rim = false;
     VertexId from;
 };
@@ -153,7 +153,7 @@ private:
                     }
                     if (!place_.try_emplace({walk[i].from, face}, std::pair(walks_.size(), i)).second &&
                         ends_.contains(walk[i].from))
-                        return false; // a face that touches itself
+                        return false; // the face touches itself
                 }
                 walks_.push_back(std::move(walk));
                 face_.push_back(face);
@@ -162,7 +162,8 @@ private:
         return true;
     }
 
-    /// The rim use that leaves a pair's vertices: forward on the source, backward on the target.
+    /// Match the loops on both sides of a pair of vertices. They are found by the use of the rim that leaves
+    /// the vertex: forward on the source, backward on the target.
     bool match_at(const RimPair& pair)
     {
         for (const auto& [key, low] : place_) {
@@ -179,7 +180,7 @@ private:
         return true;
     }
 
-    /// Rims without inner edges match the faces on either side of them.
+    /// Match the faces beside rims at which no inner edge ends.
     bool match_rims(const LinkingSurface& link)
     {
         const auto low = at_rim_.find(link.source.uses().front().edge);
@@ -191,7 +192,7 @@ private:
 
     /// Match one inner loop of faces that are already matched, by its position after the affine fit of the
     /// rims.
-    /// @return  whether a loop was matched; nothing if an inner loop has no counterpart.
+    /// @return  whether a loop was matched; empty if an inner loop has no counterpart.
     std::optional<bool> match_inside()
     {
         const std::map<FaceId, FaceId> faces = result_.faces;
@@ -263,7 +264,7 @@ private:
         up_ = high_area.stableNormalized();
     }
 
-    /// Match two loops item by item; the target's runs backwards.
+    /// Match two loops item by item. The loop of the target runs backwards.
     bool match(std::pair<std::size_t, std::size_t> low, std::pair<std::size_t, std::size_t> high)
     {
         const Walk &a = walks_[low.first], &b = walks_[high.first];
@@ -290,7 +291,7 @@ private:
     std::set<VertexId> ends_;
     AlikeEnds result_;
     std::vector<Walk> walks_;
-    std::vector<FaceId> face_; ///< face of each walk
+    std::vector<FaceId> face_; ///< face that each walk belongs to
     std::map<EdgeUse, std::pair<std::size_t, std::size_t>> at_use_;
     std::map<std::pair<VertexId, FaceId>, std::pair<std::size_t, std::size_t>> place_;
     std::map<EdgeId, std::size_t> at_rim_; ///< walk of each edge of a rim without inner edges

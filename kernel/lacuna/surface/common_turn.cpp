@@ -39,8 +39,8 @@ std::vector<RimPair> pairs_of(std::span<const LinkingSurface> links)
     return pairs;
 }
 
-/// The rotation that maps the pairs' source points to their target points: area vectors onto each other
-/// first, then the best rotation about them.
+/// The rotation that maps the pairs' source points to their target points. It first turns one area vector
+/// onto the other, then by the best angle about that vector.
 std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, const Vec3& source_area,
                                            const Vec3& target_area)
 {

@@ -16,8 +16,8 @@ using namespace topology;
 
 namespace {
 
-/// The default size is at least the diagonal of the rims' box divided by this, even if the facets are finer.
-/// Heuristic: a square gets 14 sides per edge, a circle 44.
+/// The default size is at least the diagonal of the rims' box divided by this number, even if the facets are
+/// finer. Heuristic: a square gets 14 sides per edge, and a circle 44 in all.
 constexpr double kMostAlong = 20;
 
 } // namespace

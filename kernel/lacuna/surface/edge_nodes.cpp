@@ -34,7 +34,7 @@ std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const dou
             result[i] = line.back();
         } else {
             const geometry::PolylinePlace at = geometry::place_at(arc, fractions[i] * arc.back());
-            // Points of the polyline are returned bit for bit, so that given nodes stay.
+            // Points of the polyline are returned bit for bit, so that given nodes do not move.
             if (edge.curve == nullptr && std::min(at.fraction, 1 - at.fraction) < kSamePlace) {
                 result[i] = line[at.segment + (at.fraction < 0.5 ? 0 : 1)];
             } else if (edge.curve == nullptr) {

@@ -15,18 +15,18 @@ using namespace topology;
 
 namespace {
 
-/// Minimum mean scaled Jacobian and share of even sides of a face's grid; below these the face is paved. The
-/// bounds are low because a grid sweeps better than its source quality suggests: on the flat rings of a bent
-/// pipe paving is better on the source (mean 0.95 against 0.80), but the grid's hexahedra are better (0.94
-/// against 0.88, worst 0.67 against 0.58). Heuristic.
+/// A face is paved if its grid has a lower mean scaled Jacobian, or a lower share of even sides, than these
+/// values. They are low because a grid sweeps better than its quality on the source suggests. On the flat
+/// rings of a bent pipe, paving is better on the source (mean 0.95 against 0.80), but the grid gives better
+/// hexahedra (mean 0.94 against 0.88, worst 0.67 against 0.58). Heuristic.
 constexpr double kFairMean = 0.7, kFairEven = 0.6;
 
-/// Whether the size asks for similar counts on opposite sides of the face. Otherwise one side would get as
-/// many as the other needs.
+/// Whether the size requires similar numbers of quads on opposite sides of the face. If not, a grid would
+/// give one side as many as the other needs.
 bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
 {
-    // Same rule as `alike()`, for numbers of quads instead of lengths; any ratio is accepted if neither side
-    // has more than four quads. Heuristic.
+    // As `alike()`, for numbers of quads instead of lengths. If neither side has more than four quads, any
+    // ratio is accepted. Heuristic.
     constexpr int kUnlike = 3, kFew = 4;
     return std::ranges::all_of(pairs, [&](const SidePair& sides) {
         const int a = total(seeds, sides[0]), b = total(seeds, sides[1]);
@@ -34,8 +34,8 @@ bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
     });
 }
 
-/// Whether a face's grid is nearly as good as paving, or the face must have a grid: because the style demands
-/// it, because counts across narrow places are set, or because the face cannot be flattened.
+/// Whether a face gets a grid: because the grid is nearly as good as paving, because the style or numbers of
+/// quads across narrow places demand it, or because the face cannot be flattened.
 bool is_fairly_mapped(const SeedTask& task, FaceId face, const MappedFace& mapped)
 {
     if (task.style != QuadStyle::automatic || task.sizing.gap > 0) return true;
@@ -48,7 +48,8 @@ void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
 {
     if (task.style == QuadStyle::free || seeds.kept.contains(face)) return;
     const auto corners = four_corners(task.model, face);
-    // The number of columns through a neck of a submapped face follows from the other sides.
+    // On a submapped face, the number of columns through a narrow place follows from other sides, so `gap`
+    // cannot be met.
     if (!corners && task.sizing.gap > 0 && !task.sizing.counts_across && task.style == QuadStyle::automatic)
         return;
     const std::vector<SidePair> opposite = corners ? side_pairs(task.model, face, *corners)

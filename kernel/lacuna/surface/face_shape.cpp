@@ -14,7 +14,7 @@ using namespace topology;
 
 namespace {
 
-/// Distance from the sides of the face's edges to the exact edges.
+/// Maximum distance from the polylines of the face's edges to the exact edges.
 double sag_of_edges(const Model& model, FaceId face)
 {
     double most = 0;

@@ -65,7 +65,8 @@ std::vector<PointCurvature> facet_curvature(const Model& model, FaceId face, dou
             to.bends += part;
         }
     }
-    // The facets at one vertex are too few if they are slivers, so the neighbours' facets are included.
+    // If the facets at one vertex are slivers, they are too few to measure curvature, so the neighbours'
+    // facets are included.
     std::vector<Around> wide = at;
     for (const auto& [side, triangle] : first) {
         const std::size_t a = place(static_cast<Index>(side >> 32));

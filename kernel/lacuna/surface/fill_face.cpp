@@ -42,7 +42,8 @@ public:
         return flat;
     }
 
-    /// The mesher's nodes may lie outside the face before smoothing, where the size is undefined: clamp them.
+    /// The size at a position. Before smoothing, the mesher's nodes may lie outside the face, where the size
+    /// is undefined, so positions are clamped to the box of the rim.
     [[nodiscard]] double size_at(const Vec2& p, const SizeField& size) const
     {
         return size(geometry::from_plane(plane_, p.cwiseMax(box_.min()).cwiseMin(box_.max())));
@@ -62,9 +63,10 @@ private:
     Eigen::AlignedBox2d box_; ///< bounding box of the rim
 };
 
-/// Relative decrease of the energy at which flattening stops. The size is corrected for the remaining
-/// stretch, so a coarse solution is enough. Two faces with holes took 150 ms with 1e-6, 100 ms with 1e-4 and
-/// 50 ms with 1e-3; the minimum scaled Jacobian of four curved sources at four sizes changed by at most 0.02.
+/// Flattening stops when the energy decreases by less than this share. A coarse solution is enough, because
+/// the size is corrected for the remaining stretch. Two faces with holes took 150 ms with 1e-6, 100 ms with
+/// 1e-4 and 50 ms with 1e-3; the minimum scaled Jacobian of four curved sources at four sizes changed by at
+/// most 0.02.
 constexpr double kSettled = 1e-3;
 
 Message not_flat(const Model& model, FaceId face, const char* why)
@@ -92,7 +94,7 @@ public:
     FlatFace(const Model& model, FaceId face, const SizeField& size)
         : model_(model), fine_(fine_facets(model, face, size)), flat_(laid_flat(model, face, fine_))
     {
-        if (flat_.folded) { // retry with the original facets: fewer can fold
+        if (flat_.folded) { // retry with the original facets, which are fewer and fold less
             fine_ = fine_facets(model, face, size, {.rounds = 0});
             flat_ = laid_flat(model, face, fine_);
         }
@@ -167,7 +169,8 @@ private:
         return flat_.position[static_cast<std::size_t>(found - flat_.used.begin())];
     }
 
-    /// Local scale between plane and face at each point: the square root of the ratio of the areas around it.
+    /// Local scale between plane and face at each point: the square root of the ratio of the surrounding
+    /// areas.
     void measure_stretch()
     {
         std::vector<double> plane(flat_.used.size(), 0.0), space(flat_.used.size(), 0.0);
@@ -192,8 +195,8 @@ private:
     std::vector<double> stretch_;
 };
 
-/// Move the nearest node onto each tip of the face, so that no quad cuts it off. If the quads there would
-/// become poor, the tip stays inside a quad.
+/// Move the nearest node onto each tip of the face, so that no quad cuts the tip off. If quads would become
+/// poor by this, the node stays.
 void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<Vec2>& tips)
 {
     constexpr double kSpoiled = 0.2; // minimum sine of a corner; heuristic

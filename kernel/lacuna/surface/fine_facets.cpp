@@ -20,7 +20,7 @@ FineFacets copy_of(const Model& model, FaceId face)
     FineFacets fine;
     fine.uv = model[face].uv;
     fine.surface = model[face].surface;
-    std::map<Index, Index> local; // in the model's order
+    std::map<Index, Index> local; // local index of each point of the model
     for (const Triangle& t : model[face].triangles) {
         for (const Index p : t) local[p] = -1;
     }
@@ -51,8 +51,8 @@ struct FacetSide {
     Index point = -1; ///< index of the midpoint once it is added
 };
 
-/// Corners of the facets into which a facet is split. Corners 0, 1 and 2 are those of the facet; 3, 4 and 5
-/// are the midpoints of the sides that start at 0, 1 and 2.
+/// Corners of the facets into which a facet is split. Corners 0, 1 and 2 are the facet's own. Corners 3, 4
+/// and 5 are the midpoints of the sides that start at 0, 1 and 2.
 std::vector<std::array<std::size_t, 3>> parts(const std::array<bool, 3>& halved)
 {
     const auto count = std::ranges::count(halved, true);
@@ -70,7 +70,7 @@ public:
     {
     }
 
-    /// @return false if no side needs bisection or a facet would fold; nothing is changed then.
+    /// @return  false if no side needs bisection or a facet would fold; in these cases nothing is changed.
     bool round()
     {
         collect();
@@ -109,7 +109,7 @@ public:
     }
 
 private:
-    /// The side from corner k of a facet to the next.
+    /// The side from corner k of a facet to the next corner.
     [[nodiscard]] FacetSide& side(std::size_t facet, std::size_t k) { return sides_[side_of_[facet][k]]; }
 
     void collect()
@@ -249,7 +249,8 @@ private:
     const SizeField& size_;
     double off_;
     std::vector<FacetSide> sides_;
-    std::vector<std::array<std::size_t, 3>> side_of_;       ///< for each facet, by the corner it runs from
+    /// For each facet, its sides by the corners where they start.
+    std::vector<std::array<std::size_t, 3>> side_of_;
     std::unordered_map<std::uint64_t, std::size_t> number_; ///< for each side
     std::unordered_map<std::uint64_t, Vec3> settled_;       ///< midpoints of sides that need no bisection
 };

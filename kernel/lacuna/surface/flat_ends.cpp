@@ -40,7 +40,7 @@ private:
         return flat_.place.size() - 1;
     }
 
-    /// The inner edges of both ends, with nodes at their vertices.
+    /// Collect the inner edges of both ends, with nodes at their vertices.
     void collect()
     {
         const Model& base = base_.model;
@@ -106,7 +106,7 @@ private:
         return std::ranges::any_of(edge.cuts, [&](const FlatEdge::Cut& cut) { return cut.node == node; });
     }
 
-    /// The edge closest to a node, among those that do not end in it.
+    /// The edge closest to a node, among the edges that do not end in the node.
     std::optional<Closest> closest_edge(std::vector<FlatEdge>& edges, std::size_t node, FlatEdge** which)
     {
         std::optional<Closest> best;
@@ -121,7 +121,7 @@ private:
         return best;
     }
 
-    /// Whether a node exists only because a closed edge needs a start vertex.
+    /// Whether a node is only the start vertex that a closed edge needs.
     static bool closes_edge(const std::vector<FlatEdge>& edges, std::size_t node)
     {
         std::size_t ends = 0;

@@ -34,7 +34,7 @@ namespace {
             .remedy("all walls of a sweep need the same number: remesh one, or load with keep_mesh = false"));
 }
 
-/// The quads of a linking surface's walls, traversed from rim to rim.
+/// Walks over the quads of a linking surface's walls from rim to rim.
 class ColumnWalker {
 public:
     ColumnWalker(const OpenVolume& volume, const LinkingSurface& link) : model_(volume.model), link_(link)
@@ -119,7 +119,7 @@ private:
         for (const LinkingLine& line : link_.lines) add_to(no_end_, line.line.uses);
     }
 
-    /// The strips of quads that start on a side of a rim and are not walked yet.
+    /// The strips of quads that start at the sides of a rim and have not been walked yet.
     std::vector<Strip> strips_from(const std::vector<ChainNode>& rim)
     {
         std::vector<Strip> strips;
@@ -132,8 +132,8 @@ private:
         return strips;
     }
 
-    /// Walk from a side of a rim across opposite sides of quads to the last quad; empty if the first quad was
-    /// walked already.
+    /// Walk from a side of a rim across opposite sides of quads up to the last quad. Empty if the first quad
+    /// has been walked already.
     Strip walk(Index a, Index b)
     {
         Strip strip{{a}, {b}, {}, {}, false, 0};
@@ -167,8 +167,8 @@ private:
         return strip;
     }
 
-    /// The columns between strips. Neighbouring strips must agree on their common column as far as both
-    /// reach.
+    /// The columns between strips. Two neighbouring strips must have the same nodes on their common column,
+    /// as far as both extend.
     Ring joined(std::span<const Strip> strips, std::size_t rim) const
     {
         Ring ring;
@@ -199,8 +199,8 @@ private:
         if (points.size() > there.size()) there = points;
     }
 
-    /// All strips must have the same number of rows. Different numbers within a wall mean that its quads are
-    /// not in rows; different numbers between walls mean that they were meshed separately.
+    /// Check that all strips have the same number of rows. Different numbers within a wall mean that its
+    /// quads are not in rows. Different numbers between walls mean that they were meshed separately.
     void check_rows(std::span<const Strip> strips)
     {
         std::map<FaceId, std::size_t> rows_of;
@@ -226,8 +226,8 @@ private:
         rows_ = strips.empty() ? 0 : static_cast<int>(strips.front().faces.size());
     }
 
-    /// A stub must end inside the walls, below the opposite rim, and share its nodes with the columns beside
-    /// it.
+    /// Check that each stub ends inside the walls, below the opposite rim, and shares its nodes with the
+    /// columns next to it.
     void check_stubs(std::span<const Strip> stubs, const Ring& columns, std::size_t rim) const
     {
         for (const Strip& stub : stubs) {
@@ -279,7 +279,7 @@ FaceId first_wall(const GivenColumns& columns)
     return {};
 }
 
-/// Number of sides of a side line whose edges are all kept; 0 for others.
+/// Number of sides of a side line whose edges are all kept; 0 if some edge is not kept.
 int line_rows(const Model& model, const LinkingLine& line, const std::set<EdgeId>& kept)
 {
     int rows = 0;
@@ -313,7 +313,7 @@ bool has_column(const GivenColumns& columns, const LinkingSurface& link, double 
     });
 }
 
-/// Make a side line a column.
+/// Add a side line as a column.
 void add_column(const Model& model, const LinkingLine& line, GivenColumns& columns, int rows)
 {
     const auto after = std::ranges::upper_bound(columns.whole, line.source_at, {}, &GivenColumn::source_at);
@@ -321,7 +321,7 @@ void add_column(const Model& model, const LinkingLine& line, GivenColumns& colum
     columns.whole.insert(after, {line.source_at, line.target_at, use_points(model, line.line.uses), {}});
 }
 
-/// The stub that starts at a running length of its chain, if any.
+/// The stub that starts at a running length of its chain; null: none.
 const GivenStub* stub_at(const GivenColumns& columns, bool from_target, double at, double length)
 {
     for (const GivenStub& stub : columns.stubs) {
@@ -345,7 +345,7 @@ int tallest_stub(std::span<const GivenColumns> columns)
 struct StubColumn {
     const GivenStub *low, *high; ///< either may be null
     Vec3 open_from, open_to;
-    std::size_t shared = 0; ///< rows that both contain, if the stubs belong to walls side by side
+    std::size_t shared = 0; ///< number of rows that both contain, if the stubs belong to walls side by side
     bool is_open = true;    ///< there is a gap between the stubs
 
     [[nodiscard]] std::size_t rows() const
@@ -355,7 +355,7 @@ struct StubColumn {
     }
 };
 
-/// Whether the two stubs share nodes, and how many.
+/// Find out whether the two stubs share nodes, and how many.
 void meet(StubColumn& column)
 {
     if (column.low == nullptr || column.high == nullptr) return;
@@ -369,7 +369,7 @@ void meet(StubColumn& column)
     column.is_open = false;
 }
 
-/// The running length on the target's chain that corresponds to one on the source's, or the reverse.
+/// The running length on the target's chain that corresponds to one on the source's chain, or the reverse.
 double opposite(const LinkingSurface& link, double at, bool from_target)
 {
     const double end = from_target ? link.target.length() : link.source.length();
@@ -399,7 +399,7 @@ std::vector<StubColumn> stub_columns(const Model& model, const LinkingSurface& l
         const double above = opposite(link, stub.at, stub.from_target);
         const Chain& other = stub.from_target ? link.source : link.target;
         const GivenStub* facing = stub_at(columns, !stub.from_target, above, other.length());
-        if (stub.from_target && facing != nullptr) continue; // counted with the stub from the source
+        if (stub.from_target && facing != nullptr) continue; // it was counted with the stub from the source
         const Vec3 end = facing != nullptr ? model.at(facing->points.back())
                                            : other.points(std::array{above}).front();
         StubColumn column{&stub, facing, model.at(stub.points.back()), end};

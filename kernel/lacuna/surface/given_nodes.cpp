@@ -17,16 +17,18 @@ using namespace topology;
 
 namespace {
 
-/// Rims with different node counts are compared node by node up to this many pairs: 32 MB and 0.1 s.
+/// Rims with different numbers of nodes are compared node by node up to this many pairs, which take 32 MB and
+/// 0.1 s.
 constexpr std::size_t kMostPairs = 4'000'000;
 
 /// A break between segments: corresponding positions on both rims.
 struct Break {
-    double source = 0, target = 0; ///< running lengths; the target's may exceed its length
-    bool given = false;            ///< whether the interval up to the next break is one side of a given quad
+    /// Running lengths; the one on the target may exceed the length of its chain.
+    double source = 0, target = 0;
+    bool given = false; ///< whether the interval up to the next break is one side of a given quad
 };
 
-/// The segments of one linking surface, with given nodes as breaks.
+/// Divides the segments of one linking surface at given nodes.
 class BreakKeeper {
 public:
     BreakKeeper(const OpenVolume& volume, const std::set<EdgeId>& kept, const GivenColumns& columns,
@@ -77,7 +79,7 @@ public:
     }
 
 private:
-    /// A ring without side lines starts at a node of the target.
+    /// On a ring without side lines, move the start to a node of the target.
     void align_start(std::vector<Break>& breaks) const
     {
         const double length = link_.target.length();
@@ -101,8 +103,9 @@ private:
         for (Break& b : breaks) b.target -= turns * length;
     }
 
-    /// Position of the ring's start on the target, interpolated between the columns on either side of it. If
-    /// both rims have equally many nodes there, nodes are counted instead.
+    /// Position on the target that corresponds to the start of the ring, interpolated between the two columns
+    /// next to it. If both rims have the same number of nodes between these columns, nodes are counted
+    /// instead.
     [[nodiscard]] double start_between_columns() const
     {
         const double s_length = link_.source.length(), t_length = link_.target.length();
@@ -131,7 +134,8 @@ private:
         return at;
     }
 
-    /// Breaks at every column. Where given quads lead from rim to rim, there are no other breaks.
+    /// Breaks with one added at every column. Where given quads extend from rim to rim, all other breaks are
+    /// removed.
     [[nodiscard]] std::vector<Break> with_columns(const std::vector<Break>& breaks) const
     {
         if (columns_.rows == 0) return breaks;
@@ -178,8 +182,8 @@ private:
         return false;
     }
 
-    /// If both ends have equally many given nodes between two side lines (or around the ring), pair them in
-    /// order.
+    /// Between two side lines, or around the ring: if both ends have the same number of given nodes, pair
+    /// them in order.
     [[nodiscard]] std::vector<Break> with_pairs_between_lines(const std::vector<Break>& breaks) const
     {
         std::vector<double> hard;
@@ -204,7 +208,8 @@ private:
         return result;
     }
 
-    /// Nodes of both ends in [from, to), in order; empty if their numbers differ or not all edges are kept.
+    /// Pairs of the nodes of both ends in [from, to), in order; empty if their numbers differ or not all
+    /// edges are kept.
     [[nodiscard]] std::vector<Break> pairs(const Break& from, const Break& to) const
     {
         if (!covered(link_.source, from.source, to.source) || !covered(link_.target, from.target, to.target))
@@ -273,7 +278,7 @@ private:
         if (!source_kept) s.clear();
         if (!target_kept) t.clear();
         if (s.empty() && t.empty()) return;
-        // Kept quads allow no additional node on their rim; kept triangles do.
+        // Rims of kept quads cannot take additional nodes; rims of kept triangles can.
         std::vector<double>* left_out = nullptr;
         const auto of_quads = [&](EdgeId edge) { return of_quads_.contains(edge); };
         if (source_kept && meets(link_.source, from.source, to.source, of_quads)) left_out = &t;

@@ -38,8 +38,8 @@ public:
             const bool beside = !ways.empty() && !ways.back().faces->empty();
             const std::size_t before = ways.empty() ? 0 : ways.back().node;
             if (!add_way(stub.at, stub.from_target, stub.points, stub.faces, ways)) refuse_stub(stub);
-            // Between adjacent given columns there may be one more node, which splits a side of a rim with an
-            // odd count. More nodes mean that the opposite rim has another mesh.
+            // Between two adjacent given columns there may be one additional node, which was added to a rim
+            // with an odd number of sides. More nodes mean that the opposite rim has another mesh.
             if (beside && (ways.back().node + count_ - before) % count_ > 2) refuse_stub(stub);
         }
         take_ways(up, false);
@@ -49,14 +49,14 @@ public:
     }
 
 private:
-    /// Given nodes that start at one node of the rim and lead away from it.
+    /// Given nodes that lead from one node of the rim into the wall.
     struct GivenWay {
         std::size_t node;
         const std::vector<Index>* points;
         const std::vector<FaceId>* faces;
     };
 
-    /// @return  false if the rim has no node there.
+    /// @return  false if the rim has no node at `at`.
     bool add_way(double at, bool from_target, const std::vector<Index>& points,
                  const std::vector<FaceId>& faces, std::vector<GivenWay>& ways) const
     {
@@ -93,7 +93,8 @@ private:
             }
             const std::size_t end = next.node > way.node ? next.node : next.node + count_;
             for (std::size_t i = way.node; i < end && !way.faces->empty(); ++i) {
-                // Nodes in between split the given quads: a rim with an odd count got an additional node.
+                // A node between the columns was added to a rim with an odd number of sides; it splits the
+                // given quads.
                 const double share = static_cast<double>(i - way.node) / static_cast<double>(end - way.node);
                 for (std::size_t k = 0; k < way.faces->size(); ++k) {
                     const std::size_t low = std::min(layer(k), layer(k + 1));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// imprint_target() first pairs the rims, so that every inner edge of the target that ends on the rim has a
-// vertex on the source's rim. Then it flattens both ends into one plane, intersects their inner edges, and
-// rebuilds the source faces from the regions in between.
+// imprint_target() first pairs the rims: every inner edge of the target that ends on the rim gets a vertex on
+// the source's rim. Then it maps both ends into one plane, intersects their inner edges there, and rebuilds
+// the source faces from the regions between these edges.
 #include <lacuna/surface/shared/imprint.h>
 
 #include <lacuna/core/error.h>
@@ -30,9 +30,9 @@ using namespace topology;
 
 namespace {
 
-/// Edges that shrink by more than this factor on the other end are not imprinted, because the quads would
-/// have to narrow as much within one end. A tube three radii deep inside an end stays below it; one of 16
-/// radii would need a ring of 49,000 sides. Heuristic.
+/// Edges that shrink by more than this factor from one end to the other are not imprinted, because quads
+/// within one end would have to become smaller by as much. A tube three radii deep inside an end stays below
+/// the limit; a tube 16 radii deep would need a ring of 49,000 sides. Heuristic.
 constexpr double kMostShrunk = 20;
 
 /// A chain in the plane, and the edges of source and target that it represents.
@@ -79,7 +79,7 @@ private:
     Model& model() { return result_.volume->model; }
     ModelBuilder& builder() { return *builder_; }
 
-    /// If both ends are split the same way, edges map to edges and no map is needed.
+    /// If both ends are split in the same way, map edges to edges; the plane is not needed then.
     bool match_alike()
     {
         std::optional<AlikeEnds> alike = alike_ends(*result_.volume, given_links_);
@@ -89,15 +89,15 @@ private:
         result_.target_of.resize(model().faces.size());
         for (const auto& [low, high] : alike->faces) result_.target_of[low.index()] = high;
         for (const auto& [low, high] : alike->edges) {
-            // The target's loops run in the opposite sense, so the target's edge is walked backwards.
+            // The target's loops have the opposite direction, so the target's edge is walked backwards.
             const bool along = low.reversed != high.reversed;
             result_.images[low.edge] = {high.edge, along ? 0.0 : 1.0, along ? 1.0 : 0.0};
         }
         return true;
     }
 
-    /// Refuse an edge that is mapped to a far shorter one on the other end, because its own end is deep
-    /// inside its rim, such as the floor of a long tube.
+    /// Refuse an edge whose image on the other end is far shorter. This happens if the edge lies deep inside
+    /// its own end, such as the floor of a long tube.
     void check_sizes() const
     {
         for (const auto& [edge, image] : result_.images) {
@@ -114,7 +114,7 @@ private:
         }
     }
 
-    /// A face whose given quads are kept cannot be split.
+    /// Refuse to split a face whose given quads are kept.
     void check_not_kept()
     {
         for (const FaceId face : result_.volume->faces(Role::source)) {
@@ -128,7 +128,8 @@ private:
         }
     }
 
-    /// Pair closed edges that enclose about the same region, and flatten again with the pairs coincident.
+    /// Pair closed edges that enclose about the same region. Then map both ends again with the pairs
+    /// coincident.
     void pair_closed()
     {
         const std::vector<EdgeId> low = inner_edges(base_, Role::source);
@@ -150,7 +151,8 @@ private:
         place_[index(point)] = place;
     }
 
-    /// Split the source's inner edges at their nodes, and record the pieces that coincide with target edges.
+    /// Split the source's inner edges at their nodes. Record the pieces that coincide with edges of the
+    /// target.
     void cut_source()
     {
         for (std::size_t p = 0; p < base_.model.points.size(); ++p)
@@ -162,8 +164,8 @@ private:
             const EdgeId edge = flat_.source[piece.edge].edge;
             part[k] = edge;
             if (k == 0 || low[k - 1].edge != piece.edge) continue;
-            // Pieces are split off from the last to the first, so the remaining edge ends where this piece
-            // ends.
+            // Pieces are split off from the last to the first, so the remaining edge always ends where the
+            // current piece ends.
             const EdgeSplit made = split_at(model(), edge, piece.from_at / piece.to_at, inner_.front());
             part[k] = made.behind;
             flat_.vertex[piece.from] = made.vertex;
@@ -195,7 +197,7 @@ private:
         }
     }
 
-    /// Create edges on the source for the target's edges that it lacks.
+    /// Create edges on the source for those of the target that the source lacks.
     void add_target()
     {
         for (const FlatPiece& piece : pieces_) {
@@ -238,7 +240,7 @@ private:
         return at.barycentric[0] * uv[0] + at.barycentric[1] * uv[1] + at.barycentric[2] * uv[2];
     }
 
-    /// Shift parameters by the period of a seam if needed, so that they are on the same side of the seam as
+    /// If needed, shift parameters by the period of a seam, so that they are on the same side of the seam as
     /// `near`.
     Vec2 unwrapped(FaceId face, Vec2 uv, const Vec2& near)
     {
@@ -275,8 +277,8 @@ private:
 
     Edge new_edge(const FlatPiece& piece, EdgeId target, FaceId face)
     {
-        // At an end of the edge, take the parameters from a point slightly inside: a point on a seam has two
-        // sets of parameters.
+        // At an end of the edge, take the parameters at a point slightly inside, because a point on a seam
+        // has two sets of parameters.
         constexpr double kWayIn = 1e-6;
         const Face& on = base_.model[face];
         std::vector<Vec2> line{piece.line.front()};
@@ -309,7 +311,7 @@ private:
         return edge;
     }
 
-    /// The face of a role to the left of each edge use.
+    /// For each edge use, the face of a role to its left.
     std::map<EdgeUse, FaceId> faces_on_left(Role role)
     {
         std::map<EdgeUse, FaceId> left;
@@ -319,7 +321,7 @@ private:
         return left;
     }
 
-    /// Chains of the plane: the inner edges, and the rim, which bounds the plane.
+    /// Collect the chains that divide the plane: the inner edges, and the rim, which bounds it.
     void set_borders()
     {
         source_left_ = faces_on_left(Role::source);
@@ -347,7 +349,7 @@ private:
         }
     }
 
-    /// The target face beside the rim at a position of the source's rim.
+    /// The target face that lies beside the rim opposite to a position of the source's rim.
     FaceId target_over(const LinkingSurface& link, double source_at)
     {
         for (const RimSegment& segment : link.segments) {
@@ -360,7 +362,7 @@ private:
         return {};
     }
 
-    /// The target face to the left of a border; invalid for a border that only the source has.
+    /// The target face to the left of a border; invalid for a border that exists only on the source.
     FaceId target_on_left(const PlaneUse& use)
     {
         const Border& border = borders_[use.chain];
@@ -368,7 +370,7 @@ private:
         if (rim != rim_target_.end()) return rim->second;
         if (!border.image) return {};
         const bool along = border.image->from < border.image->to;
-        // The target's loops run in the opposite sense, so left and right of an edge are exchanged.
+        // The target's loops have the opposite direction, so the left and right of an edge are exchanged.
         return target_left_.at({border.image->target, along != use.reversed});
     }
 
@@ -394,7 +396,8 @@ private:
                 }
             }
         }
-        // A region bounded only by source edges belongs to the same target face as its neighbours.
+        // A region that is bounded only by edges of the source belongs to the same target face as its
+        // neighbours.
         for (bool changed = true; changed;) {
             changed = false;
             for (std::size_t r = 0; r < regions.size(); ++r) {
@@ -441,7 +444,7 @@ private:
         known = found;
     }
 
-    /// Triangulate a region of source face `of` as face `face`.
+    /// Triangulate a region of the source face `of`; the triangles become those of face `face`.
     void make_facets(const PlaneRegion& region, FaceId of, FaceId face)
     {
         std::vector<std::vector<Index>> loops;
@@ -509,16 +512,16 @@ private:
     std::vector<EdgeId> inner_;
     std::vector<RimPair> pairs_;
     Imprint result_;
-    std::optional<ModelBuilder> builder_; ///< of `result_.volume->model`, while its rims are split
-    OpenVolume base_;                     ///< with split rims and whole faces
+    std::optional<ModelBuilder> builder_; ///< builder of `result_.volume->model` while rims are split
+    OpenVolume base_;                     ///< the volume with split rims, but with whole faces
     std::optional<EndsMap> map_;
     std::vector<ClosedPair> closed_;
     FlatEnds flat_;
-    std::vector<FlatPiece> pieces_;   ///< pieces that only the target has
+    std::vector<FlatPiece> pieces_;   ///< pieces that exist only on the target
     std::vector<Vec2> place_;         ///< for each model point
     std::vector<Border> borders_;     ///< pieces of the source, of the target and of the rim
     std::vector<PlaneChain> chains_;  ///< for each border
-    std::map<EdgeId, FaceId> new_on_; ///< source face each new edge lies on
+    std::map<EdgeId, FaceId> new_on_; ///< for each new edge, the source face that it lies on
     std::map<FaceId, Vec2> seam_jump_;
     std::set<FaceId> split_; ///< source faces with new edges
     std::map<EdgeUse, FaceId> source_left_, target_left_;

@@ -47,7 +47,7 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
     const auto arc_of = [&](const std::vector<Index>& line) {
         return geometry::arc_lengths(places_at(model, line));
     };
-    // The point at a share of the length of a line on the source.
+    // The plane position at a share of the length of a line on the source.
     const auto place_on = [&](const std::vector<Index>& line, const std::vector<double>& arc, double share) {
         const geometry::PolylinePlace at = geometry::place_at(arc, share * arc.back());
         return Vec2((1 - at.fraction) * source(line[at.segment]) +
@@ -85,7 +85,7 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
     const Eigen::MatrixXd places = geometry::solve_harmonic(problem);
     target_.reserve(model.points.size());
     for (Eigen::Index i = 0; i < places.rows(); ++i) target_.emplace_back(places(i, 0), places(i, 1));
-    // Facets without area in space have none in the plane and cannot be inverted.
+    // Facets without area in space have none in the plane either, and do not count as inverted.
     double extent = 0;
     for (const auto& [point, place] : fixed)
         extent = std::max(extent, (place - fixed.begin()->second).squaredNorm());

@@ -20,7 +20,8 @@ using namespace topology;
 
 namespace {
 
-/// Whether a vertex of the source's rim is swept to a corner or to the end of a side line of the target's.
+/// Whether a vertex of the source's rim already corresponds to a corner of the target's rim, or to the end of
+/// a side line there.
 bool is_taken(const Model& model, const LinkingSurface& link, double source_at)
 {
     const double slack = kSamePlace * link.source.length();
@@ -107,7 +108,7 @@ std::vector<RimPair> pair_rims(Model& model, std::span<const LinkingSurface> lin
     }
     for (auto& [edge, list] : splits) {
         std::ranges::sort(list, std::ranges::greater{}, &Split::fraction);
-        double end = 1; // the part of the original edge that is left
+        double end = 1; // end of the part of the original edge that is left
         for (const Split& split : list) {
             pairs.push_back(
                 {split_at(model, edge, split.fraction / end, inner_at(model, inner, split.target)).vertex,

@@ -15,16 +15,16 @@ namespace lacuna::surface {
 
 namespace {
 
-/// Cost of violating a floor by one side: larger than any term of the objective. Heuristic.
+/// Cost of being one side below a floor: larger than any term of the objective. Heuristic.
 constexpr double kBelowFloor = 1e6;
-/// Maximum number of free variables up to which pairs of vectors are tried too: a board of 32 × 32 faces has
-/// as many. A larger value gives better counts but takes longer. Heuristic.
+/// Pairs of vectors are tried up to this number of free variables, which is that of a board of 32 × 32 faces.
+/// A larger value gives better numbers but takes longer. Heuristic.
 constexpr std::size_t kByTwos = 64;
-/// Additional cost of sides whose length is outside the accepted range, for each wanted side and by the
-/// relative excess. Heuristic.
+/// Additional cost of sides whose length is outside the accepted range: for each wanted side, multiplied by
+/// the relative excess. Heuristic.
 constexpr double kOutOfSize = 2;
-/// Larger coefficients do not occur in interval assignment: an equation that gets one is left out. The bound
-/// keeps products within range.
+/// Maximum coefficient; an equation that would get a larger one is left out. Interval assignment does not
+/// produce larger ones. The bound keeps products within the integer range.
 constexpr std::int64_t kMostCoefficient = 1 << 20;
 
 double wish_cost(double n, double wanted, double weight)
@@ -45,7 +45,7 @@ public:
         for (std::size_t i = 0; i < own_.size(); ++i) local_[own_[i]] = i;
     }
 
-    /// A step of Gauss-Jordan elimination in integers. A row that contradicts earlier ones is left out.
+    /// One step of Gauss-Jordan elimination in integers. A row that contradicts earlier rows is left out.
     void add(const IntervalEquation& equation)
     {
         Row row;
@@ -62,7 +62,7 @@ public:
         for (const Row& by : rows_) eliminate(row, by);
         std::erase_if(row.of, [](const auto& part) { return part.second == 0; });
         if (row.of.empty() || row.right % common_factor(row) != 0) return;
-        // A pivot of one keeps the other coefficients integral; take the first of them.
+        // With a pivot of one, the other coefficients stay integral. Take the first smallest coefficient.
         const auto pivot = std::ranges::min_element(row.of, {},
                                                     [](const auto& part) { return std::abs(part.second); });
         row.pivot = pivot->first;
@@ -72,7 +72,7 @@ public:
         rows_.push_back(std::move(row));
     }
 
-    /// Add a term of the objective or, if the weight is zero, a floor.
+    /// Add a term of the objective; with weight zero, it is a floor instead.
     void add_term(const std::vector<std::size_t>& variables, double wanted, double weight)
     {
         Term term{{}, 0, wanted, weight};
@@ -86,8 +86,8 @@ public:
         terms_.push_back(std::move(term));
     }
 
-    /// Start at the rounded wishes and descend, and write the counts of the set's variables.
-    /// @return false if the result violates a floor
+    /// Descend from the rounded wishes, and write the values of the set's variables.
+    /// @return  false if the result violates a floor
     bool solve(std::vector<int>& counts)
     {
         rows_of_.resize(own_.size());
@@ -113,12 +113,12 @@ private:
     struct Row {
         std::map<std::size_t, std::int64_t> of;
         std::int64_t right = 0;
-        std::size_t pivot = 0; ///< occurs in no other row; its coefficient is positive
+        std::size_t pivot = 0; ///< variable that occurs in no other row; its coefficient is positive
     };
 
     struct Term {
         std::map<std::size_t, int> variables;
-        std::int64_t given = 0; ///< sum over fixed variables in the row
+        std::int64_t given = 0; ///< sum of the terms of fixed variables
         double wanted = 1, weight = 1;
     };
 
@@ -140,7 +140,8 @@ private:
         row.right /= by;
     }
 
-    /// Remove the pivot of one row from another, which is emptied if its coefficients leave the range.
+    /// Eliminate the pivot of row `by` from another row. That row is emptied if its coefficients leave the
+    /// range.
     static void eliminate(Row& row, const Row& by)
     {
         const auto found = row.of.find(by.pivot);
@@ -175,8 +176,8 @@ private:
         return std::max<std::int64_t>(variable(v).least, weight > 0 ? std::llround(wanted / weight) : 1);
     }
 
-    /// The right-hand side of a row minus the terms of its free variables: coefficient times value of the
-    /// pivot.
+    /// The right-hand side of a row minus the terms of its free variables. This equals the coefficient of the
+    /// pivot times its value.
     [[nodiscard]] std::int64_t rest_of(const Row& row) const
     {
         std::int64_t sum = row.right;
@@ -186,7 +187,7 @@ private:
 
     [[nodiscard]] bool is_whole(const Row& row) const { return rest_of(row) % row.of.at(row.pivot) == 0; }
 
-    /// Raise a free variable of a row until the row's pivot and those of all earlier rows are integers.
+    /// Increase a free variable of a row until the pivots of this row and of all earlier rows are integers.
     bool make_whole(std::size_t r)
     {
         return is_whole(rows_[r]) || std::ranges::any_of(rows_[r].of, [&](const auto& part) {
@@ -203,8 +204,8 @@ private:
                });
     }
 
-    /// Set the free variables to their wishes, adjusted so that the dependent variables are integers, and
-    /// compute the dependent ones.
+    /// Set the free variables to their wishes, adjusted so that the dependent variables are integers. Compute
+    /// the dependent variables.
     bool start()
     {
         for (std::size_t v = 0; v < own_.size(); ++v) count_.push_back(is_pivot(v) ? 0 : rounded_wish(v));
@@ -223,7 +224,7 @@ private:
         return cost;
     }
 
-    /// The search vectors.
+    /// Find the vectors along which the local search moves.
     bool find_vectors()
     {
         for (std::size_t v = 0; v < own_.size(); ++v) {
@@ -301,7 +302,7 @@ private:
         return cost;
     }
 
-    /// Take the step with the largest gain. @return false if no step gains
+    /// Take the step with the largest gain. @return  false if no step has a gain
     bool step()
     {
         constexpr int kMostStep = 1 << 16;

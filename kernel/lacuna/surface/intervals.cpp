@@ -127,7 +127,7 @@ private:
         demands_.sides.push_back(std::move(asked));
     }
 
-    /// The part of the source's rim that is swept to an edge of the target's rim, along that edge.
+    /// Assign the request to the part of the source's rim that is swept to an edge of the target's rim.
     bool on_target(EdgeId edge, SidesAsked& asked) const
     {
         for (const LinkingSurface& link : links_) {
@@ -149,7 +149,7 @@ private:
         for (SidesAsked::Part& part : asked.parts) part.reversed = !part.reversed;
     }
 
-    /// The selected segments of a rim in walking order, starting after a gap.
+    /// Add the selected segments of a rim in walking order, starting after a gap between them.
     template <class IsMeant>
     static void add_segments(const LinkingSurface& link, SidesAsked& asked, const IsMeant& is_meant)
     {

@@ -11,8 +11,8 @@ namespace lacuna::surface {
 
 double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal)
 {
-    /// Minimum cosine of the angle between a triangle and the face normal at its corners: 60°. Curvature
-    /// alone cannot cause a larger angle, because sides turn by 30° at most.
+    /// Minimum cosine of the angle between a triangle and the face normal at its corners, for 60°. Curvature
+    /// alone cannot cause a larger angle, because the face turns by at most 30° along a side.
     constexpr double kAligned = 0.5;
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
     const Vec3 across = ab.cross(-ca);
@@ -123,7 +123,8 @@ Index LinkedTriangles::split(Index s, Node node, const std::array<Vec3, 2>& norm
     owners.push_back(Owner(owner(g)));
     const double half = (sides[index(s)].s + sides[index(g)].s) / 2;
     const auto take = [&](Index fresh, Index old, Index old_next, const Vec3& normal) {
-        // `fresh` runs from m to the old side's end, its next replaces `old_next`, which then starts at m.
+        // `fresh` runs from m to the end of the old side. Its next side replaces `old_next`, which then
+        // starts at m.
         sides[index(fresh)] = {m, -1, line(old), half, normal};
         Side& outer = sides[index(next(fresh))];
         outer = sides[index(old_next)];
@@ -147,7 +148,7 @@ Index LinkedTriangles::split(Index s, Node node, const std::array<Vec3, 2>& norm
 void LinkedTriangles::collapse(Index s)
 {
     const Index g = twin(s), u = from(s), v = to(s);
-    const double place = sides[index(g)].s; // of v on the line of s
+    const double place = sides[index(g)].s; // position of v on the line of s
     const std::array<Vec3, 2> normal{sides[index(next(s))].normal, sides[index(g)].normal};
     std::size_t beyond = 0; // the fan starts left of s and crosses the line of s once
     std::vector<Index> fan;

@@ -31,8 +31,8 @@ using namespace topology;
 
 namespace {
 
-/// Shortest path along facet sides from the source chain's start to the target rim, touching the rims only at
-/// its ends.
+/// Shortest path along sides of facets from the start of the source chain to the target rim. It touches the
+/// rims only at its ends.
 std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangle>& facets,
                                    const LinkingSurface& link, const RunContext& context)
 {
@@ -48,8 +48,8 @@ std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangl
                            .remedy("repair or remesh the face"));
 }
 
-/// s of the linking surface with natural conditions on the target rim, which shows how the walls themselves
-/// run. One row per model point.
+/// The coordinate s with natural boundary conditions on the target rim, which shows how the walls themselves
+/// run. One row for each model point.
 Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangle>& facets,
                                    const LinkingSurface& link, const std::vector<Index>& cut,
                                    const RunContext& context)
@@ -85,7 +85,7 @@ double value_at(const std::vector<double>& values, double at)
     return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
 
-/// Whether an edge was created by closing, between two void faces.
+/// Whether an edge between two void faces was created by closing.
 bool is_void(const Model& model, EdgeId edge)
 {
     return model[edge].origin == Origin::made_void &&
@@ -119,7 +119,8 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
     const std::vector<Triangle> facets = topology::facets_of(model, link.walls);
     const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
     const Eigen::MatrixXd s = natural_coordinate(model, facets, link, cut, context);
-    // The mean difference, on the circle, between the free coordinate s and the share of the target's length.
+    // The mean, on the circle, of the difference between the free coordinate s and the position on the target
+    // as a share of its length.
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
     for (const ChainNode& p : chain_nodes(model, link.target)) {
@@ -194,8 +195,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     strip_ = geometry::solve_harmonic(problem, context);
     check_cancelled(context);
 
-    // Scale the strip to its proportions in space, so that the closest facet to a position just off the strip
-    // is correct.
+    // Scale the strip to its proportions in space. Otherwise the facet closest to a position just off the
+    // strip might be a wrong one.
     width_ = (link.source.length() + link.target.length()) / 2;
     double area = 0;
     for (const FaceId wall : link.walls) area += face_area(model, wall);
@@ -211,7 +212,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
             least = std::min(least, corners[t][i].x());
             most = std::max(most, corners[t][i].x());
         }
-        // Add a copy for every whole turn that overlaps [0, 1].
+        // Add a copy of the triangle for every whole turn with which it overlaps [0, 1].
         for (int shift = static_cast<int>(std::ceil(-most)); least + shift <= 1; ++shift) {
             const auto base = static_cast<Index>(flat_.size());
             for (const Vec2& c : corners[t]) flat_.emplace_back((c.x() + shift) * width_, c.y() * height_, 0);
@@ -265,7 +266,7 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
     // Sections lie a quarter of the radius apart. Frames transported over bends in several planes are then
     // accurate to 2°.
     constexpr double kRowsRound = 24, kLeastRows = 32, kMostRows = 2048;
-    constexpr double kLeads = 0.2; // least length of the axis, in section radii; heuristic
+    constexpr double kLeads = 0.2; // minimum length of the axis, in radii of the sections; heuristic
     const double rows = std::ceil(std::clamp(kRowsRound * height_ / width_, kLeastRows, kMostRows));
     std::vector<std::vector<Vec3>> rings;
     std::vector<Vec3> middles, areas;
@@ -284,16 +285,18 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
         widths.push_back(geometry::length(ring) / kFullTurn);
     }
-    // Nested sections, as of a flat ring, define no direction; their planes define the rotation instead.
+    // Nested sections, as of a flat ring, define no axis; the normals of their planes define the direction
+    // instead.
     const bool leads = geometry::length(middles) > kLeads * *std::ranges::max_element(widths);
     const std::vector<Vec3> ways = leads ? geometry::ways_along(middles, widths) : areas;
-    std::vector<std::vector<double>> round; // share of each section's length at even steps of the harmonic s
+    // For each section, shares of its length at even steps of the harmonic s.
+    std::vector<std::vector<double>> round;
     std::vector<Vec3> first;
     std::vector<double> turned; // rotation of the frame against the harmonic s [turns]
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     for (std::size_t k = 0; k < rings.size(); ++k) {
-        // Project along the direction of the sweep: sections of coarse facets and between oblique rims are
-        // tilted.
+        // Project along the direction of the sweep, because sections of coarse facets, and sections between
+        // oblique rims, are tilted.
         for (Vec3& p : rings[k]) p -= ways[k].dot(p - middles[k]) * ways[k];
         round.push_back(geometry::arc_lengths(rings[k]));
         const double length = round.back().back();
@@ -438,7 +441,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
             along += std::abs(b.x() - a.x()) * width_;
             up += b.y() - a.y();
         }
-        // Kept quads have mesh nodes along their edges.
+        // Kept quads already have mesh nodes along their edges.
         const bool stays = std::ranges::any_of(model.uses_of_edge(use.edge), [&](const FaceUse& user) {
             return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
         });
@@ -475,7 +478,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
 
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
 {
-    // Include the ends of pieces, so that a column through an end still crosses the ring.
+    // The ends of a piece belong to it, so that a column through an end still crosses the ring.
     std::vector<Crossing> result;
     for (const Piece& piece : ring.pieces) {
         const Vec2 &a = piece.a, &b = piece.b;

@@ -31,7 +31,7 @@ std::vector<EdgeUse> against(const std::vector<EdgeUse>& uses)
     return result;
 }
 
-/// Rotate a closed walk so that it starts at use number `first`.
+/// Rotate a closed walk so that it starts at the use with index `first`.
 std::vector<EdgeUse> rotated(std::vector<EdgeUse> uses, std::size_t first)
 {
     std::rotate(uses.begin(), uses.begin() + static_cast<std::ptrdiff_t>(first), uses.end());
@@ -78,7 +78,8 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
                        entities_of(model, part), found(touched.size()), end);
 }
 
-/// Side lines must meet both rims in the same cyclic order: keep the first and all that follow in order.
+/// Side lines must meet both rims in the same cyclic order. Keep the first one and all that follow in this
+/// order.
 std::vector<LinkingLine> in_order(std::vector<LinkingLine> lines)
 {
     std::vector<LinkingLine> kept;
@@ -105,7 +106,8 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
 
 void add_segments(const Model& model, LinkingSurface& link, double s0, double s1, double t0, double t1)
 {
-    // Without side lines the walls determine which corners correspond: pair only those that lie close.
+    // Without side lines the walls determine which corners correspond, so only corners close to each other
+    // are paired.
     const Pairing pairing = link.lines.empty() ? Pairing::near : Pairing::in_order;
     std::vector<double> a = corners_between(model, link.source, s0, s1, true);
     std::vector<double> b = corners_between(model, link.target, t0, t1, false);
@@ -134,7 +136,7 @@ struct PairedPlaces {
 void add_paired_segments(const Model& model, LinkingSurface& link, std::vector<PairedPlaces> pairs, double s0,
                          double s1, double t0, double t1)
 {
-    const double slack = model.tolerance; // lower bound of a segment's length
+    const double slack = model.tolerance; // minimum length of a segment
     for (PairedPlaces& pair : pairs) {
         if (pair.target_at < t0) pair.target_at += link.target.length();
     }
@@ -163,7 +165,7 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
     return places;
 }
 
-/// Rotate the target of bent walls without side lines by rotation-minimizing transport of a frame.
+/// On bent walls without side lines, rotate the target by rotation-minimizing transport of a frame.
 void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext& context)
 {
     if (runs_straight(volume.model, link)) return;
@@ -177,9 +179,9 @@ void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext
     add_segments(volume.model, link, 0, link.source.length(), start, start + length);
 }
 
-/// Whether the only side line is the seam of a periodic face that should not guide the sweep. This is so if
-/// the seam winds around the walls, or if the walls bend and have several faces: their rows would be sheared
-/// by it.
+/// Whether the only side line is the seam of a periodic face that should not guide the sweep. This holds if
+/// the seam winds around the walls. It also holds if the walls bend and have several faces, because the seam
+/// would shear their rows.
 bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     if (link.lines.size() != 1 || runs_straight(volume.model, link)) return false;
@@ -207,7 +209,7 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
         source = rotated(std::move(source), *use_leaving(model, source, mine.front().source));
         target = rotated(std::move(target), *use_leaving(model, target, mine.front().target));
     }
-    bool started = false; // Without side lines a pair defines the start of the walk on both rims.
+    bool started = false; // without side lines, a pair defines the start of both chains
     for (const RimPair& pair : pairs) {
         const auto s = use_leaving(model, source, pair.source), t = use_leaving(model, target, pair.target);
         if (!mine.empty() || started || !s || !t) continue;
@@ -241,8 +243,8 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
     return link;
 }
 
-/// The walls of a loop form a ring. With a tunnel through them (a bore from one wall to another) they cannot
-/// be mapped onto a strip.
+/// Check that the walls of a loop form a ring. With a tunnel through them (a bore from one wall to another)
+/// they cannot be mapped onto a strip.
 void check_ring(const Model& model, const std::vector<FaceId>& part)
 {
     if (euler_number(model, part) == 0) return;

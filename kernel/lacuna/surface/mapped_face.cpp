@@ -19,9 +19,9 @@ using namespace topology;
 
 namespace {
 
-/// Sides of the sample grid in either direction: enough to resolve a full turn. Heuristic.
+/// Number of sides of the sample grid in both directions: enough to resolve a full turn. Heuristic.
 constexpr std::size_t kSamples = 24;
-/// Lines between two sides on which the size is sampled. Heuristic.
+/// Number of lines between two opposite sides on which the size is sampled. Heuristic.
 constexpr std::size_t kLines = 3;
 
 /// Points of a side of the face at even steps of running length.
@@ -79,7 +79,7 @@ MappedFace::Shape MappedFace::shape(const SizeField& size) const
 {
     Shape shape;
     double jacobians = 0;
-    std::array<std::vector<double>, 2> sides; // number of sides by the size, in either direction
+    std::array<std::vector<double>, 2> sides; // numbers of sides that the size requires in both directions
     for (std::size_t j = 0; j < kSamples; ++j) {
         for (std::size_t i = 0; i < kSamples; ++i) {
             const std::array<Vec3, 4> quad{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};

@@ -46,7 +46,8 @@ BreakPairs paired(const std::vector<double>& a, const std::vector<double>& b, do
 
 BreakPairs paired_breaks(const std::vector<double>& a, const std::vector<double>& b, Pairing pairing)
 {
-    // Two unpaired breaks cost as much as a pair this far apart, as a share of the length. Heuristic.
+    // Two unpaired breaks cost as much as a pair whose distance is twice this value, as a share of the
+    // length. Heuristic.
     const double alone = pairing == Pairing::in_order ? 0.1 : 0.02;
     return paired(a, b, alone, a.size() == b.size() && pairing == Pairing::in_order);
 }

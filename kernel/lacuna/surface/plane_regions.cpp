@@ -56,7 +56,7 @@ std::vector<Walk> traced_loops(std::span<const PlaneChain> chains)
     const auto bounds = [&](const PlaneUse& use) {
         return use.reversed ? chains[use.chain].right : chains[use.chain].left;
     };
-    // The successor of an incoming half-edge: the first one clockwise from its twin.
+    // The successor of an incoming half-edge is the first outgoing one clockwise from its twin.
     const auto next = [&](const PlaneUse& use) {
         const std::vector<Spoke>& around = spokes.at(use.reversed ? chains[use.chain].from
                                                                   : chains[use.chain].to);

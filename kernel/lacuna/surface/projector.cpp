@@ -76,11 +76,12 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         hit.triangle = facet;
         return hit;
     };
-    // A point this close lies on the facet up to rounding. If it is inside, no other facet needs a query.
+    // A point this close lies on the facet up to rounding. If it is inside the facet, no other facet is
+    // searched.
     constexpr double kInside = 1e-6;
     const double rounding = 1e-15 * tree_.bounds().diagonal().norm();
     parallel_for(context, points.size(), 512, [&](std::size_t begin, std::size_t end) {
-        // Points in sequence are close together: the last facet bounds the search for the next one.
+        // Consecutive points are close together, so the last facet limits the search for the next one.
         for (std::size_t i = begin; i < end; ++i) {
             if (i > begin) {
                 hits[i] = hit_on(hits[i - 1].triangle, points[i]);

@@ -20,21 +20,22 @@ using namespace topology;
 
 namespace {
 
-/// Quads with a smaller scaled Jacobian are improved. Even coarse meshes reach this value if their corners
-/// allow it.
+/// Quads with a smaller scaled Jacobian are improved. Even coarse meshes reach this value, unless corners
+/// prevent it.
 constexpr double kGoodEnough = 0.6;
-/// Maximum number of passes over the nodes; the first pass without a gain is the last.
+/// Maximum number of passes over the nodes. A pass without a gain is the last.
 constexpr int kRounds = 20;
 /// Step sizes of the search relative to the shortest side at the node, and the minimum gain of a step, as in
 /// quads/smooth_plane.cpp. Heuristic.
 constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
 /// A node whose total gain is smaller is moved back. Next to a sharp corner, tiny gains degrade the
-/// surrounding quads: the mean fell from 0.943 to 0.927 for a minimum that rose by 0.0001. Heuristic.
+/// surrounding quads: in one case the minimum rose by 0.0001, while the mean fell from 0.943 to 0.927.
+/// Heuristic.
 constexpr double kWorthIt = 0.02;
-/// Minimum distance of a node from its neighbours on an edge, as a share of theirs. Heuristic.
+/// Minimum distance of a node from its neighbours on an edge, as a share of their distance. Heuristic.
 constexpr double kApart = 0.1;
-/// No side becomes shorter than this share of the shortest side at its ends: maximizing sines alone shrinks
-/// quads to needles. Heuristic.
+/// No side at a node becomes shorter than this share of the shortest original side there. Without this bound,
+/// maximizing sines shrinks quads to needles. Heuristic.
 constexpr double kShortest = 0.5;
 
 class Raiser {
@@ -74,7 +75,7 @@ public:
 private:
     struct Home {
         enum class Kind { fixed, edge, face } kind = Kind::fixed;
-        std::size_t number = 0; ///< number in the edges or faces of `NodeFreedom`
+        std::size_t number = 0; ///< index in the edges or faces of `NodeFreedom`
         std::size_t place = 0;  ///< position on the edge
     };
     struct Line {
@@ -194,9 +195,9 @@ private:
         return lines_[e];
     }
 
-    /// Move a node to where the worst quad around it is better. @return whether it moved
-    /// @param place  moves the node by an offset from its position [model length]; false if the node may not
-    ///          be there
+    /// Move a node to a position where the worst quad around it is better. @return  whether it moved
+    /// @param place  moves the node by an offset from its original position [model length]. It returns false
+    ///         if the node may not be there.
     template <class Place>
     bool search(std::size_t p, const Star& star, std::span<const Vec2> directions, const Place& place)
     {
@@ -252,7 +253,7 @@ private:
     }
 
     /// Project the moved nodes onto the exact edges and faces. If the worst quad around them is then worse
-    /// than at the beginning, restore everything.
+    /// than at the beginning, undo all moves.
     std::map<EdgeId, std::vector<double>> settle(const std::vector<Vec3>& before)
     {
         std::map<EdgeId, std::vector<double>> moved;
@@ -287,7 +288,7 @@ private:
         return moved;
     }
 
-    /// The minimum sine over quads with a moved node, at the current positions.
+    /// The smallest sine in quads with a moved node, at the current positions.
     [[nodiscard]] double worst_moved(const std::vector<Vec3>& before, const std::vector<Vec3>& after) const
     {
         double worst = 1;

@@ -12,7 +12,7 @@ namespace lacuna::surface {
 
 /// Faces as named by the user: the union of both lists.
 struct FaceNames {
-    std::vector<int> tags;          ///< of given faces
+    std::vector<int> tags;          ///< tags of given faces
     std::vector<std::string> names; ///< of given faces; "void:<n>": void face n; "source",
                                     ///< "target": void ends; "walls": all walls
 };
@@ -27,13 +27,14 @@ struct BoundaryLayer {
 
 /// A number of sides requested by the user.
 struct Interval {
-    /// Where: an edge by its tag, the edge between two vertices by theirs, the rim of walls, the sweep.
+    /// Where the sides are: on an edge, by its tag; on the edge between two vertices, by their tags; on the
+    /// rim of walls; or along the sweep.
     enum class Of { edge, vertices, wall, sweep };
     Of of = Of::sweep;
     int edge = 0;
     std::array<int, 2> vertices{};
     FaceNames walls; ///< these walls have `count` sides together, that is, as many columns of quads
-    int count = 1;   ///< >= 1
+    int count = 1;   ///< number of sides, >= 1
     /// Ratio of last to first length, > 0 [-]: in the edge's direction, from the first vertex to the second,
     /// or from source to target; 1 for walls.
     double bias = 1;
@@ -42,7 +43,8 @@ struct Interval {
 /// Two groups of faces that get the same mesh, one moved onto the other.
 struct PeriodicPair {
     FaceNames a, b;
-    std::optional<Eigen::Isometry3d> onto; ///< moves the faces `a` onto `b`; none: it is found
+    /// Motion that moves the faces `a` onto `b`; empty: it is determined from the faces.
+    std::optional<Eigen::Isometry3d> onto;
 };
 
 } // namespace lacuna::surface

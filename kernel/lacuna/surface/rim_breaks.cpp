@@ -22,8 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// The points that the Douglas-Peucker rule keeps, both ends included: the others lie within `sag` of the
-/// chords.
+/// The points that the Douglas-Peucker rule keeps, including both ends. All other points lie within `sag` of
+/// the resulting chords.
 std::vector<std::size_t> kept_points(std::span<const Vec3> points, double sag)
 {
     std::vector<std::size_t> kept{0}, ends{points.size() - 1}; // accepted points, and ends of chords to test
@@ -51,7 +51,7 @@ std::vector<std::size_t> kept_points(std::span<const Vec3> points, double sag)
     return kept;
 }
 
-/// Whether an edge of a chain starts at a position, which is then a node anyway.
+/// Whether an edge of a chain starts at a position, which is therefore a node in any case.
 bool starts_at(const Chain& chain, double at)
 {
     for (std::size_t u = 0; u <= chain.uses().size(); ++u)
@@ -65,8 +65,7 @@ double nearest_turn(double at, double to, double length)
     return at + std::round((to - at) / length) * length;
 }
 
-/// Snap each break between segments to the nearest of `vertices`, unless the break is already a vertex of
-/// this rim.
+/// Move each end of a segment to the nearest of `vertices`, unless it already is a vertex of this rim.
 template <class Vertices>
 void snap(BreakPairs& ends, double std::pair<double, double>::*side, const Chain& chain,
           const Vertices& vertices)
@@ -111,7 +110,7 @@ BreakPairs boundaries(const LinkingSurface& link)
     return ends;
 }
 
-/// Whether a pair is among others, up to whole turns.
+/// Whether a list contains a pair, up to whole turns.
 bool holds(const BreakPairs& pairs, const std::pair<double, double>& wanted, const LinkingSurface& link)
 {
     const double length = link.target.length();
@@ -122,7 +121,7 @@ bool holds(const BreakPairs& pairs, const std::pair<double, double>& wanted, con
     });
 }
 
-/// Pairs around the whole ring, with additional positions where source edges start.
+/// Extend pairs around the whole ring by pairs at the starts of source edges.
 BreakPairs with_starts(BreakPairs pairs, const LinkingSurface& link)
 {
     pairs.emplace_back(link.source.length(), pairs.front().second + link.target.length());
@@ -138,7 +137,8 @@ BreakPairs with_starts(BreakPairs pairs, const LinkingSurface& link)
     return pairs;
 }
 
-/// BreakPairs of close vertices of both rims, and of each other vertex with the position opposite to it.
+/// Pairs of vertices of both rims that are close to each other. Every other vertex is paired with the
+/// position opposite to it.
 template <class Vertices>
 BreakPairs paired_near(const LinkingSurface& link, const Vertices& low, const Vertices& high)
 {
@@ -210,7 +210,7 @@ const std::vector<Index>& RimFacets::crease(Index rim)
     return crease->second;
 }
 
-/// Whether the given nodes of a linking surface's rims are exactly the ends of its creases.
+/// Whether the given nodes on a linking surface's rims are exactly the ends of its creases.
 bool RimFacets::has_nodes_at(const LinkingSurface& link,
                              std::span<const std::pair<double, double>> creases) const
 {
@@ -230,7 +230,7 @@ bool RimFacets::has_nodes_at(const LinkingSurface& link,
     return true;
 }
 
-/// Follow the sharpest facet sides; empty if they do not lead to another rim.
+/// Follow the sharpest sides of facets. @return  empty if they do not lead to another rim
 std::vector<Index> RimFacets::crease_from(Index rim) const
 {
     const Model& model = volume_.model;
@@ -280,7 +280,7 @@ std::vector<RimFacets::Vertex> RimFacets::kept(const Chain& chain, int per_turn,
         const std::vector<std::size_t> points = kept_points(line, sag);
         const double most = std::max(turn / angle, arc.back() / size(line[line.size() / 2]));
         if (static_cast<double>(points.size() - 1) > std::ceil(most)) continue;
-        // Skip both ends of an edge, because vertices are nodes anyway; keep the start of a closed edge.
+        // Skip both ends of an edge, which are nodes in any case. The start of a closed edge is kept.
         for (std::size_t k = edge.from == edge.to ? 0 : 1; k + 1 < points.size(); ++k) {
             const std::size_t i = points[k];
             const double along = use.reversed && i > 0 ? arc.back() - arc[i] : arc[i];
@@ -291,7 +291,7 @@ std::vector<RimFacets::Vertex> RimFacets::kept(const Chain& chain, int per_turn,
     return vertices;
 }
 
-/// Drop the edges that have a vertex without a crease.
+/// Remove all vertices of edges on which some vertex has no crease.
 std::vector<RimFacets::Vertex> RimFacets::on_creases(std::vector<Vertex> vertices)
 {
     std::set<EdgeId> without;
@@ -313,7 +313,7 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
         const std::vector<Vertex> low = on_creases(kept(link.source, per_turn, size));
         const std::vector<Vertex> high = on_creases(kept(link.target, per_turn, size));
         if (low.empty() && high.empty()) continue;
-        // Creases up the walls, and the positions they connect.
+        // Find the creases up the walls, and the positions that they connect.
         std::vector<Crease> up;
         BreakPairs joined;
         bool in_order = true;

@@ -51,8 +51,8 @@ double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_
                  IntervalProgram& program)
 {
     const double deep = kRowsOfRadius * bulge.radius, angle = bulge.turn / parts / 2;
-    // The line behind the rows of a part: from its corner on the part's middle ray to the rays at the part's
-    // ends, at the same depth below the side.
+    // The line behind the rows of one part. Its corner is on the ray through the middle of the part, and its
+    // ends are on the rays through the part's ends, all at the same depth below the side.
     const double left = bulge.radius - deep;
     const double line = 2 * parts * std::hypot(left * std::sin(angle), left * (1 - std::cos(angle)));
     program.wishes.push_back({{rows}, std::max(deep / bulge.size, kLeastWish), 1});

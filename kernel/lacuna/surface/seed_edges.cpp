@@ -23,14 +23,14 @@ namespace {
 /// have corners of 120° or more.
 constexpr int kFewestPerTurn = 6;
 
-/// Part of a side by which the turn may exceed the current number of sides before another side is added. It
+/// A further side is added only if the turn exceeds the current number of sides by this part of a side, which
 /// covers the sampling error of a curve. Heuristic.
 constexpr double kPartOfSide = 0.05;
 
-/// Points per piece at which the size is sampled. Heuristic.
+/// Number of points on each piece at which the size is sampled. Heuristic.
 constexpr int kSizeSamples = 32;
 
-/// Turn of the target's rim over even steps along a segment [radian].
+/// Turn of the target's rim in even steps along a segment [radian].
 std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment& segment)
 {
     const double whole = target.length(), step = (segment.target_to - segment.target_from) / kSizeSamples;
@@ -44,7 +44,7 @@ std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment
     return turning;
 }
 
-/// The parts of the source's rim that are swept to a single edge of the target's rim, as pieces.
+/// Add the parts of the source's rim as pieces; each part is swept to a single edge of the target's rim.
 void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
 {
     const EdgeTurning target(model, link.target.uses());
@@ -63,9 +63,9 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
     }
 }
 
-/// Hexahedra cannot be swept from a given mesh of quads and triangles. Adds a note if the user requested to
-/// remesh the face. A face with triangles only is treated as geometry, not as a mesh.
-/// @throw NotSweepable  such a mesh with quads = "auto".
+/// Hexahedra cannot be swept from a given mesh of quads and triangles. Add a note if the user requested that
+/// the face is remeshed. A face with triangles only is a shape, not a mesh.
+/// @throw NotSweepable  the face has such a mesh and quads = "auto".
 void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
 {
     const Face& f = task.model[face];
@@ -116,7 +116,7 @@ void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
             to = to || std::abs(f - piece.to) <= slack;
             if (f > piece.from + slack && f < piece.to - slack) piece.kept.push_back(f);
         }
-        // A piece with a single given side has no node inside.
+        // A piece that is one given side has no given node inside.
         if (!from || !to || (piece.fixed && piece.kept.size() != sides)) {
             throw NotSweepable(
                 Message("surface.kept_rim",
@@ -131,7 +131,7 @@ void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
     }
 }
 
-/// The number of sides by size and curvature, and their distribution.
+/// Find the number of sides that size and curvature require, and their distribution.
 void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
 {
     const int per_turn = task.sizing.curvature > 0 ? task.sizing.curvature : kFewestPerTurn;
@@ -140,7 +140,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
     const EdgeTurning turning(task.model, edge);
     const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
-    // Only the part of the opposite rim's turn that exceeds this rim's counts. The rim of an oblique end
+    // Of the opposite rim's turn, only the excess over this rim's turn counts. The rim of an oblique end
     // turns unevenly, but by the same total.
     const auto turn_between = [&](double from, double to) {
         return piece.follows ? 0 : turning.between(from, to);
@@ -181,7 +181,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     piece.least = std::max(1, bends);
 }
 
-/// Note edges whose nodes are given by triangles alone, where a side is more than twice as long as the size.
+/// Add a note on edges that have sides longer than twice the size, if only triangles gave their nodes.
 void note_coarse_edges(const SeedTask& task, Seeds& seeds)
 {
     const auto has_quads = [&](const FaceUse& use) { return !task.model[use.face].given_quads.empty(); };

@@ -21,26 +21,27 @@ namespace {
 /// Weight of a line across a mapped face relative to an edge of its rim. Heuristic.
 constexpr double kLineWeight = 1;
 
-/// A face with a round side of at least this turn is filled by two three-sided patterns side by side: 120°.
-/// Heuristic.
+/// A face with a round side that turns by at least this (120°) is filled by two three-sided patterns side by
+/// side. Heuristic.
 constexpr double kHalves = kFullTurn / 3;
 
-/// Weight of a square core relative to an edge. With a quarter of it, sectors around a common point alternate
-/// between 15 and 13 sides.
+/// Weight of the wish for a square core, relative to an edge. With a quarter of this value, sectors around a
+/// common point alternate between 15 and 13 sides.
 constexpr double kEvenCore = 1;
 
-/// Number of wanted quads from which a sector's counts follow the rows along its round side. Measured on
-/// quarters of a disc: for 30 wanted quads they get 80 with this rule and 45 without it; for 12 wanted quads,
-/// 86 and 39. From 120 wanted quads on, the rule is better throughout.
+/// From this number of wanted quads on, the numbers of sides of a sector follow the rows along its round
+/// side. Measured on quarters of a disc: for 30 wanted quads, the rule gives 80 quads, and without it there
+/// are 45; for 12 wanted quads, 86 and 39. From 120 wanted quads on, the rule is better throughout.
 constexpr double kQuadsForRows = 20;
 
-/// Weight of an edge that is changed last, relative to others, if the present counts are repaired. Heuristic.
+/// Weight of edges that are to be changed last, relative to other edges, when numbers are repaired.
+/// Heuristic.
 constexpr double kLastWeight = 10;
-/// Weight of the wish for half the total of a face. The wish only sets where the search starts; its weight is
-/// too small to affect the counts.
+/// Weight of the wish for half of a face's total. The wish only decides where the search starts; its weight
+/// is too small to affect the result.
 constexpr double kHalfWeight = 1e-6;
 
-/// A grid of a face, as the variables along its sides in either direction.
+/// A grid of a face: the variables along its sides, in both directions.
 using FaceGrid = std::array<std::vector<std::size_t>, 2>;
 
 /// The variables of the program and the pieces they belong to.
@@ -49,9 +50,9 @@ struct Program {
     std::vector<SeedPiece*> pieces;
     std::vector<std::size_t> piece_variable;
     std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
-    std::vector<FaceGrid> grids;         ///< grids that fill a face together
-    double asked = 0;                    ///< quads wanted on those faces
-    /// Set if the present counts are to be repaired: the edges to be changed last; else null.
+    std::vector<FaceGrid> grids;         ///< grids that together fill a face
+    double asked = 0;                    ///< number of quads wanted on faces filled by `grids`
+    /// If present numbers are to be repaired, the edges that are changed last; otherwise null.
     const std::set<EdgeId>* last = nullptr;
 };
 
@@ -89,7 +90,7 @@ std::size_t add_variable(IntervalProgram& intervals)
     return intervals.variables.size() - 1;
 }
 
-/// An even total of some edges.
+/// Require that the total number of sides on some edges is even.
 void add_even(Seeds& seeds, const std::vector<EdgeId>& edges, Program& program)
 {
     std::vector<std::size_t> all = variables_of(seeds, edges, program);
@@ -99,7 +100,7 @@ void add_even(Seeds& seeds, const std::vector<EdgeId>& edges, Program& program)
     program.intervals.equations.push_back({std::move(all), {half, half}});
 }
 
-/// Equal counts on edges that a symmetry of a face maps onto each other.
+/// Require equal numbers on edges that a symmetry of a face maps onto each other.
 void add_alike(const AlikeEdges& alike, Program& program)
 {
     for (const auto& [face, sets] : alike) {
@@ -114,7 +115,7 @@ void add_alike(const AlikeEdges& alike, Program& program)
     }
 }
 
-/// Opposite sides of mapped and submapped faces have the same number of sides.
+/// Require equal numbers on opposite sides of mapped and submapped faces.
 void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Program& program)
 {
     for (const auto& [face, pairs] : grids.opposite) {
@@ -142,9 +143,9 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
     }
 }
 
-/// Whether a three-sided face with one round side shares an edge with another free face, so that the count
-/// there must suit both. None of its sides may be given or requested, and it must be large enough for rows
-/// along the round side.
+/// Whether a face is a large sector next to a free face: it has three sides of which one is round, and shares
+/// an edge with another free face, whose numbers must suit both. None of its sides may be given or requested,
+/// and the face must be large enough for rows along the round side.
 bool is_sector_beside(const SeedTask& task, const FaceGrids& grids, const Seeds& seeds, FaceId face,
                       const std::vector<EdgeId>& edges)
 {
@@ -161,11 +162,15 @@ bool is_sector_beside(const SeedTask& task, const FaceGrids& grids, const Seeds&
     });
 }
 
-/// Constraints of a free face. Three sides: three grids around one inner node, so the total is even and no
-/// side exceeds the sum of the others. Two sides of which one is round (half disc): two such patterns side by
-/// side, with a square core. Two other sides: their counts differ by an even number, as around the four
-/// corners of a grid, two of them inside. All others: an even total.
-/// @return  whether one side is round, so that the counts are also those of its rows
+/// Add the constraints of a free face:
+/// - Three sides: three grids meet at an inner node, so the total is even and no side exceeds the sum of the
+///   other two.
+/// - Two sides, one of them round (half disc): two such patterns lie side by side, with a square core.
+/// - Two other sides: their numbers differ by an even number, as around a grid that has two of its four
+///   corners inside the face.
+/// - All other faces: the total is even.
+///
+/// @return  whether one side is round, so that the numbers also determine the rows along it
 bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edges, Seeds& seeds,
               Program& program)
 {
@@ -212,8 +217,8 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
     return false;
 }
 
-/// Constrain free faces that share edges with mapped ones, so that their counts close.
-/// @return edges whose counts are those of a grid
+/// Add the constraints of free faces that share edges with mapped ones, so that quads can fill them.
+/// @return  edges whose numbers of sides are those of a grid
 std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds,
                                    Program& program)
 {
@@ -232,8 +237,8 @@ std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids,
     return settled;
 }
 
-/// Counts of least cost.
-/// @param share  factor on the wanted numbers of sides.
+/// The numbers of sides with the least cost.
+/// @param share  factor on the wanted numbers.
 std::vector<int> solve(Program program, double share)
 {
     for (IntervalWish& wish : program.intervals.wishes)
@@ -241,7 +246,7 @@ std::vector<int> solve(Program program, double share)
     return solve_intervals(program.intervals);
 }
 
-/// Quads of all grids; 0 if some have no solution.
+/// Number of quads of all grids; 0 if some grid has no solution.
 double quads_of(const Program& program, const std::vector<int>& counts)
 {
     double quads = 0;
@@ -260,11 +265,11 @@ double quads_of(const Program& program, const std::vector<int>& counts)
     return quads;
 }
 
-/// Counts of least cost. If these give too many or too few quads, solve again with scaled wanted counts:
-/// three grids around a node have more quads than the sides of their face suggest.
+/// The numbers of sides with the least cost. If they give too many or too few quads, solve again with scaled
+/// wanted numbers, because three grids around a node have more quads than the sides of the face suggest.
 std::vector<int> solve_for_quads(const Program& program)
 {
-    // The requested number of quads must be met within a quarter. The tolerance used here and the number of
+    // The requested number of quads must be met within a quarter. The tolerance `kNear` and the number of
     // corrections are heuristic.
     constexpr double kNear = 0.1, kQuads = 0.25;
     constexpr int kTries = 4;

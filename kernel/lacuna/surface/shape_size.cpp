@@ -28,24 +28,25 @@ using namespace topology;
 
 namespace {
 
-/// Maximum sag of a side over the local width of the face: two opposite sides then leave half the width [-].
+/// Maximum sag of a side as a share of the local width of the face. Two opposite sides then leave half of the
+/// width [-].
 constexpr double kSagOfWidth = 0.25;
-/// Rim points per mesh side of the requested size. More points would resolve changes of the size within a
-/// side, but take more time. Heuristic.
+/// Number of rim points for each mesh side of the requested size. More points would resolve changes of the
+/// size within a side, but take more time. Heuristic.
 constexpr double kPointsPerSide = 4;
 /// Maximum distance of neighbouring rim points [multiples of the size there]. Halfway between two points the
 /// size is then at most a third too large. Heuristic.
 constexpr double kApart = 2;
 /// Maximum number of rim points per edge. Heuristic.
 constexpr std::size_t kMostPoints = 4096;
-/// Minimum cosine of the angle between the line that joins two rim points and the rim's normal, if the points
-/// face each other. The two sides of a right angle never face each other by this bound.
+/// Two rim points face each other if the line between them and the rim's normal form an angle with at least
+/// this cosine. With this bound, the two sides of a right angle never face each other.
 constexpr double kFacing = 0.8;
-/// Two points of one edge face each other if the path along the edge is longer than the chord by this factor:
-/// nearly a half circle, 1.57 [-].
+/// Two points of one edge face each other only if the path along the edge is longer than the chord by this
+/// factor. For a half circle the factor is 1.57 [-].
 constexpr double kWayRound = 1.5;
-/// Inside a face, curvature does not reduce the size below this share of the requested one. Quads are
-/// isotropic, so a sharp bend would cost hundreds of them for the sag in one direction. Heuristic.
+/// Inside a face, curvature does not reduce the size below this share of the requested size. Quads are
+/// isotropic, so following a sharp bend in one direction would cost hundreds of them. Heuristic.
 constexpr double kLeastShare = 0.5;
 
 /// Keep the cause with the smaller size.
@@ -71,7 +72,7 @@ void add_curvature(const Model& model, FaceId face, const SizeField& asked, int 
 /// A point of a face's boundary.
 struct RimPoint {
     Vec3 point;
-    Vec3 inward; ///< unit, in the face
+    Vec3 inward; ///< unit vector in the face
     double curvature = 0;
 };
 
@@ -79,7 +80,7 @@ struct RimPoint {
 struct RimPiece {
     EdgeId edge;
     Vec3 start;
-    double from = 0;   ///< running length of the edge at its start
+    double from = 0;   ///< running length on the edge at the start of the piece
     double length = 0; ///< length of the whole edge
 };
 
@@ -122,7 +123,7 @@ public:
     }
 
 private:
-    /// Pairs of boundary points that face each other.
+    /// The boundary point that faces another one.
     struct Opposite {
         EdgeId edge;
         double width = 0;
@@ -155,10 +156,10 @@ private:
                 parts.pop_back();
                 const RimPoint at{a + (from + to) / 2 * along, inward,
                                   turning.between(start + from, start + to) / (to - from)};
-                // The edge's own curvature limits its sides to this length anyway.
+                // Because of its own curvature, sides of the edge are not longer than this anyway.
                 const double bend = at.curvature * sizing.curvature / kFullTurn;
                 const double most = 1 / std::max(1 / asked(at.point), bend);
-                // Wider places do not reduce the size.
+                // Places that are wider than this do not reduce the size.
                 const double reach = std::max(sizing.gap * most,
                                               at.curvature * most * most / (8 * kSagOfWidth));
                 const auto facing = opposite(edge, start + (from + to) / 2, at, reach);
@@ -179,7 +180,7 @@ private:
                 sizes.push_back({at.point, share});
                 sizes.push_back({at.point + width / 2 * at.inward, share});
                 because(share);
-                // Where the width is much smaller than the size, refine the sampling; otherwise the size
+                // Where the width is much smaller than the size, sample more densely; otherwise the size
                 // would grow again between the samples.
                 if (to - from > kApart * share && length < static_cast<double>(kMostPoints) * (to - from)) {
                     parts.push_back({(from + to) / 2, to});
@@ -190,7 +191,7 @@ private:
         }
     }
 
-    /// The boundary point opposite to this place, if it is within `reach`.
+    /// The boundary point that faces this position, if it is within `reach`.
     [[nodiscard]] std::optional<Opposite> opposite(EdgeId edge, double s, const RimPoint& at,
                                                    double reach) const
     {
@@ -225,8 +226,8 @@ private:
         }
         const bool at_start = a.from == b.from || a.from == b.to, at_end = a.to == b.from || a.to == b.to;
         if (!at_start && !at_end) return Opposite{other, width};
-        // Next to a common corner no width is defined. Two edges that share both ends enclose the face, so
-        // the mean width applies.
+        // Next to a common corner the width is not defined. Two edges with both ends in common enclose the
+        // face, so its mean width is used.
         if (!at_start || !at_end || a.from == a.to) return std::nullopt;
         return Opposite{other, std::max(width, mean_width_)};
     }

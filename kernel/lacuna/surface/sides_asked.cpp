@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// The largest height of rows, measured along the side that the rows follow, for which an edge has room.
+/// The largest height of rows that fit on an edge, measured along the edge that the rows follow.
 double room_on(const Model& model, const SeedPiece& piece, EdgeId edge, bool at_end, const RimRows::End& end)
 {
     const std::vector<double>& other = at_end ? piece.low : piece.high;
@@ -54,7 +54,7 @@ void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const 
     piece.count = std::max(1, static_cast<int>(std::lround(sides_between))) + piece.rows();
 }
 
-/// Number of sides up to a share of the length, with bias.
+/// Number of sides from the start to a share of the length, for a request with bias.
 double index_at(double share, const SidesAsked& asked)
 {
     if (asked.count < 2 || asked.bias == 1) return share * asked.count;
@@ -69,8 +69,8 @@ double length_at(double index, const SidesAsked& asked)
     return std::expm1(growth * index) / std::expm1(growth * asked.count);
 }
 
-/// Assign nodes to the ends of pieces. Each end gets the node nearest to it by the bias; every piece gets at
-/// least one side.
+/// Choose the node at the end of each piece: the nearest one by the bias, such that every piece has at least
+/// one side.
 std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& asked)
 {
     std::vector<int> node{0};
@@ -84,10 +84,10 @@ std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& ask
     return node;
 }
 
-/// The request that set a piece's number of sides.
+/// For each piece, the request that set its number of sides.
 using Askers = std::map<const SeedPiece*, const SidesAsked*>;
 
-/// Merge the sides requested on a piece of an edge into it, or refuse a conflict.
+/// Apply the sides requested on a piece of an edge, or refuse a conflict.
 void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiece& own,
             const SidesAsked& asked, EdgeId edge)
 {

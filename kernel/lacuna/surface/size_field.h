@@ -7,13 +7,13 @@
 
 namespace lacuna::surface {
 
-/// Target edge length at a place; positive and finite [model length].
+/// Target edge length at a position; positive and finite [model length].
 using SizeField = std::function<double(const Vec3&)>;
 
 /// Size fields on faces.
 struct SizeFields {
     SizeField edge;  ///< length of the quads' sides
-    SizeField row{}; ///< height of rows along the loops that smoothing keeps; empty: no rows
+    SizeField row{}; ///< height of rows along the loops, which smoothing keeps; empty: no rows
 };
 
 } // namespace lacuna::surface

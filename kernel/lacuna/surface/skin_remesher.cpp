@@ -16,24 +16,25 @@ namespace lacuna::surface {
 
 namespace {
 
-/// Sides longer or shorter than these multiples of the size are split or collapsed: both halves of a split
-/// side are nearer to the size than the side was (@cite botsch_2004_remeshing).
+/// Sides longer than the first multiple of the size are split, and sides shorter than the second one are
+/// collapsed. Both halves of a split side are nearer to the size than the whole side was (@cite
+/// botsch_2004_remeshing).
 constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
-/// Rounds of splitting, collapsing, flipping and smoothing. On the tests' bodies the smallest angle no longer
-/// changes after five.
+/// Number of rounds of splitting, collapsing, flipping and smoothing. On the bodies of the tests the smallest
+/// angle did not change after five rounds.
 constexpr int kRounds = 6;
 /// Tangent of the smallest angle that a collapse or a move may cause: 15°. Later flips and moves about double
-/// such an angle.
+/// such angles.
 constexpr double kPoorAngle = 0.27;
 /// Tangent of the smallest angle below which triangles are improved one by one: 30°.
 constexpr double kGoodAngle = 0.577;
-/// Rounds of these improvements. The last rounds find hardly anything to improve.
+/// Number of rounds of these improvements. The last rounds find hardly anything to improve.
 constexpr int kImprovements = 6;
 /// Tangent of an angle that counts as zero.
 constexpr double kFlat = 1e-4;
 /// Maximum number of triangles after a round of splitting, as a multiple of the estimate from area and size.
-/// Badly shaped triangles need at most twice the estimate. The bound stops endless splits next to facets that
-/// fold.
+/// Badly shaped triangles need at most twice the estimate. The limit stops endless splitting next to folded
+/// facets.
 constexpr double kMostOfEstimate = 4;
 /// More triangles than this are refused, as the volume behind them would have more than 1e7 tetrahedra.
 constexpr double kMostTriangles = 1e7;
@@ -78,7 +79,7 @@ Index SkinRemesher::try_split(Index s)
 {
     const Index g = mesh_.twin(s), line = mesh_.line(s);
     if (mesh_.is_kept(s) || (line >= 0 && lines_[index(line)].kept)) return -1;
-    // Do not split a triangle without height, because its parts would have none either; it is flipped or
+    // A triangle without height is not split, because its parts would have no height either. It is flipped or
     // collapsed first.
     if (line < 0 && std::min(std::abs(mesh_.quality(s)), std::abs(mesh_.quality(g))) < kFlat) return -1;
     const auto& side = mesh_.sides;
@@ -106,7 +107,7 @@ Index SkinRemesher::try_split(Index s)
         if (halves && is_upright(place.point)) node.at = place.point;
     }
     node.size = size_(node.at);
-    // Do not insert a node this close to others: it would be collapsed again.
+    // A node this close to others is not inserted, because it would be collapsed again.
     const double close = std::min((c - node.at).norm(), (d - node.at).norm());
     if (line < 0 && close < kClose * node.size) return -1;
     return mesh_.split(s, node, normals);
@@ -142,7 +143,7 @@ void SkinRemesher::split_long()
         const auto [before, s] = queue.top();
         queue.pop();
         const double now = ratio(s);
-        if (now != before) { // a flip or another split changed it
+        if (now != before) { // the side was changed by a flip or another split
             add(s);
             continue;
         }
@@ -400,7 +401,7 @@ void SkinRemesher::run(const topology::Model& model)
     }
     improve(true);
     make_exact(model);
-    improve(false); // in narrow places the exact position may be beyond the exact border
+    improve(false); // in narrow places, the exact position of a node may be beyond the exact border
 }
 
 } // namespace lacuna::surface

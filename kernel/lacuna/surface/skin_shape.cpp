@@ -22,12 +22,13 @@ using namespace topology;
 
 namespace {
 
-/// Samples of an exact curve per side of a triangle: its sag is then a sixteenth of the side's.
+/// Number of samples of an exact curve per side of a triangle. With four, the sag of the polyline is a
+/// sixteenth of the sag of the side.
 constexpr double kSamplesPerSide = 4;
 /// Maximum number of samples per facet. Heuristic.
 constexpr double kMostSamples = 1000;
 
-/// Sides of facets inside a face where it turns by more than a crease.
+/// Sides of facets inside a face at which the facets meet at an angle larger than `angle`.
 std::map<Index, std::set<Index>> creases(const Model& model, const Face& face, double angle)
 {
     std::unordered_map<std::uint64_t, std::size_t> first;

@@ -23,18 +23,19 @@ using namespace topology;
 
 namespace {
 
-/// Minimum number of sides for a full turn: neighbouring triangles then turn by 30°, as facets of one face
-/// without a crease.
+/// Minimum number of sides for a full turn. With 12, neighbouring triangles turn by 30°, which is less than a
+/// crease.
 constexpr int kLeastPerTurn = 12;
-/// Maximum number: with it, a sphere loses 0.06 % of its volume.
+/// Maximum number of sides for a full turn. With it, a sphere loses 0.06 % of its volume.
 constexpr int kMostPerTurn = 160;
-/// Minimum size in narrow places, as a share of the requested one. The number of triangles along a rim is
-/// inversely proportional to it; in still narrower faces the triangles are flat.
+/// Minimum size in narrow places, as a share of the requested size. The number of triangles along a rim is
+/// inversely proportional to it. In still narrower faces triangles become flat.
 constexpr double kLeastShare = 0.1;
-/// Maximum sag of a side divided by the distance to the opposite skin [-]. Two opposite sides then use at
+/// Maximum sag of a side, as a share of the distance to the opposite skin [-]. Two opposite sides then use at
 /// most half of the distance.
 constexpr double kSagOfGap = 0.25;
-/// Skins are opposite each other if their normals differ by less than 37° from opposite directions [cosine].
+/// Two skins are opposite to each other if the angle between one normal and the reverse of the other is less
+/// than 37° [cosine].
 constexpr double kOpposite = 0.8;
 
 /// Curvature of all faces that are meshed.
@@ -45,14 +46,14 @@ double size_on(const PointCurvature& at, int per_turn)
     return at.most > 0 ? std::max(kFullTurn / (at.most * per_turn), at.least_size) : kInfinity;
 }
 
-/// Sides for a full turn that limit the loss of volume.
+/// Number of sides for a full turn that keeps the loss of volume within its limit.
 int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeField& size)
 {
     const double allowed = kSameVolume / 2 * std::abs(volume_integral(model, all_faces(model)));
-    std::vector<std::pair<const PointCurvature*, double>> points; // with the requested size
+    std::vector<std::pair<const PointCurvature*, double>> points; // with the requested size there
     for (const std::vector<PointCurvature>& face : curvatures)
         for (const PointCurvature& at : face) points.emplace_back(&at, size(at.point));
-    const auto lost = [&](int count) { // falls with the count
+    const auto lost = [&](int count) { // decreases with the count
         double sum = 0;
         for (const auto& [at, most] : points) {
             const double side = std::min(most, size_on(*at, count));
@@ -65,7 +66,8 @@ int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeF
     return first == counts.end() ? kMostPerTurn : *first;
 }
 
-/// Sizes inside the facets' sides on curved faces: a side may be longer than the sizes at its ends.
+/// Add sizes along the sides of facets on curved faces, because such a side may be longer than the sizes at
+/// its ends.
 void add_curved(const Face& face, std::span<const PointCurvature> at, int per_turn, const SizeField& size,
                 std::vector<PointSize>& sizes)
 {
@@ -92,7 +94,7 @@ void add_curved(const Face& face, std::span<const PointCurvature> at, int per_tu
     }
 }
 
-/// Sizes on curved faces by the distance of the opposite skin, inside and outside.
+/// Add sizes on curved faces that follow from the distance of the opposite skin, inside and outside.
 void add_gaps(const Model& model, const Curvatures& curvatures, const SizeField& size,
               std::vector<PointSize>& sizes, const RunContext& context)
 {
@@ -168,8 +170,8 @@ SizeField skin_sizes(const Model& model, std::span<const SkinLine> lines, std::v
         }
     }
 
-    // Given sides may be longer than requested; the sizes shrink away from them. With negative sizes, the
-    // minimum that `GradedPoints` gives is the maximum of size - kGrading · distance.
+    // Given sides may be longer than requested; sizes then decrease away from them. The maximum of size -
+    // kGrading · distance is found by `GradedPoints`, which computes a minimum, with negative sizes.
     std::vector<PointSize> coarse;
     for (const PointSize& side : given) {
         sizes.push_back(side);

@@ -26,7 +26,7 @@ using namespace topology;
 
 namespace {
 
-/// Points that do not move: vertices, given nodes, ends and corners of lines.
+/// Whether each point is fixed: vertices, given nodes, and ends and corners of lines are.
 std::vector<char> fixed_points(const Model& model, std::span<const SkinLine> lines)
 {
     std::vector<char> fixed(model.points.size(), 0);
@@ -117,7 +117,7 @@ LinkedTriangles linked(const Model& model, std::span<const SkinLine> lines, cons
     return mesh;
 }
 
-/// The cells of a skin: triangles that were made, and the given cells of faces that keep them.
+/// The cells of a skin: new triangles, and the given cells of faces that keep them.
 SkinMesh skin_of(const Model& model, const LinkedTriangles& mesh)
 {
     SkinMesh result;

@@ -76,7 +76,7 @@ private:
         return !seeds_.kept.contains(face) && !seeds_.corners.contains(face);
     }
 
-    /// Improve poor quads by moving free nodes, not given ones. With boundary layers no node moves.
+    /// Improve poor quads by moving nodes that are not given. With boundary layers no node is moved.
     void raise()
     {
         if (!seeds_.rows.empty()) return;
@@ -160,7 +160,7 @@ private:
         return chain;
     }
 
-    /// Kept: the given quads and triangles of the face, node for node.
+    /// Mesh a kept face: copy its given quads and triangles, node for node.
     void keep(FaceId face)
     {
         std::unordered_map<Index, Index> node_of_point;
@@ -181,7 +181,7 @@ private:
         }
     }
 
-    /// Mapped: a grid between four sides.
+    /// Mesh a mapped face by a grid between four sides.
     void map(FaceId face, const std::vector<std::size_t>& corners)
     {
         const Loop& loop = model_[face].loops[0];
@@ -227,7 +227,7 @@ private:
         }
     }
 
-    /// The boundary rows along a face's rim, with nodes in the order of `border_loops()`.
+    /// The boundary rows along a face's rim, for nodes in the order of `border_loops()`.
     [[nodiscard]] quads::BoundaryRows rows_along(FaceId face, const std::vector<RimNode>& rim) const
     {
         quads::BoundaryRows rows;
@@ -253,7 +253,7 @@ private:
         return rows;
     }
 
-    /// Report rows that do not fit, with the wall they belong to and the edge they follow.
+    /// Report rows that do not fit: name the wall that they belong to, and the edge that they follow.
     [[noreturn]] void refuse_rows(FaceId face, const std::vector<RimNode>& rim,
                                   const quads::RowsFinding& finding) const
     {
@@ -299,8 +299,7 @@ private:
                                .remedy("give both walls the same table"));
     }
 
-    /// Free: filled by the planar mesher. Seams are interior edges of the face, and poles are ordinary
-    /// points.
+    /// Mesh a free face by the planar mesher. Seams are inside such a face, and poles are ordinary points.
     void fill(FaceId face)
     {
         if (!mesher_) {

@@ -22,24 +22,24 @@ using namespace topology;
 
 namespace {
 
-/// Samples per side of quads on an edge: enough for cubic interpolation. Heuristic.
+/// Number of samples per side on an edge: enough for cubic interpolation. Heuristic.
 constexpr int kPerSide = 4;
-/// Maximum number of Gauss-Newton steps, and of increases of the evenness weight. A problem that needs more
-/// steps would end far from even. Heuristic.
+/// Maximum number of Gauss-Newton steps, and maximum number of increases of the evenness weight. If more were
+/// needed, nodes would end up far from even. Heuristic.
 constexpr int kSteps = 12, kRounds = 5;
-/// Bounds of a side's length relative to its original length: half of the accepted range of sizes.
+/// Allowed range of a side's length, relative to its original length: half of the accepted range of sizes.
 constexpr double kShortest = 0.75, kLongest = 1.35;
-/// Factor on the weight of evenness at the ends of a line. Heuristic: with 1, a third of the rows along
+/// Factor on the weight of evenness at the ends of an edge. Heuristic: with 1, a third of the rows along
 /// shared edges of flat rings are too low; with 4, the mean scaled Jacobian drops by 0.01.
 constexpr double kEnds = 2;
 /// Nodes move only if the largest cosine falls by this: 3°. Heuristic.
 constexpr double kWorthIt = 0.05;
-/// A grid's lines count as straight at a side if the adjacent sides leave that side within this share of a
-/// line's length. Only then do the walls determine the sections above. Heuristic.
+/// A grid's lines count as straight at a side if the adjacent sides deviate from their chords by at most this
+/// share of a line's length. Only then do the walls determine the sections above. Heuristic.
 constexpr double kStraight = 0.1;
 using Line = SectionLine;
 
-/// A cosine and its derivatives by the positions of the two ends of a line.
+/// A cosine, and its derivatives by the positions of the two ends of a line.
 struct Cosine {
     double value = 0, from = 0, to = 0;
 };
@@ -51,7 +51,7 @@ struct Node {
 /// A line of a grid between nodes of opposite sides.
 struct Rung {
     Node from, to;
-    /// Deviation of the line's direction from its chord at either end, on the source.
+    /// For each end, the deviation of the line's direction from its chord, on the source.
     std::array<Vec3, 2> bend{Vec3::Zero(), Vec3::Zero()};
     bool on_rims = false; ///< both ends lie on the rims
 };
@@ -119,8 +119,8 @@ private:
         return at;
     }
 
-    /// Find where the nodes of the source's rims lie in higher sections. @return false if the walls do not
-    /// determine it
+    /// Find the positions of nodes of the source's rims in higher sections. @return  false if the walls do
+    /// not determine them
     bool add_sections()
     {
         std::vector<LinkingNodes> nodes;
@@ -131,7 +131,7 @@ private:
         try {
             walls = mesh_walls(volume_, links_, nodes, heights, {}, context_, false);
         } catch (const NotSweepable&) {
-            return false; // more edges must be followed than there are sections
+            return false; // more edges must be followed than there are layers
         }
         for (std::size_t b = 0; b < links_.size(); ++b) {
             std::size_t next = 0;
@@ -184,7 +184,8 @@ private:
         return lines_[node.line].place(end, lines_[node.line].at[node.node]);
     }
 
-    /// The lines from a side to the opposite one; the sides `first` and `last` run along them.
+    /// Add the lines from one side to the opposite one. The sides `first` and `last` are parallel to these
+    /// lines.
     void add_between(const std::vector<Node>& from, const std::vector<Node>& to,
                      const std::vector<Node>& first, const std::vector<Node>& last)
     {
@@ -234,7 +235,7 @@ private:
         return lines_[node.line].column(section, node.node);
     }
 
-    /// Weight of a section of a line relative to the lengths of sides.
+    /// Weight of a line in one section, relative to the terms of lengths.
     static double share(const Rung& rung) { return rung.on_rims ? 1.0 / kSections : 1; }
 
     template <class Visit>
@@ -257,7 +258,7 @@ private:
         return worst;
     }
 
-    /// The same, with the cosines between the edges and the originally even columns.
+    /// As above, including the cosines between edges and columns that were evenly spaced at first.
     [[nodiscard]] double worst_cosine(const std::vector<std::size_t>& lines,
                                       const std::vector<std::size_t>& rungs) const
     {
@@ -303,7 +304,8 @@ private:
     {
         for (const std::size_t l : lines) {
             const Line& line = lines_[l];
-            // If the target has the same positions as the source, its term counts once, with the full weight.
+            // If the nodes have the same positions on source and target, the term occurs once, with the full
+            // weight.
             const double each = line.above.empty() ? weight : weight / 2;
             const auto visit_sides = [&](const std::vector<double>& u,
                                          const std::vector<std::size_t>& variable) {
@@ -331,8 +333,8 @@ private:
         });
     }
 
-    /// Visit the nodes whose columns deviate from the evenly spaced ones. The deviation is the displacement
-    /// along the edge divided by the length of the column.
+    /// Visit the nodes whose columns deviate from evenly spaced ones. The deviation is the displacement along
+    /// the edge divided by the length of the column.
     template <class Visit>
     static void for_columns(const Line& line, const Visit& visit)
     {
@@ -340,7 +342,7 @@ private:
             visit(i, (line.above[i] - line.at[i]) * line.steep[i]);
     }
 
-    /// Derivative of the position of a node's column in a section, by the node's variables.
+    /// Add the derivatives of the position of a node's column in a section by the node's variables.
     void add_slopes(const Node& node, std::size_t section, double slope, std::vector<Slope>& slopes) const
     {
         const Line& line = lines_[node.line];
@@ -428,8 +430,8 @@ private:
         if (settle_apart(lines, rungs, variables) || squarer) take(lines);
     }
 
-    /// Give lines separate positions on the target if the sections differ and the angles improve.
-    /// @return whether they improve
+    /// Give nodes other positions on the target if the sections differ and the angles improve by this.
+    /// @return  whether they improve
     bool settle_apart(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                       std::size_t variables)
     {
@@ -460,7 +462,7 @@ private:
                 std::size_t variables)
     {
         double weight = 1;
-        std::vector<Line> uneven; // uneven lines, with their previous weight
+        std::vector<Line> uneven; // lines with uneven sides, with the previous weight
         for (int round = 0; round < kRounds; ++round, weight *= 2) {
             for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kVisible; ++k) {}
             if (is_even(lines)) {

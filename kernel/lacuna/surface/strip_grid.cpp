@@ -37,7 +37,8 @@ public:
     }
 
 private:
-    /// Assign each level to the nearest layer that leaves enough layers for all levels above and below it.
+    /// Assign a layer to each level: the nearest one that leaves enough layers for all levels above and
+    /// below.
     void plan_levels()
     {
         const auto layers = static_cast<int>(layers_);
@@ -88,7 +89,7 @@ private:
         return result;
     }
 
-    /// The same in the map's own t: even steps up the walls if there are no rings.
+    /// As `column_heights()`, in the t of the map. Without rings they are even steps along the walls.
     [[nodiscard]] std::vector<double> map_heights(const std::map<int, double>& at_layer) const
     {
         std::vector<double> at = column_heights(at_layer);
@@ -97,7 +98,7 @@ private:
         return at;
     }
 
-    /// Positions where plain rings cross a column, by their layers.
+    /// The crossings of a column with plain rings, by the layers of the rings.
     [[nodiscard]] std::map<int, LinkingMap::Crossing> crossings_at(double s) const
     {
         std::map<int, LinkingMap::Crossing> at_layer;
@@ -137,8 +138,8 @@ private:
         return column_heights(at_layer);
     }
 
-    /// Place each node in the strip: first columns are vertical and layers follow the plain rings; then nodes
-    /// move onto the net's stops.
+    /// Place each node in the strip. At first, columns are vertical and layers follow the plain rings. Then
+    /// nodes are moved onto the net's stops.
     void lay_grid()
     {
         laid_.place.assign(count_ * (layers_ + 1), Vec2::Zero());
@@ -243,7 +244,7 @@ private:
         return pieces.front().a;
     }
 
-    /// Between the stops of a level, nodes lie on its edges at even steps of the columns.
+    /// Pin the nodes of a level between its stops: they lie on its edges, at even steps of the columns.
     void pin_level(std::size_t number, const std::vector<std::size_t>& column_node)
     {
         const WallNet::Level& level = net_.levels[number];
@@ -275,7 +276,7 @@ private:
         }
     }
 
-    /// s of a node, continued over whole turns.
+    /// Coordinate s of a node, with whole turns added.
     [[nodiscard]] double at_node(std::size_t node) const
     {
         return nodes.source_at[node % count_] / link.source.length() +
@@ -305,7 +306,7 @@ private:
         }
     }
 
-    /// Whether the nodes of a column are in order in the strip, except for given nodes.
+    /// Whether the heights of a column's nodes increase in the strip; given nodes are not checked.
     [[nodiscard]] bool rises(std::size_t node) const
     {
         for (std::size_t k = 0; k < layers_; ++k) {
@@ -347,7 +348,7 @@ private:
                                .remedy("use more layers"));
     }
 
-    /// Displacement of a node from its target position in the strip.
+    /// Displacement of a node from a position in the strip.
     [[nodiscard]] double off_place(const Vec2& to, std::size_t node, Eigen::Index axis) const
     {
         const double off = to[axis] - laid_.place[node][axis];

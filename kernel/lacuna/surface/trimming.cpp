@@ -17,18 +17,18 @@ using namespace topology;
 
 namespace {
 
-/// Number of Newton iterations on a curve. They start within a few percent of a side and converge
-/// quadratically. Heuristic.
+/// Number of Newton iterations on a curve. They start within a few percent of a side from the solution and
+/// converge quadratically. Heuristic.
 constexpr int kRounds = 3;
 /// Step of the finite differences for a curve's derivatives, as a share of a side: a compromise between
 /// truncation and rounding. Heuristic.
 constexpr double kDifference = 1e-2;
-/// Minimum number of points per thread; the same as in the closest facet search, because a point costs as
-/// much there.
+/// Minimum number of points per thread: the same as in the search for closest facets, where a point costs as
+/// much.
 constexpr std::size_t kGrain = 512;
 
-/// Maximum height of a convex curve over its chord, as a share of the chord, for these angles between curve
-/// and chord at the ends.
+/// Maximum height of a convex curve over its chord, as a share of the chord, if it forms these angles with
+/// the chord at its two ends.
 double height_over_chord(double first, double second)
 {
     constexpr double kSteep = 1.2; // above it, nearly 70°, use the chord's length
@@ -37,7 +37,7 @@ double height_over_chord(double first, double second)
     return a + b > 0 ? a * b / (a + b) : 0;
 }
 
-/// A Newton step on curves towards points, for all points of one edge at once.
+/// State of Newton's method for the closest point of a curve; used for all points of one edge at once.
 struct OnCurve {
     double param = 0, difference = 0;
     Vec3 tangent = Vec3::Zero();
@@ -125,7 +125,8 @@ void Trimming::add_loop(const Loop& loop, const std::vector<Index>& facet_of_sid
         side.inward_at_end = side.inward + sides_[first + after].inward;
         const Edge& edge = model[side.use.edge];
         if (edge.curve == nullptr) continue;
-        // The polyline's angle at the end of an edge is arbitrary; use the angle at the side's other end.
+        // At the end of an edge the angle of the polyline is arbitrary, so the angle at the side's other end
+        // is used.
         const bool starts = sides_[first + before].use != side.use || before == i;
         const bool ends = sides_[first + after].use != side.use || after == i;
         const double at_start = turn(before, i), at_end = turn(i, after);
@@ -148,8 +149,8 @@ Trimming::Clearance Trimming::clearance_of(Index triangle) const
     return clear;
 }
 
-/// Whether a point is well inside the face: its displacement from the facet is shorter than the distance to
-/// the border, or ends above the same facet.
+/// Whether a point is well inside the face: the distance from its facet is smaller than the facet's distance
+/// to the border, or the point is above the same facet.
 bool Trimming::is_clear(const Projected& point, bool measured) const
 {
     const double reach = (*point.at - point.from->point).norm() + most_bulge_;
@@ -175,7 +176,8 @@ bool Trimming::is_near(const Projected& point, Near& near) const
 void Trimming::keep_inside(std::span<const Projected> points, const RunContext& context) const
 {
     if (sides_.empty()) return;
-    // Compute the clearance of all facets if there are as many points; otherwise only of those in use.
+    // If there are as many points as facets, compute the clearance of all facets; otherwise only of those in
+    // use.
     const std::size_t facets = (*model_)[face_].triangles.size();
     const bool measured = points.size() >= facets;
     if (measured) {
@@ -230,7 +232,7 @@ void Trimming::settle(std::span<const Projected> points, std::span<Near> near) c
         Near& n = near[i];
         const Side& side = sides_[n.side];
         n.on_border = at[i];
-        if (params[i] <= low || params[i] >= high) continue; // at an end the corner's rule applies
+        if (params[i] <= low || params[i] >= high) continue; // at an end, the rule for corners applies
         const Vec3 tangent = rising == side.use.reversed ? Vec3(-places[i].tangent) : places[i].tangent;
         n.inward = side.normal.cross(tangent);
     }

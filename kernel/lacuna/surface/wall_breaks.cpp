@@ -38,8 +38,8 @@ bool has_net(const Model& model, const LinkingSurface& link)
     return false;
 }
 
-/// Minimum number of layers for edges around the walls that end on side lines only: one more than the largest
-/// number of vertices on one side line where such edges start.
+/// Minimum number of layers for edges around the walls that end only on side lines: one more than the largest
+/// number of vertices on one side line at which such edges start.
 int layers_between_rings(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> along;
@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    /// Whether a column that overlaps in height already uses a position of the rim.
+    /// Whether a position of the rim is already used by a column that overlaps this one in height.
     [[nodiscard]] bool is_taken(double at, std::size_t column) const
     {
         const WallNet::Column& own = net_.columns[column];
@@ -119,7 +119,7 @@ private:
     }
 
     /// The distance by which the target end of a break must move along the rim to reach the end of a column.
-    /// Nothing if that end is a vertex or a given node, or if other breaks lie between.
+    /// Empty if this target end is a vertex or a given node, or if other breaks lie in between.
     [[nodiscard]] std::optional<double> way_to(std::size_t i, double target_at) const
     {
         const double length = link_.target.length();

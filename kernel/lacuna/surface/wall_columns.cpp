@@ -15,15 +15,16 @@ using namespace topology;
 
 namespace {
 
-/// Number of sampled columns if there are no side lines: one every 45° on a round wall. Not measured.
+/// Number of columns that are sampled if there are no side lines: one every 45° on a round wall. Not
+/// measured.
 constexpr int kPlaces = 8;
 
-/// Walls count as straight if they are longer than the straight line by less than this share. It is less than
-/// the height of one of ten layers.
+/// Walls count as straight if they exceed the straight line by less than this share, half the height of one
+/// of ten layers.
 constexpr double kHardlyLonger = 0.05;
 
-/// Whether the walls' area over the mean length of their rims is the mean length of straight columns. Longer
-/// walls bend or bulge; walls with a waist have less area.
+/// Whether the walls are straight: their area divided by the mean length of their rims is the mean length of
+/// straight columns. Walls that bend or bulge are longer; walls with a waist have less area.
 bool are_straight(const Model& model, const LinkingSurface& link, double straight, std::size_t columns)
 {
     double area = 0;
@@ -41,8 +42,8 @@ std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& 
     return points;
 }
 
-/// A point of a wall's column: the start of the column as a share of the source's rim, and its share of the
-/// height.
+/// A point of a column on the walls. `s` is the start of the column as a share of the source's rim, and
+/// `share` the height.
 struct ColumnPlace {
     double s, share;
 };

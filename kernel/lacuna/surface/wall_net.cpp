@@ -17,13 +17,13 @@ using namespace topology;
 
 namespace {
 
-/// Tangent of 30°: an edge that deviates more from the direction of its column or level is slanted or round.
-/// Heuristic.
+/// Tangent of 30°. An edge that deviates more from the direction of its column or level counts as slanted or
+/// round. Heuristic.
 constexpr double kSlanted = 0.577;
 
 double wrapped(double s) { return s - std::floor(s + kSamePlace); }
 
-/// Whether two intervals on the circle of length 1 overlap in more than a point.
+/// Whether two intervals on a circle of length 1 have more than a point in common.
 bool overlap(double a0, double a1, double b0, double b1)
 {
     const double shift = std::floor(a0 - b0);
@@ -148,7 +148,7 @@ private:
         net_.levels.push_back(std::move(level));
     }
 
-    /// An edge of a ring that turns or ends at a vertex; none if the ring continues smoothly.
+    /// An edge of a ring that turns or ends at a vertex; invalid if the ring continues smoothly there.
     [[nodiscard]] EdgeId corner_at(const LinkingMap::Ring& ring, VertexId vertex) const
     {
         std::vector<Vec3> away;
@@ -167,7 +167,8 @@ private:
         return away.size() == 2 && away[0].dot(away[1]) < -kOneCurve ? EdgeId() : any;
     }
 
-    /// Edges of one ring must follow each other around the walls; edges around a round patch turn back.
+    /// Check that the edges of one ring follow each other around the walls. Edges around a round patch turn
+    /// back.
     void check_one_way(const LinkingMap::Ring& ring) const
     {
         struct Reach {
@@ -185,7 +186,7 @@ private:
             reach.high = std::max(reach.high, reach.at);
         }
         // Minimum extent of a ring in s, as a share of its length. A closed edge that returns to its start
-        // has half. Heuristic.
+        // has one half. Heuristic.
         constexpr double kStraightOn = 0.75;
         for (std::size_t i = 0; i < reaches.size(); ++i) {
             const Reach& reach = reaches[i];
@@ -197,8 +198,8 @@ private:
         }
     }
 
-    /// Levels with stops must be nearly horizontal throughout. Rings from side line to side line, or all the
-    /// way round, may climb.
+    /// Check that levels with stops are nearly horizontal throughout. Rings from side line to side line, or
+    /// all around the walls, may climb.
     void check_cross_edges(const WallNet::Level& level) const
     {
         if (level.plain) return;
@@ -304,7 +305,7 @@ private:
         return column;
     }
 
-    /// Vertices between the rims without a cross edge get a level of their own.
+    /// Create a level for each vertex between the rims that has no cross edge.
     void make_point_levels()
     {
         for (std::size_t i = 0; i < net_.stops.size(); ++i) {

@@ -23,7 +23,7 @@ using namespace topology;
 
 namespace {
 
-/// The faces of the wall segment after each side line.
+/// For each side line, the faces of the part of the walls that follows it.
 std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> borders;
@@ -83,7 +83,7 @@ public:
         } catch (const NotSweepable& error) {
             if (error.code() != "surface.wall_edge") throw;
         }
-        // Given nodes leave no column for an edge between void faces, so such edges are ignored.
+        // Columns of given nodes cannot follow an edge between void faces, so such edges are ignored.
         map_.reset();
         net_ = {};
         WallMesh result = mesh(false);
@@ -136,7 +136,7 @@ private:
         for (std::size_t i = 0; i < count_; ++i) point(layer, i) = points[i];
     }
 
-    /// Whether the walls were made by moving the source along a path. Between two side lines there is then
+    /// Whether the walls were made by moving the source along a path. Between two side lines they then have
     /// one face for each part of the path.
     [[nodiscard]] bool moves_along(const std::vector<std::vector<FaceId>>& panels) const
     {
@@ -145,8 +145,8 @@ private:
                });
     }
 
-    /// Rows are the source's rim, moved along the path. Its distance from the target's rim at the end is
-    /// spread over the height.
+    /// Place the rows by moving the source's rim along the path. At the end, its distance from the target's
+    /// rim is spread over the height.
     void mesh_by_motion(const std::vector<std::vector<FaceId>>& panels)
     {
         const geometry::Motion& motion = *motion_;
@@ -179,7 +179,7 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Columns of given nodes are fixed, so an edge that turns or ends between them is refused.
+    /// Refuse an edge that turns or ends between columns of given nodes, because these are fixed.
     void check_stops() const
     {
         for (std::size_t i = 0; i < grid_.stops.size(); ++i) {
@@ -230,7 +230,7 @@ private:
             left.push_back(point(k, first));
             right.push_back(point(k, last));
         }
-        // Flat panels keep the plain transfinite patch: an affine block then stays affine up to rounding.
+        // Flat faces use the plain transfinite patch, so that an affine block stays affine up to rounding.
         const bool flat = model_[face].kind == "plane" || model_[face].geometry == Geometry::newell;
         const std::vector<Vec3> grid = flat ? geometry::transfinite(bottom, right, top, left)
                                             : geometry::swept_grid(bottom, right, top, left);
@@ -289,11 +289,11 @@ private:
     const LinkingSurface& link_;
     const LinkingNodes& nodes_;
     std::vector<double> heights_;
-    bool exact_; ///< nodes on exact faces; else on the facets
+    bool exact_; ///< whether nodes lie on exact faces; otherwise on the facets
     const RunContext& context_;
     std::size_t count_, layers_;
     BegunWall begun_;
-    geometry::MotionPointer motion_; ///< that made the walls; null: none
+    geometry::MotionPointer motion_; ///< the motion that made the walls; null: none
     WallMesh mesh_;
     std::unique_ptr<LinkingMap> map_;
     WallNet net_;

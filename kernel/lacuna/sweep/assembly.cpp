@@ -65,8 +65,8 @@ double shortest_side(const FaceMesh& mesh)
     return least;
 }
 
-/// If two faces have the same quad connectivity, corresponding nodes are nearer to each other's images than
-/// this share of the shortest side. No other node is then as near.
+/// Corresponding nodes of two faces with the same quad connectivity coincide if their distance is below this
+/// share of the shortest side. No other node is then as near.
 constexpr double kNearImage = 0.25;
 
 /// Relative difference between a face's area and the sum of its facets' areas below which the face is flat.
@@ -76,8 +76,8 @@ constexpr double kFlat = 1e-9;
 constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surface.wall_not_rows",
                                                      "surface.kept_rim", "sweep.layers_given"};
 
-/// The reason for a member's failure. If the member was given without a mesh, its kept quads come from
-/// neighbours that were meshed earlier, so advice to load the member differently does not apply.
+/// The reason for a member's failure. If the member was given without a mesh, the quads that it keeps come
+/// from neighbours meshed before it, so the remedy to load it without its mesh is left out.
 Message why_failed(const AssemblyMember& member, const Error& error)
 {
     Message why = error.message().about(member.region);
@@ -101,7 +101,7 @@ struct MemberFailed : NotSweepable {
 /// All inputs that determine a part: equal inputs give equal parts.
 struct Ingredients {
     std::string region;
-    std::vector<Vec3> points; ///< points of the member's volume; the next two vectors are its edges and faces
+    std::vector<Vec3> points; ///< the points of the member's volume
     std::size_t edges = 0, faces = 0;
     std::vector<EdgeNodes> nodes; ///< nodes planned for edges of the member
     int layers = 0;
@@ -137,7 +137,8 @@ struct PartsBefore {
     std::vector<MadePart> parts;
     std::size_t count = 0; ///< number of parts made so far
 
-    /// Take a part, or the reason for its failure, if it is there.
+    /// Take out the part that was made from these inputs, or the reason for its failure. Empty if there is
+    /// neither.
     std::optional<MadePart> take(const Ingredients& of)
     {
         const auto found = std::ranges::find(parts, of, &MadePart::of);
@@ -271,7 +272,8 @@ private:
         }
     }
 
-    /// Take members that are not swept off the list, with the faces that they share.
+    /// Move the members that are not swept, and the faces that they share, to the lists of the result for
+    /// these.
     void set_aside()
     {
         std::vector<std::size_t> place(members_.size(), members_.size());
@@ -351,8 +353,8 @@ private:
         sweep_all();
     }
 
-    /// Sweep the members in the plan's order. A member that cannot keep its neighbours' meshes is moved
-    /// before them.
+    /// Sweep the members in the plan's order. If a member cannot keep its neighbours' meshes, the order is
+    /// changed so that this member comes first, and all are swept again.
     void sweep_all()
     {
         std::vector<std::size_t> first;
@@ -550,7 +552,8 @@ private:
             fixed = options.beside.handed;
             for (const Neighbour& n : handed) fixed.insert(n.own);
             if (keeps) give_to_images(m, volume, fixed);
-            // The reference shape is the volume as sealed, without the neighbours' quads on its rim.
+            // The reference shape is the sealed volume. It lacks the nodes planned on edges, and of the
+            // neighbours' quads it has only those on void faces.
             if (!plan_.nodes[m].empty() || !fixed.empty()) options.beside.shape = &sealed;
             result_.parts[m] = sweep(volume, options, context_);
         };
@@ -565,7 +568,7 @@ private:
         }
     }
 
-    /// Give the quads of a member's periodic faces to their images in it.
+    /// Copy the quads of a member's periodic faces to their images in the same member.
     /// @param fixed  is extended by the faces with given quads
     void give_to_images(std::size_t m, OpenVolume& volume, std::set<FaceId>& fixed) const
     {
@@ -658,8 +661,8 @@ private:
             for (const Index n : from) moved.push_back(pair.onto * part_a.skin()[n]);
             for (const Index n : to) places.push_back(part_b.skin()[n]);
             const FaceMesh corners = face_mesh(part_a.skin(), quads_of(pair.a, pair.face_a));
-            // Given nodes of two faces may differ by the tolerance, and their middle nodes by the facets'
-            // sag.
+            // Nodes given for the two faces may differ by the tolerance, and middle nodes by the sag of the
+            // facets.
             const std::vector<Index> twin = same_places(moved, places,
                                                         kNearImage / 4 * shortest_side(corners));
             if (twin.empty()) refuse_images(pair, false);
@@ -718,19 +721,20 @@ private:
         };
     }
 
-    /// Keep a part's middle nodes for later members, and check that it kept those of earlier ones.
+    /// Store a part's middle nodes for later members, and check that it kept the middle nodes of earlier
+    /// members.
     void keep_middles(std::size_t m)
     {
         const Swept& part = result_.parts[m];
         const std::set<FaceId> shared = shared_faces_of(m);
         if (!middles_.add(part.mesh, [&](Index patch) { return shared.contains(part.faces[index(patch)]); }))
             throw NotSweepable("assembly.not_shared",
-                               "{}: middle nodes on common faces are not where its neighbours have theirs",
+                               "middle nodes of {} on shared faces differ from those of its neighbours",
                                members_[m].region);
     }
 
-    /// Whether a member will give a face the same grid as its neighbour did. This holds if the face is flat,
-    /// has four edges with planned nodes, and has as many quads of the neighbour as the grid.
+    /// Whether a member will make the same grid on a shared face as its neighbour did: the face is flat, has
+    /// four edges with planned nodes, and the neighbour has as many quads there as the grid.
     [[nodiscard]] bool is_alike(std::size_t m, const Neighbour& n) const
     {
         if (members_[n.other].fixed != nullptr) return false;
@@ -753,7 +757,7 @@ private:
                face_area_vector(model, face).norm() >= (1 - kFlat) * face_area(model, face);
     }
 
-    /// The neighbours' nodes onto which a member's face nodes are moved.
+    /// The positions of neighbours' nodes onto which nodes of a member's faces are moved.
     SettledNodes settle(std::size_t m, const std::vector<Neighbour>& alike, const std::set<FaceId>& fixed,
                         const mesh::SkinNodes& skin, const std::vector<FaceId>& faces)
     {
@@ -766,8 +770,8 @@ private:
                                           quads_of(n.other, n.there), within);
             if (!pairs)
                 throw UnlikeNeighbour("assembly.unlike",
-                                      "{} of {} is meshed differently from its neighbour's; the neighbour's "
-                                      "mesh is copied to it",
+                                      "the mesh of {} of {} differs from its neighbour's mesh of that face; "
+                                      "the neighbour's mesh is copied",
                                       entity_in(members_[m], n.own), members_[m].region);
             for (const NodePair& pair : *pairs) settled.nodes.emplace_back(pair.own, theirs[pair.other]);
             settled.faces.insert(n.own);
@@ -783,8 +787,8 @@ private:
         return largest;
     }
 
-    /// Prefix the names of groups of cells and roles with the member's name, unless it is the only volume.
-    /// Faces between two pieces of one volume are in no group.
+    /// Name the groups of cells, and prefix groups of roles with the member's name unless it is the only
+    /// volume. Faces between two pieces of one volume are in no group.
     void name_groups()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -826,7 +830,7 @@ private:
         return quads_on(result_.parts[m].mesh, result_.parts[m].faces, face);
     }
 
-    /// Check that quads on faces shared with earlier members are bit-identical to theirs.
+    /// Check that quads on faces shared with earlier members are bit-identical to the quads of those members.
     void check_kept(std::size_t m, const std::vector<Neighbour>& neighbours)
     {
         const Swept& part = result_.parts[m];
@@ -843,7 +847,7 @@ private:
             }
             throw NotSweepable(
                 "assembly.not_shared",
-                "{} of {} and {} of {} are one face, centred at {}, but their meshes on it differ: "
+                "{} of {} and {} of {} are one face, centred at {}, but were meshed differently: "
                 "{} quads and {}{}",
                 face_a, region_a, face_b, region_b,
                 place_with_digits(face_centroid(members_[m].volume->model, own), 4), found(a.size()),
@@ -907,7 +911,8 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
             swept.left_out = std::move(left_out);
             return swept;
         } catch (const MemberFailed& failed) {
-            std::size_t m = 0; // `failed` counts the members that are swept
+            // Its index among all members; `failed.member` counts only those that are swept.
+            std::size_t m = 0;
             for (std::size_t before = 0; left[m].unswept || before++ < failed.member;) ++m;
             AssemblyMember& member = left[m];
             const Fallback fallback = member.options.fallback;

@@ -32,8 +32,8 @@ namespace {
 
 constexpr const char* kPartOfFace = "assembly.part_of_face"; // code of an error
 
-/// The midpoint of the shortest connection of two chords. Empty if they are too far apart. Empty also if they
-/// run along each other: rounding decides where such chords cross, and a vertex there would make a side
+/// The midpoint of the shortest connection of two chords. Empty if they are farther apart than `within`, or
+/// run along each other: rounding would then decide where they cross, and a vertex there could make a side
 /// without length.
 std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double within)
 {
@@ -47,7 +47,7 @@ std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const 
     return (p - q).norm() <= within ? std::optional<Vec3>((p + q) / 2) : std::nullopt;
 }
 
-/// The chords of a line that do not run along another line, by the index of their first points.
+/// The chords of a line that do not run along another line. @return  the indices of their first points
 std::vector<std::size_t> chords_off(const std::vector<Vec3>& line, const std::vector<Vec3>& other,
                                     double within)
 {
@@ -61,14 +61,15 @@ std::vector<std::size_t> chords_off(const std::vector<Vec3>& line, const std::ve
 /// A face of one volume that is cut along the rim of another.
 class FaceCutter {
 public:
-    /// @param within  a vertex of the rim within this distance of a line's end is the same point.
+    /// @param within  if a vertex of the rim is within this distance of a line's end, it is taken as that
+    ///         end.
     FaceCutter(ModelBuilder& model, FaceId face, double within)
         : model_(model), face_(face), tolerance_(model.tolerance), within_(within)
     {
     }
 
-    /// Cut the facets along a chain of points near the face. @return  its points; empty: the chain leaves the
-    /// face
+    /// Cut the facets along a chain of points near the face. @return  the points of the cut; empty: the chain
+    /// leaves the face
     std::vector<Index> lay(const std::vector<Vec3>& line)
     {
         std::vector<Index> stops;
@@ -88,7 +89,7 @@ public:
 private:
     [[nodiscard]] Face& face() { return model_[face_]; }
 
-    /// The vertex of the rim at a place; -1: none.
+    /// The vertex of the rim at a position; -1: none.
     [[nodiscard]] Index rim_vertex_at(const Vec3& place) const
     {
         Index nearest = -1;
@@ -148,7 +149,7 @@ private:
     double tolerance_, within_;
 };
 
-/// A face on one side of a pair.
+/// One of the two faces of a pair.
 struct SideOfPair {
     OpenVolume* volume;
     FaceId face;
@@ -170,7 +171,7 @@ bool curve_runs_through(const Model& model, EdgeId id, const std::vector<Vec3>& 
     return (curve_beside(model, edge, on.segment, on.fraction).place - p).norm() <= within;
 }
 
-/// Make the point of some edges closest to `p` a vertex, if it is within the tolerance.
+/// Make the point of the given edges closest to `p` a vertex, if it is within the tolerance of `p`.
 template <class Edges>
 void ensure_vertex(Model& model, const Edges& edges, const Vec3& p, double within)
 {
@@ -187,7 +188,7 @@ void ensure_vertex(Model& model, const Edges& edges, const Vec3& p, double withi
     }
 }
 
-/// Whether a closed edge runs along one of another face's rim.
+/// Whether a closed edge runs along a closed edge of the other face's rim.
 bool is_closed_on_rim(const SideOfPair& side, EdgeId edge, const SideOfPair& other, double within)
 {
     if (side.model()[edge].from != side.model()[edge].to) return false;
@@ -210,7 +211,7 @@ std::vector<Vec3> corners_of(const SideOfPair& side, const SideOfPair& other, do
     return corners;
 }
 
-/// The edges of one rim that run across the other face, as chains.
+/// The edges of one face's rim that run across the other face, each as a chain of points.
 std::vector<std::vector<Vec3>> lines_across(const SideOfPair& of, const SideOfPair& on, double limit)
 {
     const geometry::FacetTree facets(on.model().points, on.model()[on.face].triangles);
@@ -233,7 +234,7 @@ std::vector<std::vector<Vec3>> lines_across(const SideOfPair& of, const SideOfPa
     return lines;
 }
 
-/// Cut a face along chains. @return  its parts, the face itself first; empty: a chain leaves the face
+/// Cut a face along chains. @return  its parts, starting with the face itself; empty: a chain leaves the face
 std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::vector<Vec3>>& lines,
                                 double within, const RunContext& context)
 {
@@ -333,7 +334,7 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
     return parts;
 }
 
-/// Places on a face's rim where edges of other faces end.
+/// Add the points of a face's rim at which edges of other faces end.
 void add_ends_on_rim(const Model& model, FaceId face, std::vector<Vec3>& places)
 {
     const std::set<EdgeId> rim = rim_edges(model, face);
@@ -387,7 +388,7 @@ FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const Assembl
             return SideOfPair{&volumes[m], face, members[m].fixed != nullptr, m == faces.a ? face_a : face_b,
                               members[m].region};
         };
-        // Compare parts made in earlier steps with the parts of the other side.
+        // Compare each part made in earlier steps with each part of the other face.
         std::vector<FaceId> all_a = parts(faces.a, faces.face_a);
         for (std::size_t i = 0; i < all_a.size(); ++i) {
             std::vector<FaceId> all_b = parts(faces.b, faces.face_b);

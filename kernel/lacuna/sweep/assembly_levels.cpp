@@ -17,11 +17,11 @@ using namespace topology;
 
 namespace {
 
-/// Heights that differ by less than this share of a member are one level: a layer can bend to both, while a
-/// layer between them would be a sliver. A choice.
+/// Levels that differ by less than this share of a member's height are one level. A layer boundary can bend
+/// to reach both, while a layer between them would be very thin. A choice.
 constexpr double kSameLevel = 1e-2;
 
-/// Whether layers of a member are free: neither its user nor a given mesh has set them.
+/// Whether the layers of a member are free: neither the user nor a given mesh prescribes them.
 bool has_free_layers(const AssemblyMember& member)
 {
     const SweepOptions& options = member.options;
@@ -123,7 +123,7 @@ std::vector<AssemblyLevels::Contact> AssemblyLevels::contacts() const
     return found;
 }
 
-/// Copy levels within shared walls from each member to the other, until none is missing.
+/// Copy levels within shared walls from each member to the other, until no member gets a new level.
 void AssemblyLevels::exchange(std::span<const Contact> contacts)
 {
     const auto pass_on = [&](std::size_t from, double low, double high, std::size_t to, double there,
@@ -155,13 +155,13 @@ std::vector<std::vector<double>> AssemblyLevels::heights(
     exchange(all);
     geometry::UnionFind groups(members_.size());
     for (const Contact& c : all) groups.unite(c.a, c.b);
-    // Only groups that have levels and in which nobody has set the number of layers.
+    // Only groups of members that have levels, and in which no member's number of layers is prescribed.
     std::vector<bool> concerned(members_.size(), false), set(members_.size(), false);
     for (std::size_t m = 0; m < members_.size(); ++m) {
         if (levels_[m].size() > 2) concerned[groups.find(m)] = true;
         if (!has_free_layers(members_[m])) set[groups.find(m)] = true;
     }
-    std::vector<std::size_t> first{0}; // first part of each member
+    std::vector<std::size_t> first{0}; // for each member, the index of the first interval between its levels
     for (const std::vector<double>& levels : levels_) first.push_back(first.back() + levels.size() - 1);
     geometry::UnionFind parts(first.back());
     const auto at = [&](std::size_t m, double height) {

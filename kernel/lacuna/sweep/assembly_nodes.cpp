@@ -108,7 +108,7 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
         std::size_t part;
         Segment nodes;
     };
-    // Each position once, by its node number in the whole mesh.
+    // Collect each side and each node once, by the node numbers of the whole mesh.
     std::vector<EdgeSide> sides;
     std::vector<std::array<Vec3, 2>> segments;
     std::vector<std::pair<std::size_t, Index>> at;

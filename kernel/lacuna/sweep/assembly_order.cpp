@@ -13,8 +13,8 @@ using namespace topology;
 
 namespace {
 
-/// For each member, whether both source and target have several faces, or a member of this kind must follow
-/// it. Such a member imprints one end on the other before any neighbour has meshed them.
+/// For each member, whether both its source and its target have several faces, or such a member must come
+/// after it. A member of this kind imprints one end on the other before any neighbour has meshed them.
 std::vector<bool> split_at_both_ends(std::span<const AssemblyMember> members,
                                      std::span<const std::set<std::size_t>> before)
 {
@@ -42,8 +42,9 @@ bool is_wall(const AssemblyMember& member, FaceId face)
     return member.volume->role[face.index()] == Role::wall;
 }
 
-/// Whether a face is in the middle of a member's walls, clear of both rims, such as the part of a pin in a
-/// plate: given rows of quads there would leave no column to follow.
+/// Whether a face lies within a member's walls without touching the rims of its ends, such as the part of a
+/// pin inside a plate. If the neighbour meshed this face first, its rows of quads would end within the
+/// member's columns.
 bool in_middle(const AssemblyMember& member, FaceId face)
 {
     const Model& model = member.volume->model;
@@ -82,10 +83,10 @@ std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember
             names += (names.empty() ? "" : ", ") + members[m].region;
     }
     throw NotSweepable(Message("assembly.round",
-                               "in a cycle of volumes, each of {} lacks a face that the next one has, so "
-                               "none can be meshed first",
+                               "{}: each of these volumes lacks a face that another of them has, in a "
+                               "cycle, so none can be meshed first",
                                names)
-                           .remedy("give one of them that face too"));
+                           .remedy("add its missing face to one of them"));
 }
 
 std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
@@ -106,7 +107,8 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
                    is_wall(members[other], is_a ? face.face_b : face.face_a) == other_wall;
         });
     };
-    std::vector<std::set<std::size_t>> below(members.size()); // those with a shared wall in their middle
+    // For each member, those that share a wall with it which lies in the middle of their walls.
+    std::vector<std::set<std::size_t>> below(members.size());
     for (const SharedFace& face : shared) {
         const bool a = in_middle(members[face.a], face.face_a), b = in_middle(members[face.b], face.face_b);
         if (a && !b && is_wall(members[face.b], face.face_b)) below[face.b].insert(face.a);

@@ -39,10 +39,10 @@ namespace {
 
 /// Maximum number of nodes on edges of all members: with more, memory runs out before anything is meshed.
 constexpr double kMostNodes = 2e7;
-/// A rim segment does not include edges that it covers by less than this share of its length.
+/// A request for a rim segment ignores edges of which it covers less than this share.
 constexpr double kInset = 1e-3;
-/// Maximum number of rounds that make ends even. Each round adds a side to one class; families of blocks need
-/// far fewer.
+/// Maximum number of rounds that make the number of sides of ends even. Each round adds a side to one class;
+/// families of blocks need far fewer.
 constexpr int kRounds = 64;
 
 class Planner {
@@ -110,7 +110,7 @@ private:
         return sweep::is_same(a, b, std::max(model(a.member).tolerance, model(b.member).tolerance));
     }
 
-    /// Find the same edge in several members.
+    /// Find edges that are the same in several members.
     void find_same()
     {
         std::vector<std::size_t> order(edges_.size());
@@ -131,7 +131,8 @@ private:
         for (const SharedFace& face : shared_) find_same_rims(face);
         for (const std::size_t e : beside_) common_[e] = true;
     }
-    /// The closed rims of a shared face are the same edges, however coarse their chords are.
+    /// The closed rims of a shared face are the same edges in both members, even if their chords differ
+    /// widely.
     void find_same_rims(const SharedFace& face)
     {
         const auto closed_rims = [&](std::size_t m, FaceId of) {
@@ -158,7 +159,8 @@ private:
     /// all.
     void join_periodic()
     {
-        std::map<std::size_t, std::vector<std::pair<std::size_t, Eigen::Isometry3d>>> images; // onto the key
+        // Transforms onto the first edge of each set.
+        std::map<std::size_t, std::vector<std::pair<std::size_t, Eigen::Isometry3d>>> images;
         for (const PeriodicFaces& pair : periodic_)
             for (const auto& [own, image] : pair.edges) {
                 const std::size_t a = same_.find(number(pair.a, own)), b = same_.find(number(pair.b, image));
@@ -189,8 +191,8 @@ private:
         for (const auto& [first, ignored] : home) tied_.insert(same_.find(first));
     }
 
-    /// Make the vertices of periodic faces exact images of each other, for all pairs at once. Vertices of
-    /// given meshes stay.
+    /// Move the vertices of periodic faces so that they are exact images of each other, for all pairs at
+    /// once. Vertices of given meshes do not move.
     void tie_corners()
     {
         if (periodic_.empty()) return;
@@ -225,7 +227,7 @@ private:
         corners_ = std::move(places);
     }
 
-    /// Move nodes of an edge onto the first of its images, or back.
+    /// Move the nodes of an edge onto the edge that represents its images.
     [[nodiscard]] std::vector<Vec3> at_home(std::vector<Vec3> nodes, std::size_t e) const
     {
         if (!tied_.contains(same_.find(e))) return nodes;
@@ -257,8 +259,9 @@ private:
                                .remedy("load one of them with keep_mesh = false"));
     }
 
-    /// Find corners of ends whose two edges leave in the same direction, such as an arc and its tangent line.
-    /// A quad there is flat unless its sides are long enough for the two edges to diverge.
+    /// Find cusps: corners of ends whose two edges leave in the same direction, such as an arc and its
+    /// tangent line. A quad at a cusp has an angle near 0° unless its sides are long enough for the edges to
+    /// diverge.
     void find_cusps()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -296,7 +299,7 @@ private:
         }
     }
 
-    /// Join edges to which one sweep gives the same number of sides.
+    /// Join edges that get the same number of sides in the sweep of a member.
     void join_by_sweep(std::size_t m)
     {
         std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
@@ -343,7 +346,7 @@ private:
         }
     }
 
-    /// Numbers required by the member's volume.
+    /// Find the numbers of sides and layers that the volume of a member requires.
     void plan_sides(std::size_t m, std::span<const surface::LinkingSurface> links)
     {
         const OpenVolume& volume = *members_[m].volume;
@@ -363,7 +366,7 @@ private:
         }
     }
 
-    /// Interval requests of a member. The member's own sweep reports errors in them.
+    /// Read the interval requests of a member. Errors in them are reported by the member's own sweep.
     void find_demands(std::size_t m, std::span<const surface::LinkingSurface> links)
     {
         const AssemblyMember& member = members_[m];
@@ -385,8 +388,8 @@ private:
         bool reversed = false;
     };
 
-    /// Requested numbers of sides by class. If a request covers only parts of an edge, the sweep decides the
-    /// edge's total.
+    /// Assign requested numbers of sides to classes. If a request covers only a part of an edge, it is left
+    /// to the sweep of the member.
     void ask_sides()
     {
         for (const auto& [m, demands] : demands_) {
@@ -405,7 +408,7 @@ private:
             }
         }
     }
-    /// Each corner between edges becomes the node nearest to it by length; every edge gets at least one side.
+    /// Distribute the requested sides over several edges by length. Every edge gets at least one side.
     void ask_sides(std::size_t m, const surface::SidesAsked& asked, const std::vector<EdgeAsked>& edges)
     {
         double all = 0, until = 0;
@@ -442,9 +445,8 @@ private:
                 .remedy("ask for the same number in both"));
     }
 
-    /// Join opposite edges of walls, because walls have rows and columns, and of ends that are walls of
-    /// another member. All shared ends of four edges are treated so, so that every volume with such an end
-    /// gets the same quads.
+    /// Join opposite edges of walls, whose quads form rows and columns, and of shared faces with four edges,
+    /// which are then meshed by the same grid in both members.
     void join_opposite()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -457,7 +459,8 @@ private:
             join_opposite(face.b, face.face_b, rows);
         }
     }
-    /// @param rows  a face with two rims has the same number of nodes on both.
+    /// @param rows  whether the quads form rows: then a face with two rims has the same number of nodes on
+    ///         both.
     void join_opposite(std::size_t m, FaceId face, bool rows)
     {
         if (members_[m].fixed != nullptr) return; // it keeps its quads
@@ -469,12 +472,13 @@ private:
             classes_.unite(number(m, loops[0].uses[k].edge), number(m, loops[0].uses[k + 2].edge));
     }
 
-    /// An edge of facets, and its vertices that become nodes, as shares of its length.
+    /// An edge that follows facets, and the positions of its vertices that become nodes, as shares of its
+    /// length.
     struct Followed {
         std::size_t edge = 0;
         std::vector<double> ends;
     };
-    /// Number of sides between these vertices at about the requested size.
+    /// Number of sides between the vertices that become nodes, at about the requested size.
     [[nodiscard]] double followed_sides(const Followed& followed, const MemberEdge& edge) const
     {
         double sides = 0;
@@ -502,7 +506,7 @@ private:
         return at;
     }
 
-    /// Number of sides that an edge needs by its member's size and curvature.
+    /// Number of sides that an edge needs according to its member's size and curvature.
     [[nodiscard]] double wanted(const MemberEdge& edge) const
     {
         const std::vector<Vec3> line = surface::edge_line(model(edge.member), edge.edge);
@@ -544,8 +548,8 @@ private:
         return static_cast<int>(model(edges_[e].member)[edges_[e].edge].points.size()) - 1;
     }
 
-    /// Find edges with given nodes that are kept. If several members have the same edge, one next to given
-    /// quads takes precedence over one on the rim of a face that is only geometry.
+    /// Find edges whose given nodes are kept. If several members have the same edge, one next to given quads
+    /// takes precedence over one on the rim of a face whose mesh is only its shape.
     void find_kept()
     {
         kept_.assign(edges_.size(), Kept::no);
@@ -574,8 +578,8 @@ private:
     /// Whether a member's edge has the direction of the edge that represents it.
     [[nodiscard]] bool runs_along(std::size_t e) const { return run_alike(edges_[e], edges_[same_.find(e)]); }
 
-    /// Find edges on which rows of boundary layers end: the rows of one member apply to all members of the
-    /// edge.
+    /// Find edges on which rows of boundary layers end. The rows of one member apply to all members that have
+    /// the edge.
     void find_rows()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -593,7 +597,7 @@ private:
                 const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
                                      (here[1].places.empty() ? 0 : here[1].places.back());
                 if (taken >= edges_[e].length)
-                    rows_.erase(same_.find(e)); // drop the rows; the sweep reports the available length
+                    rows_.erase(same_.find(e)); // drop the rows; the sweep reports that they do not fit
             }
         }
     }
@@ -613,14 +617,15 @@ private:
         const AssemblyMember& own = members_[m];
         const AssemblyMember& other = members_[there.member];
         throw NotSweepable(Message("assembly.layers_differ",
-                                   "boundary layers of {} of {} and of {} of {} differ, and both end on {} "
-                                   "of {}, an edge of both",
+                                   "boundary layers of {} of {} and of {} of {} end on the same edge, {} of "
+                                   "{}, but have different heights",
                                    entity_in(other, there.face), other.region, entity_in(own, face),
                                    own.region, entity_in(own, edges_[e].edge), own.region)
-                               .remedy("give both faces the same table"));
+                               .remedy("give both faces the same boundary_layers table"));
     }
 
-    /// Number of sides that rows take of an edge, and the remaining length [model length].
+    /// Number of sides of an edge that belong to rows, and the length that remains beside them [model
+    /// length].
     [[nodiscard]] std::pair<int, double> beside_rows(std::size_t e) const
     {
         const auto found = rows_.find(same_.find(e));
@@ -643,11 +648,11 @@ private:
             const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
             const AssemblyMember &own = members_[end.member], &other = members_[edges_[e].member];
             throw NotSweepable(Message("assembly.layers_rows",
-                                       "boundary layers of {} of {} take {} sides of {} of {}, but only {} "
-                                       "sides are given or requested there",
+                                       "boundary layers of {} of {} need more than {} sides on {} of {}, but "
+                                       "{} are given or requested",
                                        entity_in(own, end.face), own.region, needed(taken),
                                        entity_in(other, edges_[e].edge), other.region, found(count))
-                                   .remedy("ask for fewer rows or more layers"));
+                                   .remedy("use a smaller 'count' in boundary_layers, or more layers"));
         }
     }
 
@@ -716,7 +721,8 @@ private:
         check_rows();
     }
 
-    /// Make the number of sides even on ends whose edges are all shared or have given nodes.
+    /// Make the number of sides even on ends whose edges are all shared or have given nodes, so that quads
+    /// fit.
     void make_even()
     {
         for (int round = 0; round < kRounds; ++round) {
@@ -749,8 +755,8 @@ private:
         std::size_t best = edges_.size();
         for (const auto& [of, times] : uses) {
             if (times % 2 == 0 || asked_.contains(of) || kept_of_class_.at(of) == Kept::quads) continue;
-            // Later rounds take the next class, so that ends do not undo each other's changes. Given nodes on
-            // faces that are only geometry are changed last.
+            // Later rounds choose the next class, so that two ends do not undo each other's changes. Classes
+            // with given nodes on the rim of faces whose mesh is only their shape are changed last.
             const auto before = [&](std::size_t a, std::size_t b) {
                 return std::tuple(kept_of_class_.at(a) != Kept::rim, -bumps_[a], count_.at(a)) >
                        std::tuple(kept_of_class_.at(b) != Kept::rim, -bumps_[b], count_.at(b));
@@ -777,7 +783,7 @@ private:
         }
         std::vector<double> at;
         for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
-        // Layers are spaced as in a member whose options require it.
+        // Layers are spaced as the options of one of the members require.
         for (const auto& [m, sides] : sides_) {
             const bool by_levels = std::cmp_equal(heights_[m].size(), count);
             const LayerSpec& spec = members_[m].options.layers;
@@ -805,7 +811,7 @@ private:
             at = with_cusps(cusp->second, edge.length, runs_along(e), std::move(at));
         return surface::edge_points(model(edge.member), edge.edge, at);
     }
-    /// Move the nodes next to cusps away from them, and those between in proportion.
+    /// Lengthen the first side at a cusp to its minimum length, and move the nodes between in proportion.
     static std::vector<double> with_cusps(const std::array<double, 2>& ends, double length, bool along,
                                           std::vector<double> at)
     {
@@ -818,7 +824,7 @@ private:
             at[i] = last > first ? low + (at[i] - first) / (last - first) * (high - low) : low + high - at[i];
         return at;
     }
-    /// Node positions as shares of an edge's length: the rows at its ends, and uniform sides between.
+    /// Node positions as shares of an edge's length: the rows at its ends, and equal sides between them.
     static std::vector<double> with_rows(const std::array<RowsHere, 2>& ends, double length, bool along,
                                          int count)
     {
@@ -852,8 +858,8 @@ private:
         std::map<std::size_t, std::vector<Vec3>> nodes;
         const std::vector<bool> on_frame = find_frame();
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            // Given nodes on the rim of a face that is only geometry are dropped if the planned number of
-            // sides differs.
+            // A face with triangles only is a shape. Given nodes on its rim are dropped if the planned number
+            // of sides differs.
             const bool gives_way = kept_[e] == Kept::rim && sides_of(e) != count_.at(classes_.find(e));
             if (!(common_[e] || gives_way) || !on_frame[e]) continue;
             auto found = nodes.find(same_.find(e));
@@ -880,7 +886,7 @@ private:
         return plan;
     }
 
-    /// Number of layers of a member with side lines of several edges: at least one for each edge.
+    /// Number of layers of a member that has side lines of several edges: at least the number of these edges.
     [[nodiscard]] int layers_of(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines) const
     {
         double layers = std::max(layers_asked(m), layers_[m]);
@@ -896,13 +902,13 @@ private:
         return std::max(static_cast<int>(std::lround(layers)), static_cast<int>(most));
     }
 
-    /// Place nodes on side lines of several edges so that each of their vertices is a node. An edge of an
-    /// unswept member's skin that ends on such a line needs a node there.
+    /// Place nodes on side lines of several edges so that each vertex between these edges is a node. An edge
+    /// of an unswept member that ends at such a vertex needs this node.
     void plan_stacks(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines,
                      std::map<std::size_t, std::vector<Vec3>>& nodes, AssemblyPlan& plan)
     {
         const LayerSpec& spec = members_[m].options.layers;
-        if (!spec.heights.empty() || spec.bias != 1) return; // the user's heights hold
+        if (!spec.heights.empty() || spec.bias != 1) return; // the heights given by the user apply
         plan.layers[m] = layers_of(m, lines);
         for (const std::vector<EdgeUse>& line : lines) {
             std::vector<double> ends{0};
@@ -930,8 +936,8 @@ private:
         }
     }
 
-    /// Find edges across a member's walls that other members have too, such as the rim of a band. They need
-    /// as many sides as the rims of the member's ends, so these are planned too.
+    /// Find shared edges that run around a member's walls, such as the rim of a band. They need as many sides
+    /// as the rims of the member's ends, so the nodes of these rims are planned too.
     void find_across()
     {
         const std::vector<bool> frame = find_frame();
@@ -942,7 +948,8 @@ private:
             if (frame[e] && across.contains({edges_[e].member, classes_.find(e)})) common_[e] = true;
     }
 
-    /// Edges on the rims of ends, and side lines; other edges on walls follow from these.
+    /// The edges on the rims of ends, and the side lines. The nodes of other edges on walls follow from
+    /// these.
     [[nodiscard]] std::vector<bool> find_frame() const
     {
         std::vector<bool> frame;
@@ -958,7 +965,8 @@ private:
         return frame;
     }
 
-    /// The position of a vertex, bit-identical for all edges and members that meet there.
+    /// The position of a vertex, stored once so that it is bit-identical for all edges and members that meet
+    /// there.
     const Vec3& corner_at(const Vec3& p, double tolerance)
     {
         for (const Vec3& corner : corners_)
@@ -966,7 +974,8 @@ private:
         return corners_.emplace_back(p);
     }
 
-    /// Among the same edge in several members, the one with given nodes, or else one with an exact curve.
+    /// Of the edges of several members that are the same, the one with given nodes, or else one with an exact
+    /// curve.
     [[nodiscard]] std::size_t exact_one(std::size_t e)
     {
         const std::size_t root = same_.find(e);
@@ -980,8 +989,8 @@ private:
         return root;
     }
 
-    /// Put nodes in the direction of a member's edge; a closed edge starts at the node nearest to its own
-    /// vertex.
+    /// Arrange nodes in the direction of a member's edge. On a closed edge they start at the node nearest to
+    /// the edge's vertex.
     void turn(std::vector<Vec3>& nodes, const MemberEdge& edge) const
     {
         if (!edge.closed) {
@@ -1009,35 +1018,37 @@ private:
     std::vector<std::size_t> first_; ///< index of each member's first edge
     std::vector<MemberEdge> edges_;  ///< edges of all members
     mutable geometry::UnionFind same_{0}, classes_{0};
-    /// The given nodes of an edge that are kept: none, the rim nodes of a face that is only geometry, or the
-    /// nodes of quads.
+    /// Which given nodes of an edge are kept: none, the rim nodes of a face whose mesh is only its shape, or
+    /// the nodes of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
     std::vector<Kept> kept_;                    ///< for each edge
-    std::map<std::size_t, Kept> kept_of_class_; ///< for the edges that determine its number
+    std::map<std::size_t, Kept> kept_of_class_; ///< for each class, the highest value of its edges
     std::map<std::size_t, std::array<RowsHere, 2>>
         rows_; ///< for each set of same edges, in the direction of the first
     std::map<std::size_t, std::size_t> kept_one_; ///< for each set of same edges, one edge that has given
                                                   ///< nodes
     std::vector<bool> common_;                    ///< for each edge: other members have it too
-    /// For each set of same edges: least length of the first side at both ends [model length].
+    /// For each set of same edges: minimum length of the first and the last side at cusps [model length].
     std::map<std::size_t, std::array<double, 2>> cusps_;
     double grid_ = 0;              ///< spacing of the grid for nodes on periodic faces
     std::set<std::size_t> tied_;   ///< sets of same edges on periodic faces
     std::set<std::size_t> beside_; ///< edges shared with members that are not swept
-    /// For each member: side lines of several edges, of which some are shared with unswept members.
+    /// For each member: its side lines of several edges, if an unswept member shares some of these edges.
     std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
     std::map<std::size_t, int> count_;                  ///< for each class
     std::vector<int> per_turn_, layers_;                ///< numbers required by each member's volume
     AssemblyLevels levels_;
-    std::vector<std::vector<double>> heights_; ///< for each member: layers between levels, from its source
-    std::map<std::size_t, Followed> followed_; ///< for each set of same edges
+    /// For each member: heights of its layers from its source, from its levels.
+    std::vector<std::vector<double>> heights_;
+    std::map<std::size_t, Followed> followed_;                ///< for each set of same edges
     std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member with intervals
     std::map<std::size_t, SidesOfClass> intervals_;           ///< for each class with an interval request
-    /// For each set of same edges, the edge with a requested bias, and that bias in its direction.
+    /// For each set of same edges: the edge with a requested bias, and that bias in the direction of this
+    /// edge.
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
-    std::set<std::size_t> stacked_;       ///< edges that are parts of side lines in some member; ids of sets
-                                          ///< of same edges
+    /// Sets of same edges that are part of a side line of several edges in some member.
+    std::set<std::size_t> stacked_;
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
     std::vector<Vec3> corners_;           ///< vertices where edges of several members end

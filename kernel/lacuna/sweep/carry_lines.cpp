@@ -25,8 +25,8 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of rounds. Each round maps lines once from one end of every volume to the other, so lines
-/// pass through a stack of up to this many volumes.
+/// Maximum number of rounds. Each round copies lines from one end of every volume to the other end, so lines
+/// can pass through a stack of up to this many volumes.
 constexpr int kRounds = 64;
 
 /// Copies the parts of a split face to the volume that has the whole face.
@@ -38,7 +38,7 @@ public:
     {
     }
 
-    /// Add the vertices of this rim to the other. @return  whether any was added.
+    /// Add the vertices of the parts' rim to the rim of the whole face. @return  whether any was added
     bool copy_vertices()
     {
         const std::size_t before = to_.vertices.size();
@@ -46,7 +46,7 @@ public:
         return to_.vertices.size() > before;
     }
 
-    /// @return  the parts in the other volume, in the same order.
+    /// @return  the parts in the volume with the whole face, in the same order.
     std::vector<FaceId> run()
     {
         copy_rim();
@@ -80,7 +80,8 @@ private:
         return std::ranges::any_of(model.vertices, [&](const Vertex& v) { return v.point == point; });
     }
 
-    /// Add rim points that the whole face lacks, and make them vertices if they are vertices here.
+    /// Add the rim points that the whole face lacks. Points that are vertices on the parts become vertices
+    /// there.
     void copy_rim()
     {
         for (const Rim& rim : rims(from_, parts_)) {
@@ -112,7 +113,8 @@ private:
         return geometry::arc_lengths(surface::edge_line(to_, edge));
     }
 
-    /// Insert a point between the previous one, which exists already, and the next one that exists.
+    /// Insert a point on the rim of the whole face, between the previous point and the next one that exists
+    /// there.
     void insert(const std::vector<Index>& walk, std::size_t i)
     {
         const Index before = place_.at(walk[i - 1]);
@@ -296,7 +298,7 @@ private:
         }
     }
 
-    /// Split an end shared with other members in the same way as the opposite end.
+    /// Split an end that is shared with other members along the inner lines of the opposite end.
     bool split_end(std::size_t m, Role end)
     {
         OpenVolume volume = end == Role::source ? volumes_[m] : turned_round(volumes_[m]);
@@ -411,7 +413,7 @@ private:
     std::span<OpenVolume> volumes_;
     const RunContext& context_;
     std::vector<SharedFace> shared_ = shared_faces(members_, context_);
-    std::vector<std::vector<surface::KnownLine>> known_; ///< for each member, by its source and target
+    std::vector<std::vector<surface::KnownLine>> known_; ///< for each member and end, source first
     std::vector<std::vector<surface::RimPair>> pairs_;
     std::set<std::size_t> split_;
 };

@@ -76,8 +76,8 @@ public:
         const Vector squares{u_[0] * u_[0] + u_[1] * u_[1] + u_[2] * u_[2],
                              v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2],
                              w_[0] * w_[0] + w_[1] * w_[1] + w_[2] * w_[2]};
-        // The foldover-free energy by the determinant over the box's and the squares of the edges over the
-        // box's.
+        // The foldover-free energy, from the determinant relative to the volume of the reference box, and
+        // from the squares of the edges relative to the edges of the box.
         const Four determinant = det / volume;
         const Four tall = energy.epsilon * energy.epsilon + determinant * determinant;
         Four root{}, cube_root{};
@@ -104,7 +104,7 @@ public:
     }
 
     [[nodiscard]] LACUNA_INLINE double value(std::size_t lane) const { return value_[lane]; }
-    /// The gradient of a corner's energy by its three edges.
+    /// The gradient of a corner's energy with respect to its three edges.
     [[nodiscard]] LACUNA_INLINE std::array<Vec3, 3> slopes(std::size_t lane) const
     {
         return {Vec3(by_u_[0][lane], by_u_[1][lane], by_u_[2][lane]),
@@ -122,7 +122,7 @@ private:
         product[2] = a[0] * b[1] - a[1] * b[0];
     }
 
-    /// Add the term in the scaled Jacobian; corners with an edge of no length have none.
+    /// Add the term of the scaled Jacobian. Corners with an edge of zero length have no such term.
     LACUNA_INLINE void add_sharpness(double sharpness, double best, const Four& det, const Vector& squares,
                                      Four& by_det, Vector& by_edge)
     {

@@ -74,8 +74,9 @@ void for_locked_angles(const Hex& hex, const std::vector<char>& locked, const Vi
     }
 }
 
-/// Upper bound of a cell's quality: the minimum sine of an angle between two fixed edges; in triangles of
-/// wedges, relative to that of an equilateral one.
+/// Upper bound of a cell's quality from its fixed edges: the smallest sine of an angle between two of them,
+/// and the smallest scaled Jacobian of a corner whose three edges are all fixed. In triangles of wedges,
+/// sines are relative to the sine of 60°.
 double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::vector<char>& locked)
 {
     double bound = 1;
@@ -138,7 +139,7 @@ mesh::Incidence uses_of(const CellRegion& region)
     return mesh::incidence(region.free, [&](const auto& visit) {
         for (std::size_t c = 0; c < region.cells.size(); ++c) {
             for (std::size_t k = 0; k < 8; ++k) {
-                // Where two corners coincide, only the first counts.
+                // Where two corners of a wedge coincide, only the first one counts.
                 if (k % 4 == 3 && mesh::is_wedge(region.cells[c])) continue;
                 if (index(region.cells[c][k]) < region.free)
                     visit(index(region.cells[c][k]), static_cast<Index>(8 * c + k));

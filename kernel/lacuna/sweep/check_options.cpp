@@ -10,7 +10,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Above the core count of any supported machine, and far below the limit of an operating system.
+/// This number is higher than the core count of any supported machine, and far below the limit of an
+/// operating system.
 constexpr int kMostThreads = 1024;
 
 [[noreturn]] void refuse(const std::string& option, const Argument& must, const Argument& value)

@@ -28,8 +28,9 @@ namespace {
 /// Quads, facets or points per block; each block has its own sums. A smaller block adds overhead, a larger
 /// one leaves threads idle. Not measured.
 constexpr std::size_t kBlock = 1024;
-/// Distances above this, in sides of the quad, are computed by searching the tree, because another part of
-/// the face may be nearer. A lower value searches the tree more often. Not measured.
+/// If a point is farther from the nearby quads than this many sides of the quad, its distance is searched in
+/// the tree, because another part of the skin may be nearer. A lower value searches the tree more often. Not
+/// measured.
 constexpr double kFar = 0.25;
 
 /// A point of one skin and its distance from the other.
@@ -47,7 +48,7 @@ struct Tally {
     double area = 0, sum = 0;
     double max_distance = -1;
     Vec3 place = Vec3::Zero();
-    Sample worst;       ///< the one that exceeds the allowed distance most; a turned one takes precedence
+    Sample worst; ///< the sample that exceeds its allowed distance most; a turned sample takes precedence
     double allowed = 0; ///< allowed distance at that sample
 
     void add(const Sample& sample, double most)
@@ -55,7 +56,7 @@ struct Tally {
         add_distance(sample.area, sample.area * sample.distance, sample.distance, sample.point);
         keep_worst(sample, most);
     }
-    /// Add the samples that follow.
+    /// Add the samples of a later block.
     void add(const Tally& later)
     {
         add_distance(later.area, later.sum, later.max_distance, later.place);
@@ -98,7 +99,7 @@ QuadFacets facets_of(const std::array<Vec3, 4>& c)
     return facets;
 }
 
-/// One face and the quads on it.
+/// Comparison of one face with its quads.
 class Comparison {
 public:
     Comparison(const mesh::HexMesh* mesh, const Skin& skin, const SkinOfFace& quads, surface::FaceShape shape,
@@ -184,7 +185,7 @@ private:
                             tally);
     }
 
-    /// Compare a point with the face, and add it.
+    /// Compare a point with the face, and add it to the statistics.
     /// @param hint    a nearby facet, or -1.
     /// @param across  area vector of the quad, if its orientation is to be checked.
     /// @return  the nearest facet.
@@ -201,8 +202,9 @@ private:
             const double reach = foot ? std::abs(foot->height) : kInfinity;
             sample.distance = distance_to_face(sample.point, facet, reach);
         }
-        // If the point is far from the face, as on a long quad in a bend, the nearest facet may belong to the
-        // opposite part of the face. A higher factor accepts such facets. Not measured.
+        // If the point is far from the face, as on a long quad in a bend, the nearest facet may belong to an
+        // opposite part of the face, and its orientation means nothing. A higher factor checks more of such
+        // points. Not measured.
         constexpr double kNear = 0.1; // of the quad's width
         const auto found = static_cast<Index>(facet);
         sample.turned = limit_.folds && sample.distance * sample.side < kNear * across.norm() &&
@@ -217,11 +219,12 @@ private:
                                           double reach = kInfinity) const
     {
         auto hit = face_tree_.closest(point, reach * reach);
-        if (hit.triangle < 0) hit = face_tree_.closest(point); // the two heights are rounded differently
+        // Rounding: the point may lie just outside the reach.
+        if (hit.triangle < 0) hit = face_tree_.closest(point);
         facet = index(hit.triangle);
         Vec3 bulge = shape_.bulge_at(facet, hit.barycentric);
-        // Beside the face, compare with the exact edge, so the whole bulge counts; above a facet, only its
-        // component along the normal counts.
+        // Beside a facet, the distance is to the exact edge, so the whole bulge counts. Above a facet, only
+        // the component of the bulge along the normal counts.
         if (hit.barycentric.minCoeff() > 0) {
             const Vec3 normal = shape_.normal(facet);
             bulge = bulge.dot(normal) * normal;
@@ -231,7 +234,7 @@ private:
 
     // --- the face against the quads -------------------------------------------------------------------
 
-    /// A point of the face that nearby quads did not settle.
+    /// A point of the face whose distance was not settled by nearby quads.
     struct Left {
         Vec3 point;
         double area = 0;
@@ -312,7 +315,7 @@ private:
         return near;
     }
 
-    /// The quad nearest to a point among at most `kMost` of a list, taken at even steps.
+    /// The quad of a list nearest to a point, compared with at most `kMost` quads at even steps of the list.
     [[nodiscard]] std::size_t nearest_of(std::span<const Index> quads, const Vec3& point) const
     {
         // Limit of quads that are compared, to bound the time per point; not measured.
@@ -329,8 +332,8 @@ private:
         return index(nearest);
     }
 
-    /// Distance to the quads near a point, found by walking from quad to quad; never less than the true
-    /// distance. Empty if it is large.
+    /// Upper bound of the distance from a point to the quads, found by walking from quad to quad. Empty if it
+    /// is large.
     /// @param quad  start of the walk.
     [[nodiscard]] std::optional<Sample> compare_near(const mesh::Incidence& round, const Vec3& point,
                                                      double area, std::size_t quad) const
@@ -356,7 +359,7 @@ private:
         return sample;
     }
 
-    /// Walk to the quad below a point, each time across the side that the point is farthest beyond.
+    /// Walk to the quad below a point. Each step crosses the side that the point is farthest beyond.
     [[nodiscard]] std::size_t walk_across(const mesh::Incidence& round, const Vec3& point,
                                           std::size_t quad) const
     {
@@ -393,8 +396,8 @@ private:
         return box.squaredExteriorDistance(point);
     }
 
-    /// @param over  set to whether the foot point is closer to the point than to the quad's sides: no other
-    ///          quad is then nearer unless the skin folds back within that distance.
+    /// @param over  set to whether the foot point is nearer to the point than to the quad's sides. If so, no
+    ///         other quad is nearer, unless the skin folds back within that distance.
     [[nodiscard]] double distance2_to_quad(const Vec3& point, std::size_t quad, bool& over) const
     {
         const std::array<Vec3, 4> c = corners(quad);
@@ -496,8 +499,8 @@ private:
             result_.misfit = Misfit::cut;
     }
 
-    /// Distinguish the two kinds of deviation: if a quad's nodes lie on the face, only the face's curvature
-    /// between them causes the deviation.
+    /// Tell deviations by curvature from those by misplaced nodes: if the nodes of a quad lie on the face,
+    /// only the curvature of the face between them causes the deviation.
     void tell_straight_from_cut()
     {
         constexpr double kOnFace =
@@ -513,8 +516,8 @@ private:
             most = sag;
             result_.side = result_.source_side = (b - a).norm();
             if (mesh_ == nullptr) continue;
-            // The corresponding side of the mesh's quad. At order 2, the side that contains this one as a
-            // half, or is parallel to it.
+            // Find the corresponding side of the mesh's quad. At order 2, quads are compared in four parts:
+            // take the side of the whole quad that contains this side as a half, or is parallel to it.
             const Index row = mesh_->nodes_per_layer;
             const std::size_t own = mesh_->order() == 1 ? k : (worst_ + 3 * (k % 2)) % 4;
             const Quad whole = mesh::skin_quad(*mesh_, item_[worst_]).nodes;
@@ -588,7 +591,7 @@ Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std
     parallel_each(context, mesh.skin_count(), kBlock, [&](std::size_t i) {
         const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
         std::array<Index, 9> at{};
-        // A triangle repeats a corner.
+        // A triangle repeats its last corner.
         for (std::size_t k = 0; k < std::max<std::size_t>(quad.count, 4); ++k)
             at[k] = static_cast<Index>(std::ranges::lower_bound(known, quad.node[k]) - known.begin());
         if (centres > 0) {
@@ -628,7 +631,7 @@ Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::s
     skin.points.insert(skin.points.end(), mesh.middles.nodes.begin(), mesh.middles.nodes.end());
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // At order 2 the parts of a side may deviate as much as the whole side.
+    // At order 2 the allowed distance for the parts of a side is that of the whole side.
     const auto add = [&](std::size_t i, const Quad& side) {
         SkinOfFace& face = skin.faces[faces[index(mesh.skin_patch[i])].index()];
         const Quad& whole = mesh.skin[i];

@@ -19,27 +19,28 @@ using namespace topology;
 
 namespace {
 
-/// Steps along the axis: a bend of 90° on a twentieth of it turns by 29° per step.
+/// Number of steps along the axis. With 64, a bend of 90° over a twentieth of the axis turns by 29° per step.
 constexpr std::size_t kSteps = 64;
-/// A turn in one step above this counts as a corner, which layers cannot resolve [radian]: below it are tight
-/// bends, above it corners. Not measured.
+/// A turn above this within one step counts as a corner, which layers cannot resolve, and not as a tight bend
+/// [radian]. Not measured.
 constexpr double kCorner = 40 * kDegree;
-/// Minimum number of side lines whose mean is used as the axis: one line alone is not in the middle.
+/// Minimum number of side lines whose mean is used as the axis: a single line is not in the middle.
 constexpr std::size_t kMiddle = 2;
-/// Where the mean of the columns moves by less than this share of their mean length, the columns diverge, as
-/// around the edge of an end, and turns are ignored. A higher value ignores more turns. Not measured.
+/// If the mean of the columns moves by less than this share of their mean length in a step, the columns
+/// diverge there, as around the edge of an end, and turns are ignored. A higher value ignores more turns. Not
+/// measured.
 constexpr double kSlow = 0.7;
-/// Maximum ratio between the heights of neighbouring layers, and between any two. They limit how elongated
-/// cells become for the sake of bends. Not measured.
+/// Maximum ratio between the heights of neighbouring layers, and between the heights of any two layers. Both
+/// limit the elongation of cells. Not measured.
 constexpr double kMostBeside = 2, kMostInAll = 4;
-/// Weights of the total turning relative to the length of the axis, increasing: from nearly uniform layers to
-/// most layers in the bends.
+/// Weights of the turning relative to the length of the axis, in increasing order. The lowest gives nearly
+/// uniform layers, the highest puts most layers in the bends.
 constexpr std::array<double, 6> kPulls{0.25, 0.5, 1, 2, 4, 8};
-/// A stronger concentration must reduce the volume error by at least this share of the volume: about the
-/// difference between neighbouring numbers of layers. Not measured.
+/// A stronger concentration must reduce the volume error by at least this share of the volume, about as much
+/// as one more layer does. Not measured.
 constexpr double kWorth = 2e-3;
 
-/// The mean of the columns, sampled at even steps.
+/// The axis: the mean of the columns, sampled at even steps.
 struct Way {
     std::array<Vec3, kSteps + 1> points{};
     std::array<Vec3, kSteps + 1> along{};    ///< unit vectors
@@ -51,7 +52,7 @@ Way way_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
            const RunContext& context)
 {
     std::vector<std::vector<Vec3>> columns;
-    // A single seam does not define the axis, but is not needed if another linking surface has side lines.
+    // A linking surface with a single side line, a seam, is left out if another one has several side lines.
     const bool lines = std::ranges::any_of(links,
                                            [](const auto& link) { return link.lines.size() >= kMiddle; });
     const auto add = [&](const surface::LinkingSurface& link) {
@@ -80,7 +81,7 @@ Way way_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
         const Vec3 in = way.points[i] - way.points[i - 1], out = way.points[i + 1] - way.points[i];
         const double turn = geometry::angle_between(in, out);
         if (turn > kCorner || in.norm() < slow || out.norm() < slow) continue;
-        way.turned[i] += turn / 2; // the turn is split between both adjacent steps
+        way.turned[i] += turn / 2; // a turn is divided evenly between the two adjacent steps
         way.turned[i + 1] += turn / 2;
     }
     for (std::size_t i = 1; i <= kSteps; ++i) way.turned[i] += way.turned[i - 1];
@@ -96,8 +97,8 @@ Value at_share(const std::array<Value, kSteps + 1>& values, double share)
     return values[i] + (at - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
 
-/// Heights from 0 to 1 that distribute the length of the axis plus `pull` times its turning evenly, within
-/// the limits.
+/// Heights from 0 to 1 that divide the sum of the axis length and `pull` times its turning evenly, within the
+/// limits for ratios of heights.
 std::vector<double> drawn_heights(const Way& way, int layers, double pull)
 {
     const double even = 1.0 / layers;
@@ -110,7 +111,7 @@ std::vector<double> drawn_heights(const Way& way, int layers, double pull)
     }
     const double highest = *std::ranges::max_element(wanted);
     for (double& height : wanted) height = std::max(height, highest / kMostInAll);
-    // If heights grow by no more than this per length, neighbouring layers keep the limit of their ratio.
+    // If layer heights grow by at most this rate per length, neighbouring layers respect their ratio limit.
     const double growth = std::log(kMostBeside) / kSteps;
     std::array<double, kSteps + 1> passed{};
     const auto count_layers = [&](double scale) {
@@ -140,8 +141,8 @@ std::vector<double> drawn_heights(const Way& way, int layers, double pull)
     return heights;
 }
 
-/// Length of the axis as enclosed between flat sections of equal area, normal to it at the heights: their
-/// volume over the area, which is exact if the axis turns in a plane.
+/// The volume between flat sections of equal area, normal to the axis at the heights, divided by that area.
+/// It compares with the length of the axis, and is exact if the axis turns in a plane.
 double length_between(const Way& way, const std::vector<double>& heights)
 {
     double length = 0;

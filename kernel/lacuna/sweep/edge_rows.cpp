@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// Add row positions at the start of an edge, or at its end.
+/// Add positions of rows that end at the start of an edge, or at its end.
 void add(RowsOfEdges& rows, EdgeId edge, bool at_end, std::vector<double> places, FaceId face)
 {
     rows[edge][at_end ? 1 : 0] = {std::move(places), face};
@@ -48,7 +48,7 @@ void add_rows_of_ends(const OpenVolume& volume, const surface::LayerTables& tabl
         for (const surface::LinkingSurface& link : surface::linking_surfaces(volume)) {
             for (const surface::LinkingLine& line : link.lines) {
                 if (line.line.uses.size() != 1) continue;
-                const EdgeUse use = line.line.uses.front(); // it runs from source to target
+                const EdgeUse use = line.line.uses.front(); // this edge runs from source to target
                 add(rows, use.edge, use.reversed == (role == Role::source),
                     tables.heights[index(found->second)], found->first);
             }
@@ -71,7 +71,7 @@ RowsOfEdges edge_rows(const AssemblyMember& member)
     } catch (const Cancelled&) {
         throw;
     } catch (const Error&) {
-        return {}; // the member's sweep reports it, with its name
+        return {}; // the member's own sweep reports the error
     }
     return rows;
 }

@@ -14,14 +14,14 @@ using namespace topology;
 
 namespace {
 
-/// Two facets at an angle with a smaller cosine than this (more than 60°) count as adjacent, not as covering
-/// each other. Facets of one curved face, coarse on one side, differ by about 30°. A lower value counts
-/// adjacent faces as overlap. Not measured.
+/// Two facets whose angle is larger than 60° (a cosine below this) count as adjacent, not as one covering the
+/// other. Coarse facets of a curved face differ from fine ones by about 30°. A lower value counts adjacent
+/// faces as overlapping. Not measured.
 constexpr double kOver = 0.5;
 /// Pairs of facets between two checks for cancellation.
 constexpr std::size_t kLook = 1 << 16;
 
-/// A polygon over a plane: positions in the plane, and heights over it. Clipping a triangle by seven lines
+/// A polygon with heights over a plane, given by positions in the plane. Clipping a triangle by seven lines
 /// gives at most ten corners.
 class Clipped {
 public:
@@ -30,7 +30,7 @@ public:
         std::copy(triangle.begin(), triangle.end(), corner_.begin());
     }
 
-    /// Keep the part with way · place >= from.
+    /// Keep the part where way · position >= from.
     void keep(const Vec3& way, double from)
     {
         std::array<Vec3, kMost> kept;
@@ -67,7 +67,7 @@ private:
     std::size_t count_;
 };
 
-/// Facets of a volume that overlap a box, with the face of each facet.
+/// Facets of a volume whose boxes overlap a given box, with the face of each facet.
 struct NearFacets {
     std::vector<Triangle> facets;
     std::vector<FaceId> face;
@@ -102,7 +102,7 @@ Eigen::AlignedBox3d box_of(const OpenVolume& volume, double margin)
     return box;
 }
 
-/// Distance bounds of a pair of facets, the smallest first.
+/// Distance limits of a pair of facets, in increasing order.
 struct Bounds {
     double limit = 0, window = 0, around = 0;
 };
@@ -138,7 +138,7 @@ void add_overlap(const std::array<Vec3, 3>& one, const std::array<Vec3, 3>& othe
         overlap.b.*of += area / std::abs(cosine);
         return area;
     };
-    if (cosine < 0) { // only faces with opposite orientation can be the same face of both
+    if (cosine < 0) { // only faces with opposite orientation can be a face that both volumes share
         if (!(add(bounds.around, &OverlapAreas::around) > 0)) return;
         if (!(add(bounds.window, &OverlapAreas::within) > 0)) return;
         for (const Vec3& p : piece.corners()) {

@@ -18,20 +18,21 @@ using namespace topology;
 
 namespace {
 
-/// Allowed distance over the side of a quad if no length is given; see FidelityOptions.
+/// Allowed distance as a share of a quad's side, if no length is given; see `FidelityOptions`.
 constexpr double kShareOfSide = 0.25;
-/// The same within two sides of a tip, where at most four quads meet, and between two volumes: a whole side.
+/// The same share within two sides of a tip, where at most four quads meet, and on faces between two volumes.
 constexpr double kShareAtTip = 1;
 
-/// Lower bound of the allowed distance: this share of the model's diagonal or this share of the face's,
-/// whichever is smaller. Gaps and overlaps of faces in real parts are as large, and no mesh shows them.
+/// Lower bound of the allowed distance: this share of the model's diagonal, or this share of the face's
+/// diagonal if that is smaller. Faces of real parts have gaps and overlaps of this size, which no mesh
+/// resolves.
 constexpr double kLeastOfModel = 1e-4, kLeastOfFace = 1e-2;
 
-/// Allowed difference between the mesh's volume and the sealed one, relative. It must exceed 17 %, the loss
-/// of a disc with six sides for a turn, the minimum that the size alone permits. Not measured.
+/// Allowed relative difference between the mesh's volume and the sealed volume. A disc with six sides per
+/// turn, the fewest that the size alone permits, loses 17 %, so the value must be higher. Not measured.
 constexpr double kMostOfVolume = 0.2;
 
-/// A face that the skin omits.
+/// The result for a face on which the skin has no quads.
 FaceFidelity left_out(const Model& model, const Skin& skin, FaceId face, const DeviationLimit& limit)
 {
     FaceFidelity result;
@@ -90,12 +91,13 @@ const FaceFidelity* worst_misfit(const Fidelity& fidelity)
     return worst;
 }
 
-/// Suggest the number of layers, or the size, with which straight sides follow the curvature of a face: a
-/// tenth finer than their sag requires, because side lengths vary.
+/// Suggest the number of layers, or the size, with which straight sides follow the curvature of a face. The
+/// suggestion is a tenth finer than the sag requires, because side lengths vary.
 Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
                          const FidelityOptions& options)
 {
-    // The sag of a straight side grows with the square of its length; relative to the side it grows linearly.
+    // The sag of a straight side grows with the square of its length; relative to the length, it grows
+    // linearly.
     constexpr double kBelow = 0.9;
     const double share = kBelow * face.allowed / face.found;
     const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
@@ -134,7 +136,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
     }
     const double sign = result.sealed_volume < 0 ? -1 : 1;
     result.sealed_volume *= sign;
-    // Faces are compared in parallel: a large one that runs on one thread overlaps with others.
+    // Faces are compared in parallel, because a large face partly runs on one thread only.
     RunContext quiet;
     quiet.threads = context.threads;
     quiet.cancel = context.cancel;
@@ -153,7 +155,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
         FaceFidelity& face = compared[patch.face.index()];
         if (patch.quads.empty())
             face = left_out(model, skin, patch.face, limit_of(model, patch.face, options));
-        if (order > 1) face.quads /= 4; // of four quads each
+        if (order > 1) face.quads /= 4; // each quad was divided into four
         if (order > 1 && mesh != nullptr) face.side *= 2;
         face.entity = entity_of(model, patch.face);
         face.tag = model[patch.face].tag;

@@ -22,7 +22,8 @@ enum class Misfit {
     none,
     no_quads, ///< the face has no quads
     folded,   ///< a quad is inverted against the face
-    cut,      ///< nodes are off the face, or part of the face is off the quads: an edge is cut off
+    /// Nodes are off the face, or a part of the face is off the quads, such as an edge that they cut off.
+    cut,
     straight, ///< nodes are on the face, but the face curves between them
 };
 
@@ -33,51 +34,53 @@ struct FaceFidelity {
     int tag = 0;        ///< as shown to the user; void faces have tags of their own
     bool made_void = false;
     std::size_t quads = 0; ///< number of quads of the skin on the face
-    /// Maximum of both directions: quads to face, and face to its own quads [model length]. For a face
-    /// without quads its width: twice its area over the length of its rim.
+    /// The larger of the distances from the quads to the face and from the face to its quads [model length].
+    /// For a face without quads, its width: twice its area divided by the length of its rim.
     double max_distance = 0;
-    double mean_distance = 0;  ///< mean over the area, maximum of both directions [model length]
+    double mean_distance = 0;  ///< mean over the area, the larger of both directions [model length]
     Vec3 place = Vec3::Zero(); ///< place of the maximum distance
 
     Misfit misfit = Misfit::none;
-    double found = 0, allowed = 0; ///< where their ratio is largest [model length]
+    /// Distance found and allowed, where their ratio is largest [model length].
+    double found = 0, allowed = 0;
     Vec3 found_at = Vec3::Zero();
-    double side = 0; ///< longest side of a quad there; of `straight`, the deviating side [model length]
+    double side = 0; ///< longest side of a quad there; for `straight`, the side that deviates [model length]
     double source_side = 0;    ///< for `straight`: the corresponding side on the source [model length]
     bool along_layers = false; ///< for `straight`: that side runs from layer to layer
 };
 
 /// The proof of shape: the mesh's skin against the sealed skin.
 struct Fidelity {
-    double volume = 0;                          ///< volume of the mesh [model length³]
-    double sealed_volume = 0;                   ///< inside the sealed skin, with exact faces [model length³]
-    double max_distance = 0, mean_distance = 0; ///< over all faces [model length]
-    std::vector<FaceFidelity> faces;            ///< in the model's order
+    double volume = 0;        ///< volume of the mesh [model length³]
+    double sealed_volume = 0; ///< inside the sealed skin, with exact faces [model length³]
+    /// Volume inside the sealed skin, with exact faces [model length³].
+    double max_distance = 0, mean_distance = 0;
+    std::vector<FaceFidelity> faces; ///< in the model's order
 };
 
 struct FidelityOptions {
     /// Allowed distance between skin and face, >= 0 [model length]; 0: a quarter of the side of a quad there.
-    /// For comparison: sides that span a twelfth of a turn deviate by a fifteenth of their length, quads on a
-    /// sphere with such sides by an eighth, domes of coarse quads by up to 0.23.
+    /// For comparison: sides that span a twelfth of a turn deviate by a fifteenth of their length, quads with
+    /// such sides on a sphere by an eighth, and coarse quads on domes by up to 0.23.
     double max_deviation = 0;
-    /// Void faces between two volumes of an assembly: both have the same quads there, so their position does
-    /// not affect the whole. They may deviate by a whole side.
+    /// Void faces between two volumes of an assembly. They may deviate by a whole side, because both volumes
+    /// have the same quads there and the position of these quads does not affect the outer shape.
     std::set<FaceId> between{};
-    /// The requested size; null: none. Errors suggest a smaller one: sides may be up to a quarter longer than
+    /// The requested size; null: none. Errors suggest a smaller one. Sides may be up to a quarter longer than
     /// requested, so suggesting the same size again would not help.
     surface::SizeField size{};
 };
 
 /// Compare the skin of a mesh with the sealed skin, face by face.
 ///
-/// Nodes, midpoints of sides and centres of the quads of a face's patch are compared with the face; corners,
-/// midpoints of sides and centres of the face's facets with the patch. Faces with an exact surface are
-/// represented by quadratic patches over their facets (`surface::FaceShape`), whose error is of higher order
-/// than that of straight sides. If every patch lies on its face, no quad is inverted and the skin is closed,
-/// then it covers each face once; so an omitted face, a quad on a wrong face and a fold are found even if no
-/// distance shows them.
-/// @param faces   of each patch of the mesh.
-/// @param kept    faces whose own quads are the mesh; they are exact, and not compared.
+/// The quads of a face's patch are compared with the face at their nodes, midpoints of sides and centres. The
+/// face is compared with the patch at its facets' corners, midpoints of sides and centres. Faces with an
+/// exact surface are represented by quadratic patches over their facets (`surface::FaceShape`), whose error
+/// is of higher order than that of straight sides. If every patch lies on its face, no quad is inverted and
+/// the skin is closed, then the skin covers each face once. This finds an omitted face, a quad on a wrong
+/// face and a fold even if no distance shows them.
+/// @param faces   face of each patch of the mesh.
+/// @param kept    faces whose own quads are kept; they are exact and not compared.
 /// @param volume_of_mesh  of the hexahedra, as measured already [model length³].
 /// @param layers  generator of the nodes of a mesh that does not hold them; null: it holds them.
 /// @throw Cancelled
@@ -92,14 +95,15 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::TetPart& mesh,
                  const std::vector<FaceId>& faces, double volume_of_mesh, const FidelityOptions& options = {},
                  const RunContext& context = {});
 
-/// Describe the face that exceeds the allowed distance most: its name, the place, the distance found and
-/// allowed, and for straight sides on a bend the size, or the number of layers, that reduces their sag to the
-/// allowed distance. Nothing if no face exceeds it.
+/// Describe the face that exceeds the allowed distance most: its name, the place, and the distance found and
+/// allowed. For straight sides on a bend, suggest the size or the number of layers that reduces their sag to
+/// the allowed distance. Empty if no face exceeds it.
 std::optional<Message> misfit(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
 
-/// Check the total volume. This finds chords that pass the distance check although a face turns by a right
-/// angle over one side.
-/// @throw NotSweepable "sweep.deviation"  the mesh's volume differs from the sealed one by more than a fifth.
+/// Check the total volume. The distance check accepts chords over which a face turns by a right angle; this
+/// check finds them.
+/// @throw NotSweepable "sweep.deviation"  the mesh's volume differs from the sealed volume by more than a
+///         fifth.
 void require_volume(const Fidelity& fidelity, int layers);
 
 /// One line of text: volumes and distances, and the face with the largest distance.

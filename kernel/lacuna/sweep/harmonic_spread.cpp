@@ -15,8 +15,8 @@ namespace lacuna::sweep {
 
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
 {
-    // Offer each end of every side to the other end. Sides shared by two quads are offered twice; duplicates
-    // are removed.
+    // List each end of every side as a neighbour of the other end. A side of two quads is listed twice;
+    // duplicates are removed below.
     mesh::Incidence offered = mesh::incidence(nodes, [&](const auto& visit) {
         for (const Quad& quad : quads) {
             for (std::size_t i = 0; i < 4; ++i) {
@@ -58,7 +58,7 @@ std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> q
             const Index to = q[(i + 1) % 4];
             const double across = (middle - (at(from) + at(to)) / 2).norm();
             const double length = (at(to) - at(from)).norm();
-            // A quad without width, or a side without length, gives no ratio.
+            // A quad without width, or a side without length, has no such ratio.
             const double weight = across > 0 && length > 0 ? across / length : 0.5;
             add(from, to, weight);
             add(to, from, weight);
@@ -122,9 +122,9 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
 
 namespace {
 
-/// Forward and backward substitution and division by the diagonal, for a block of right-hand sides, row-major
-/// in the factor's order: kPacks packs of numbers. The result for one number does not depend on the size of
-/// the block.
+/// Forward substitution, division by the diagonal and backward substitution, for a block of right-hand sides,
+/// which is row-major in the factor's order with kPacks packs of numbers per row. The result for one number
+/// does not depend on the size of the block.
 template <int kPacks>
 LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, const double* diagonal,
                                    double* block)
@@ -139,8 +139,8 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
         for (int k = 0; k < kPacks; ++k) known[k] = row(j)[k];
         int p = begin[j];
         const int end = begin[j + 1];
-        // A column often has the same entries as the next one, plus one: both are then applied in one pass
-        // through memory. Subtractions keep the same order.
+        // A column often has the entries of the next column plus one more. Both are then applied in one pass
+        // through memory, with subtractions in the same order.
         if (p < end && inner[p] == j + 1 && end - p - 1 == begin[j + 2] - end) {
             Four next[kPacks];
             for (int k = 0; k < kPacks; ++k) row(j + 1)[k] = next[k] = row(j + 1)[k] - value[p] * known[k];

@@ -11,7 +11,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Exponent of the bias for the height of layer `layer`: 0 where the height is 1, 1 where it is the bias.
+/// Exponent of the bias in the height of layer `layer`: with 0 the height is 1, with 1 it is the bias.
 double exponent(const LayerSpec& spec, int layer)
 {
     if (spec.spacing == Spacing::geometric) {

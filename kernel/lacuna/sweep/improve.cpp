@@ -17,21 +17,24 @@ namespace lacuna::sweep {
 namespace {
 
 /// Smallest ε of the barrier, relative to a cell's volume. It bounds how flat cells may stay after
-/// untangling; smaller values make the energy stiff. Not measured.
+/// untangling. Smaller values make the minimisation ill-conditioned. Not measured.
 constexpr double kLeastEpsilon = 1e-3;
-/// Maximum number of untangling rounds, each with a smaller ε, and of rounds without gain. They bound the
-/// time for cells that cannot be unfolded. Not measured.
+/// Maximum number of untangling rounds, each with a smaller ε, and maximum number of rounds without gain.
+/// Both bound the time spent on cells that cannot be unfolded. Not measured.
 constexpr int kUntanglings = 40;
 constexpr int kPatience = 4;
-/// Share of the total shortfall that counts as a gain while untangling.
+/// Minimum decrease of the total shortfall, as a share of it, that counts as a gain while untangling.
 constexpr double kGain = 0.01;
-/// Exponent of the second stage in each round: low values weigh all poor corners, high ones only the worst.
+/// Exponent k in each round of the second stage: low values weigh all poor corners, high values only the
+/// worst.
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 /// Weight of the shape energy in the second stage: enough to keep lengths and to prevent folds.
 constexpr double kShapeShare = 1e-3;
-/// Minimum gain in the least scaled Jacobian, or in the share of the shortfall, that justifies moving nodes.
+/// Nodes are moved only if the minimum scaled Jacobian rises, or the total shortfall falls, by at least this
+/// share.
 constexpr double kWorthIt = 1e-4;
-/// Decrease of the mean scaled Jacobian that is accepted for a higher minimum; `improve()` promises it.
+/// Decrease of the mean scaled Jacobian that is accepted in return for a higher minimum; `improve()` promises
+/// it.
 constexpr double kMeanGivenUp = 0.01;
 
 class Improver {
@@ -82,15 +85,15 @@ private:
         return options_.deadline && options_.deadline->passed();
     }
 
-    /// Better: a higher minimum or, if it is unchanged, a smaller shortfall.
+    /// Whether a region is better: its minimum is higher or, with the same minimum, its shortfall is smaller.
     static bool is_better(const RegionQuality& found, const RegionQuality& before)
     {
         if (found.least > before.least + kWorthIt) return true;
         return found.least >= before.least && found.lacking < before.lacking * (1 - kWorthIt);
     }
 
-    /// One minimisation from `x`. Every iterate is judged with its sliding nodes projected back onto their
-    /// surfaces; the best one is kept.
+    /// One minimisation that starts from `x`. Every iterate is judged with its sliding nodes projected back
+    /// onto their surfaces; the best iterate is kept.
     void descend(Eigen::VectorXd& x, double mean_floor)
     {
         energy_.set_planes(x);
@@ -174,7 +177,7 @@ private:
 
     void optimise(bool was_folded)
     {
-        // The mean of a folded mesh is not worth keeping.
+        // If the mesh was folded, its mean need not be kept.
         const double floor = was_folded ? -1 : best_quality_.mean - kMeanGivenUp;
         Eigen::VectorXd x = variables(best_);
         for (const double sharpness : kSharpness) {

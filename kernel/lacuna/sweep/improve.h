@@ -29,7 +29,7 @@ private:
 
 struct ImproveOptions {
     double good_enough = 0.5; ///< cells with a smaller scaled Jacobian are worked on [-1, 1]
-    int rings = 2;            ///< rings of neighbours that move with them, >= 0
+    int rings = 2;            ///< rings of neighbours that are moved together with these cells, >= 0
     int iterations = 60;      ///< descent steps of each minimisation, >= 1
     double work = 4e7;        ///< maximum number of cell evaluations, > 0; about 20 seconds of one core
     double seconds = 0;       ///< no step begins after this time, >= 0; 0: only `work` limits
@@ -41,18 +41,22 @@ struct ImproveOptions {
 /// @throw InvalidInput  an option out of range; names it.
 void check(const ImproveOptions& options);
 
-/// The options with a time limit that their copies share, if there is any.
+/// The options with one time limit that all their copies share, if `seconds` is set.
 ImproveOptions with_deadline(ImproveOptions options);
 
-/// Skin nodes that may slide, each along the surface its face lies on.
+/// The nodes of the skin that may slide, each along the surface on which its face lies.
 struct Sliding {
-    std::vector<Index> surface; ///< for each node of the mesh; -1: inside, or fixed. Empty: no node slides
+    /// For each node of the mesh, the surface that it slides on; -1: it does not slide. Empty: no node
+    /// slides.
+    std::vector<Index> surface;
     std::function<void(Index surface, std::span<Vec3> points)> project; ///< moves the points onto that
                                                                         ///< surface
-    std::vector<char> held{}; ///< for each node of the mesh: it is fixed, also inside; empty: none
+    /// For each node of the mesh, whether it is fixed, even if it is inside; empty: none is.
+    std::vector<char> held{};
 };
 
-/// Two sides of a cell that are collinear or inverted because of fixed nodes: no free node can repair them.
+/// Two sides of a cell that are collinear or inverted because their nodes are fixed. No free node can repair
+/// them.
 struct StuckCorner {
     Index node = -1;
     std::array<Index, 2> to{-1, -1}; ///< the other ends of both sides
@@ -64,29 +68,30 @@ struct Improved {
     std::size_t moved = 0;                  ///< nodes that were free
     double before = 1, after = 1;           ///< minimum scaled Jacobian of those cells
     double mean_before = 1, mean_after = 1; ///< mean scaled Jacobian of those cells
-    bool untangled = false;                 ///< some were folded before
+    bool untangled = false;                 ///< whether some of those cells were folded before
     bool unfinished = false;                ///< stopped by the limit of work or time
-    bool won = false;                       ///< nodes were moved in the end
-    std::optional<StuckCorner> stuck{};     ///< set for a cell without volume; then nothing was tried
+    bool won = false;                       ///< whether nodes were moved in the end
+    /// Set if a cell has no volume because of fixed nodes; then nothing was tried.
+    std::optional<StuckCorner> stuck{};
 };
 
-/// Move nodes to unfold folded cells and improve poor ones. Nodes of edges are fixed, as are all nodes of the
-/// skin that may not slide.
+/// Move nodes to unfold folded cells and improve poor ones. Nodes on edges are fixed, and so are all nodes of
+/// the skin that may not slide.
 ///
-/// Two stages, both minimised over the poor cells and their neighbours by L-BFGS:
-/// 1. While a Jacobian is not positive: foldover-free maps (Garanzha et al. 2021). The energy is tr(JᵀJ)/χ^⅔
-///    and (1 + det²)/χ with χ = (D + √(ε² + D²))/2 at the eight corners of each cell; ε falls as the least
-///    determinant rises. A cell is measured against a box of its own mean edge lengths, so that thin layers
-///    stay thin.
-/// 2. Then the sum of exp(-k s) over the corners' scaled Jacobians s, whose heaviest terms are the worst
-///    corners, with k rising. A share of the first energy keeps the edges' lengths and is the barrier against
-///    folding.
+/// There are two stages. Each minimises an energy over the poor cells and their neighbours by L-BFGS:
+/// 1. While a Jacobian is not positive: foldover-free maps (Garanzha et al. 2021). The energy consists of the
+///    terms tr(JᵀJ)/χ^⅔ and (1 + D²)/χ at the eight corners of each cell, where D is the determinant of J and
+///    χ = (D + √(ε² + D²))/2. ε decreases as the smallest determinant grows. The reference shape of a cell is
+///    a box with the cell's own mean edge lengths, so that thin layers stay thin.
+/// 2. Then the sum of exp(-k s) over the scaled Jacobians s of the corners, with increasing k. The worst
+///    corners have the largest terms. A share of the first energy is added: it keeps the lengths of the edges
+///    and prevents folding.
 ///
-/// @post  the minimum scaled Jacobian is not smaller than before, nor is the mean by more than a hundredth if
-///        no cell was folded. Without improvement nothing is changed. A cell that fixed nodes keep poor does
-///        not block others: each is judged by the distance from its achievable quality. Sliding nodes lie on
-///        their surfaces.
-/// @throw InvalidInput  what `check()` refuses.
+/// @post  the minimum scaled Jacobian is not smaller than before. If no cell was folded, the mean is not
+///         smaller by more than a hundredth. Without improvement nothing is changed. A cell that fixed nodes
+///         keep poor does not block others, because each cell is judged by the distance from its achievable
+///         quality. Sliding nodes lie on their surfaces.
+/// @throw InvalidInput  an option that `check()` refuses.
 /// @note  Deterministic for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
 Improved improve(mesh::HexMesh mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},
                  const RunContext& context = {});

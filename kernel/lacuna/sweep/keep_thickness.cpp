@@ -21,13 +21,13 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of rounds of moves. Each round corrects the errors that the last round left where cells
+/// Maximum number of rounds of moves. Each round corrects errors that the previous round left where cells
 /// bend. Tapered, twisted and bulging walls never needed more.
 constexpr int kRounds = 8;
 /// A row has converged if its relative thickness error is below this: a tenth of the tolerance.
 constexpr double kMet = kThicknessOff / 10;
 
-/// Constraint of a node to heights over a wall, or over two walls where rows cross.
+/// The required height of a node over one wall; nodes where rows cross have two of these.
 struct Hold {
     std::size_t column;
     double height;
@@ -92,7 +92,7 @@ private:
         return tables_.heights[index(table)];
     }
 
-    // --- what there is ------------------------------------------------------------------------------
+    // --- inputs -------------------------------------------------------------------------------------
 
     void find_ends()
     {
@@ -160,8 +160,8 @@ private:
         return normal.stableNormalized();
     }
 
-    /// Mean of the unit normals of the walls at the base of a column. A height along this mean is the mean of
-    /// the heights over both walls.
+    /// Mean of the unit normals of the walls at the base of a column. The height along this mean normal is
+    /// the mean of the heights over both walls.
     [[nodiscard]] Vec3 normal_of(const RowColumn& column, std::size_t layer) const
     {
         const std::size_t n = parts_.size_of(column.link);
@@ -183,7 +183,7 @@ private:
         return normal.stableNormalized();
     }
 
-    // --- how far off --------------------------------------------------------------------------------
+    // --- errors of thickness ------------------------------------------------------------------------
 
     /// Thickness of row j over a column.
     [[nodiscard]] double thickness(const RowColumn& column, std::size_t j, std::size_t layer) const
@@ -311,7 +311,8 @@ private:
         return layer == 0 || (layer == layers_ && !parts_.target_edges.empty());
     }
 
-    /// Spread the moves of rims and rows over some layers: those whose inner edges hold nodes, or the others.
+    /// Spread the moves of rims and rows over some layers: those in which edges between faces hold nodes, or
+    /// the others.
     void spread_moves(const std::vector<Vec3>& before, bool with_edges)
     {
         std::vector<std::size_t> layers;
@@ -341,7 +342,7 @@ private:
         }
     }
 
-    /// Rows that end on edges between faces of an end: move their nodes along these edges.
+    /// Move nodes of rows that end on edges between faces of an end, along these edges.
     void slide_on_inner_edges()
     {
         for (const auto& [edge, chain] : parts_.source.on_edge) {
@@ -364,15 +365,14 @@ private:
         }
     }
 
-    /// Move a node within its layer to its required heights. It keeps the position along the rim that it has
-    /// on the source, and its current distance from the layer's plane. The initial position in a thin row is
-    /// ignored.
+    /// Move a node within its layer to its required heights. It keeps its distance from the layer's plane,
+    /// and along the rim it has the same position as on the source.
     void move_inside(std::size_t node, const std::vector<Hold>& holders, std::size_t layer)
     {
         const std::size_t holds = std::min<std::size_t>(holders.size(), 2);
         const RowColumn& own = columns_[holders[0].column];
         const Vec3& foot = at(layer, parts_.rim_node(own.link, own.node));
-        // The larger quads beyond the rows define the layer's normal.
+        // The layer's normal is taken at the last row, where quads are larger than in thin rows.
         const Vec3 up = layer_normal(index(own.nodes.back()), layer);
         const Vec3 raised = up * up.dot(at(layer, node) - foot);
         if (holds == 1) {
@@ -400,15 +400,15 @@ private:
         const double a = normal[0].dot(within[0]), b = normal[0].dot(within[1]), c = normal[1].dot(within[0]),
                      d = normal[1].dot(within[1]);
         const double det = a * d - b * c;
-        // Tangent walls with a smaller angle [radian] count as one; not measured.
+        // Two walls that form a smaller angle [radian] count as one wall; not measured.
         constexpr double kSameWay = 1e-3;
         if (!(a > 0 && det > kSameWay * a * d)) return;
         at(layer, node) += within[0] * ((d * off[0] - b * off[1]) / det) +
                            within[1] * ((a * off[1] - c * off[0]) / det);
     }
 
-    /// Move nodes of rows that end on other walls along the layer's rim to the required heights. The nodes
-    /// beyond them move in proportion.
+    /// Move nodes of rows that end on other walls to the required heights, along the layer's rim. The nodes
+    /// beyond the rows move in proportion.
     void slide_on_walls()
     {
         for (std::size_t b = 0; b < parts_.links.size(); ++b) {
@@ -422,7 +422,7 @@ private:
         }
     }
 
-    /// The column over a rim node whose first row node is the given neighbour; null: none.
+    /// The column over the rim node `foot` whose first row node is `next`; null: none.
     [[nodiscard]] const RowColumn* column_along(Index foot, Index next) const
     {
         for (const RowColumn& column : columns_) {
@@ -455,9 +455,9 @@ private:
     };
     using Places = std::map<std::size_t, double>;
 
-    /// Positions on a line of nodes, measured in its sides: of its ends, of nodes in `still`, and of nodes
-    /// with required heights over its start and end. Empty if there is no room; the final thickness check
-    /// reports that.
+    /// Positions on a line of nodes, in units of its sides: of its two ends, of the nodes in `still`, and of
+    /// nodes with required heights over its start or end. Empty if there is not enough room; the final check
+    /// of the thickness then reports it.
     [[nodiscard]] std::optional<Places> places_at(const std::vector<Vec3>& line,
                                                   const std::array<HeightsOver, 2>& ends,
                                                   const std::set<std::size_t>& still = {}) const
@@ -483,7 +483,7 @@ private:
         return place;
     }
 
-    /// Positions of nodes where rows over columns at both ends of a line end.
+    /// Positions on a line for the nodes of rows that end there, over the columns at both ends of the line.
     [[nodiscard]] std::optional<Places> row_places(const std::vector<Vec3>& line, std::size_t layer,
                                                    const RowColumn* low, const RowColumn* high) const
     {
@@ -493,8 +493,8 @@ private:
         return places_at(line, {over(low), over(high)});
     }
 
-    /// Move the nodes between corners of the rim to new positions along it. Those of an end's rim lie on
-    /// exact edges.
+    /// Move the nodes between two corners of the rim to new positions along it. On the rim of an end they
+    /// stay on the exact edges.
     void move_along(std::size_t b, std::size_t first, std::size_t layer, const std::vector<Vec3>& line,
                     const std::vector<std::pair<std::size_t, double>>& moved)
     {
@@ -540,7 +540,8 @@ private:
                 const FaceId face = faces[index(around.front())];
                 const bool one = std::ranges::all_of(around,
                                                      [&](Index q) { return faces[index(q)] == face; });
-                // The facets of a void end do not reach the curved rim everywhere.
+                // Facets of a void end do not reach its curved rim everywhere, so nodes of rows are not
+                // projected onto them.
                 const bool near_rim = model_[face].origin == Origin::made_void &&
                                       row_nodes_.contains(static_cast<Index>(node));
                 if (one && !near_rim && model_[face].kind != "plane") on_face[face].push_back(node);
@@ -574,7 +575,8 @@ private:
         put_on_walls();
     }
 
-    /// Project nodes on walls that moved along their columns back onto the walls and the edges between them.
+    /// Nodes on walls moved along their columns: project them back onto the walls and the edges between
+    /// walls.
     void put_on_walls()
     {
         std::map<std::pair<FaceId, std::size_t>, std::vector<std::size_t>> on_wall;
@@ -615,7 +617,8 @@ private:
     std::vector<std::vector<char>> still_column_;
     std::set<std::size_t> still_layers_;
     mesh::Incidence quads_at_;
-    std::array<std::optional<HarmonicSpread>, 2> spread_; ///< over layers without inner edges, and with them
+    /// One for layers without inner edges, one for layers with them.
+    std::array<std::optional<HarmonicSpread>, 2> spread_;
     std::map<FaceId, surface::Projector> projectors_;
 };
 

@@ -9,8 +9,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Matrix columns that multiply a node, in order of addition: for x and y the first, second and third; for z
-/// the second, third and first. The last number is unused.
+/// Columns of a matrix that are multiplied with a node and added in this order: the first, second and third
+/// for x and y; the second, third and first for z. The fourth number is unused.
 struct Columns {
     Four column[3];
 };
@@ -31,7 +31,7 @@ struct Layer {
 };
 using Layers = std::array<Layer, HarmonicSpread::kFields>;
 
-/// Factors of the columns.
+/// The factors with which the columns are multiplied.
 struct Factors {
     Four first, second, third;
 
@@ -44,7 +44,7 @@ struct Factors {
     }
 };
 
-/// Residuals are stored in another order than nodes, so they are prefetched.
+/// Prefetch residuals, which are stored in another order than nodes.
 LACUNA_INLINE const double* residual_of(const HarmonicSpread::Fields* residuals, std::size_t i,
                                         std::size_t end)
 {

@@ -68,7 +68,7 @@ mesh::LayeredNodes laid_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<co
     return laid;
 }
 
-/// The cells of a plan, without nodes.
+/// The cells of a plan's mesh, without node positions.
 mesh::HexMesh cells_of(const LayerPlan& plan)
 {
     mesh::HexMesh mesh = cells_over(plan.source, plan.columns.layers);
@@ -100,7 +100,7 @@ struct Curved {
     }
 };
 
-/// Nodes including the plan's middle nodes.
+/// The layers of `nodes`, with the plan's middle nodes added.
 mesh::LayeredNodes curved_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<const LayerPlan>& plan,
                                 const RunContext& context)
 {
@@ -113,7 +113,7 @@ mesh::LayeredNodes curved_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<
     return nodes;
 }
 
-/// The share of one process of a team.
+/// Measure the share of the layers that belongs to one process of a team.
 LayersFound find_in_share(const PlacedLayers& layers, double least, const Team* team,
                           const RunContext& context)
 {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Before the rim residual is spread, every inner layer is (1 - h) · A(source node) + h · B(target node), with
-// h the layer's height, and A and B the affine maps from the source's and the target's rim to the layer's
-// rim. If the rims are related by an affine motion, both terms agree and the sum is that motion.
+// Before the rim residual is spread, every inner layer is (1 - h) · A(source node) + h · B(target node). Here
+// h is the relative height of the layer, and A and B are the affine maps that take the rim of the source and
+// the rim of the target to the rim of the layer. If an affine motion relates the rims, both terms agree and
+// the sum is that motion.
 #include <lacuna/sweep/detail/layer_placer.h>
 
 #include <lacuna/core/error.h>
@@ -19,7 +20,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Relative height of each layer, as the mean over the columns of the length below it.
+/// Relative height of each layer: the share of a column's length below the layer, averaged over the columns.
 std::vector<double> mean_heights(const RimColumns& columns)
 {
     const auto layers = index(columns.layers);
@@ -31,7 +32,7 @@ std::vector<double> mean_heights(const RimColumns& columns)
             const std::size_t at = l * columns.rim.size() + k;
             length[l] = length[l - 1] + (columns.points[at] - columns.points[at - columns.rim.size()]).norm();
         }
-        if (!(length[layers] > 0)) continue; // source and target share this vertex
+        if (!(length[layers] > 0)) continue; // source and target share this node
         ++counted;
         for (std::size_t l = 1; l <= layers; ++l) heights[l] += length[l] / length[layers];
     }
@@ -147,7 +148,7 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
         return true;
     });
     const NodeGraph graph = node_graph(source_.quads, source_.nodes.size());
-    // Both ends are used, so that the result does not depend on which one is the source.
+    // Both ends contribute, so that the result does not depend on which one is the source.
     const std::array<std::span<const Vec3>, 2> ends{source_.nodes, target_};
     std::array<std::vector<double>, 2> weights;
     parallel_each(context, 2, 1,
@@ -187,7 +188,7 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
             });
         });
     } else {
-        // A chunk of both ends takes 24 kB, which stays in the first-level cache while all its layers are
+        // A chunk of both ends takes 24 kB. It stays in the first-level cache until all its layers are
         // written.
         constexpr std::size_t kChunk = 512;
         parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {

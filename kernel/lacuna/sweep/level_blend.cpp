@@ -29,8 +29,8 @@ LevelBlend::LevelBlend(const mesh::HexMesh& mesh)
 {
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads, mesh.nodes_per_layer);
     std::vector<std::uint8_t> seen(mesh.middles.sides.size(), 0);
-    // Directions of sides follow the direction of their quads. A side has the opposite direction in the
-    // neighbouring quad, so directions stay parallel from quad to quad.
+    // A side is directed as in its quad. The neighbouring quad has the side in the opposite direction, so it
+    // is reversed there, and directions stay parallel from quad to quad.
     const auto walk = [&](std::size_t start) {
         const std::size_t begin = steps_.size();
         bool closed = false;
@@ -60,7 +60,7 @@ LevelBlend::LevelBlend(const mesh::HexMesh& mesh)
                 walk(side);
 }
 
-/// Call `take` for each side of a chord with known sides, with its blended bend in local coordinates.
+/// For each chord with known sides, call `take` for its sides with the blended bend in local coordinates.
 template <class Take>
 void LevelBlend::each_chord(const Vec3* nodes, const std::vector<std::uint8_t>& known,
                             const std::vector<Vec3>& bend, const Take& take) const

@@ -19,11 +19,11 @@ using namespace topology;
 
 namespace {
 
-/// Maximum corner angle of a quad on either end; nodes with a larger one are moved inward. Not measured.
+/// Maximum corner angle of a quad on either end. It decides how many quads meet at a rim node. Not measured.
 constexpr double kWidest = 150 * kDegree;
-/// Differences between an angle and the angle that right-angled quads would fill; near 45° one quad fewer
-/// fits. A node whose difference exceeds the first value is moved inward until it is below the second. Not
-/// measured.
+/// Amounts by which the angle at a node of the mean outline may be smaller than the right angles of its
+/// quads. From 45° on, one quad fewer would be made. A node that lacks more than the first value is moved
+/// inward until it lacks the second. Not measured.
 constexpr double kMayLack = 40 * kDegree, kLacks = 30 * kDegree;
 
 /// Interior angle at b [0, 2 π); the region lies to the left of a, b, c.
@@ -59,7 +59,7 @@ FlatRims flat_rims(const mesh::QuadMesh& source, const RimColumns& columns)
     return rims;
 }
 
-/// Move nodes of a loop inward if their quads would have too large angles on one of the ends.
+/// Move nodes of a loop inward where the mean outline has less room than the larger angle of both ends needs.
 void draw_in(const std::vector<Index>& loop, FlatRims& rims)
 {
     const std::size_t n = loop.size();
@@ -92,7 +92,7 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     const std::vector<FaceId> faces = volume.faces(Role::source);
     if (faces.size() != 1 || volume.faces(Role::target).size() != 1)
         throw NotSweepable(refusal("an end has several faces"));
-    // Only the rim nodes, numbered like the columns.
+    // The region consists of the rim nodes only, numbered like the columns.
     FlatRims rims = flat_rims(source.quads, columns);
     quads::PlanarRegion region;
     double largest = 0;

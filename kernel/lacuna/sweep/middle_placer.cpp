@@ -34,7 +34,7 @@ SkinPlaces::SkinPlaces(const mesh::HexMesh& mesh) : layers_(index(mesh.layers))
 /// The corner nodes of some levels, generated if the mesh does not hold them.
 class MiddlePlacer::Corners {
 public:
-    /// Levels [first, last).
+    /// Corner nodes of levels [first, last).
     Corners(const mesh::SkinNodes& all, int first, int last, const RunContext& context)
         : row_(index(all.mesh.nodes_per_layer)), first_(first)
     {
@@ -83,7 +83,8 @@ std::vector<Vec3> MiddlePlacer::bends_of_end(int level, const Vec3* nodes) const
     return bends;
 }
 
-/// The position of a level between the ends follows from the means of its nodes.
+/// Blend the bends of the ends over the levels. A level's relative position follows from the mean of its
+/// nodes.
 void MiddlePlacer::blend_ends(const RunContext& context)
 {
     for (const int level : {0, mesh_.layers}) {
@@ -115,12 +116,13 @@ void MiddlePlacer::blend_ends(const RunContext& context)
     share_.back() = 1;
 }
 
-/// Compute the bends of the walls' columns beyond their cubics.
+/// Compute the bends of the walls' columns minus those of their cubics.
 void MiddlePlacer::bend_columns(const RunContext& context)
 {
     std::vector<Index> rim;
     for (const Segment& side : mesh_.rim) rim.push_back(side[0]);
-    double most = 0, left = 0; // maximum bend of the rim's columns over the side, and without their cubics
+    // Maximum bend of the rim's columns relative to the side: in all, and without the cubics.
+    double most = 0, left = 0;
     beyond_.resize(index(mesh_.layers) * rim.size());
     for (int l = 0; l < mesh_.layers; ++l) {
         for (std::size_t k = 0; k < rim.size(); ++k) {
@@ -152,7 +154,7 @@ void MiddlePlacer::place(int first, int last, std::span<Vec3> out, const RunCont
     const Corners corners(corners_, low.first, std::max(high.first + high.count, last + 1), context);
     const std::size_t period = places_.side(1, 0), on_level = places_.upright(0, 0);
     const auto layers = index(last - first);
-    // Call `visit` for a level or a layer, whose nodes begin `skip` after the level below.
+    // Call `visit` for each level or layer; its nodes begin `skip` places after those of its lower level.
     const auto each = [&](std::size_t count, std::size_t skip, const auto& visit) {
         parallel_each(context, count, 1,
                       [&](std::size_t i) { visit(first + static_cast<int>(i), &out[i * period + skip]); });

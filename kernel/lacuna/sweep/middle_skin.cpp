@@ -17,7 +17,7 @@ using namespace topology;
 
 namespace {
 
-/// A side of the skin, and the patches of the two quads adjacent to it.
+/// A side of the skin. Its two quads may lie in different patches.
 struct SkinSide {
     std::size_t place = 0; ///< index of its middle node
     Index from = 0, to = 0;
@@ -49,7 +49,7 @@ std::vector<SkinSide> skin_sides(const mesh::HexMesh& mesh)
     return sides;
 }
 
-/// Whether the given quads of a face are those of the skin.
+/// Whether the skin has the given quads of a face.
 bool keeps_quads(const Face& face) { return face.keeps_nodes && !face.given_quads.empty(); }
 
 class SkinPlacer {
@@ -147,7 +147,7 @@ private:
                 skin_.set(side.place, Middle::settled);
     }
 
-    /// A corner by its level and source node.
+    /// The corner node over source node `node` on a level.
     [[nodiscard]] Vec3 corner(int level, Index node) const
     {
         return corners_[level * mesh_.nodes_per_layer + node];
@@ -178,8 +178,8 @@ private:
             if (known[s] == 0) skin_.node(place(s)) = between(s) + bends[s];
     }
 
-    /// Sides along the rows of walls: blend the bends of known rows above and below, in frames that rotate
-    /// with the wall.
+    /// Place sides along the rows of walls: their bend is blended from known rows above and below, in frames
+    /// that rotate with the wall.
     void blend_rows()
     {
         const auto levels = index(mesh_.layers) + 1;
@@ -230,7 +230,7 @@ private:
             }
     }
 
-    /// @param ends  true: faces of source and target; false: walls.
+    /// @param ends  whether to project onto the faces of source and target; otherwise onto walls.
     void project(bool ends)
     {
         const std::size_t first_on_walls = places_.upright(0, 0);
@@ -260,8 +260,8 @@ private:
         return found;
     }
 
-    /// Place the centres of the skin's quads: as given, or from the middles of their sides, projected if the
-    /// face requires it.
+    /// Place the centres of the skin's quads: given centres, or the means from the middles of their sides,
+    /// projected if the face requires it.
     void place_centres()
     {
         const std::vector<Vec3> given = given_centres();

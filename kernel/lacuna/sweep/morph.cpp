@@ -15,11 +15,11 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A worst quad that is worse than the source's by at most this much counts as equal. A higher value smooths
-/// less often. Not measured.
+/// A mesh counts as being as good as the source if its worst quad is worse by at most this. A higher value
+/// smooths less often. Not measured.
 constexpr double kSameQuality = 0.01;
-/// Share of the source's worst quad below which the morphed mesh counts as bad, and other starting positions
-/// are tried. Not measured.
+/// If the worst quad of the morphed mesh is below this share of the source's worst quad, other starting
+/// positions are tried. Not measured.
 constexpr double kStandsUp = 0.5;
 
 /// The mesh's graph, and its factorisation with the rim fixed.
@@ -35,7 +35,7 @@ struct Spreader {
     {
     }
 };
-/// Creates it on first use: affine images on planes need none.
+/// Returns the spreader, which is created on first use: affine images on planes need none.
 using AskSpreader = std::function<const Spreader&()>;
 
 struct Guess {
@@ -50,7 +50,7 @@ void put_rim(const RimColumns& columns, std::vector<Vec3>& nodes)
     for (std::size_t k = 0; k < high.size(); ++k) nodes[index(columns.rim[k])] = high[k];
 }
 
-/// The source mapped by `base`. The distance of the mapped rim from its required position is spread
+/// The source mapped by `base`. The distance of each mapped rim node from its required position is spread
 /// harmonically over the inside.
 std::vector<Vec3> image_by(const std::function<Vec3(const Vec3&)>& base, const mesh::QuadMesh& source,
                            const RimColumns& columns, const AskSpreader& spreader, const RunContext& context)
@@ -109,8 +109,8 @@ double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
     return largest;
 }
 
-/// The shape of a membrane under pressure that is spanned by the rim; its height is the rim's radius. Empty
-/// if the rim encloses no area.
+/// A membrane that is spanned by the rim and bulges under pressure; its height is the rim's radius. Empty if
+/// the rim encloses no area.
 std::vector<Vec3> membrane(const mesh::QuadMesh& source, const RimColumns& columns,
                            const AskSpreader& spreader)
 {
@@ -127,7 +127,7 @@ std::vector<Vec3> membrane(const mesh::QuadMesh& source, const RimColumns& colum
     return bulge;
 }
 
-/// Smooth the mesh until the worst quad is good enough; the best mesh found.
+/// Smooth the mesh until its worst quad is good enough. @return  the best mesh found
 Candidate smoothed(const mesh::QuadMesh& source, const AskSpreader& spreader,
                    std::span<const Index> free_nodes, const SurfaceProjector& project, double good_enough,
                    Candidate found, const RunContext& context)
@@ -157,7 +157,8 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
     result.worst_source = worst_quad(source.quads, source.nodes, context);
     result.report = guess.affine ? "affine image of the source" : "fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes, context)};
-    // Quality lost by an affine map is due to the rims; smoothing can improve only the rest.
+    // If the map of the rims is affine, the quality it costs is due to the rims; smoothing can regain only
+    // the rest.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
     if (project && !free_nodes.empty()) {
         Candidate projected{guess.nodes, -1};
@@ -182,20 +183,20 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
             start = std::move(unprojected);
             result.report += words;
         };
-        // Start from the source displaced like its rim. This suits a skin far from its rims, such as a bent
-        // tube swept through its thickness, where an affine fit of the rims alone is meaningless.
+        // Start from the source, displaced like its rim. This suits a skin far from its rims, such as a bent
+        // tube swept through its thickness. An affine fit of the rims alone means nothing there.
         if (before < good_enough && !guess.affine)
             start_from(image_by([](const Vec3& p) { return p; }, source, columns, spreader, context),
                        ", from the source moved with its rim");
-        // Start from the harmonic image, in which every inner node is the weighted mean of its neighbours. It
-        // maps raised parts of the source (pockets, bosses, steps) side by side, where an affine map would
-        // overlap them.
+        // Start from the harmonic image, in which every inner node is the weighted mean of its neighbours. In
+        // this image, raised parts of the source (pockets, bosses, steps) lie side by side; in an affine one
+        // they would overlap.
         if (found.worst < kStandsUp * good_enough && !columns.rim.empty())
             start_from(
                 image_by([](const Vec3&) { return Vec3(Vec3::Zero()); }, source, columns, spreader, context),
                 ", from its harmonic image");
-        // Start from a membrane. For a deep bowl above a flat rim, the points closest to a flat start crowd
-        // at the rim.
+        // Start from a membrane. In a deep bowl above a flat rim, the points of the surface that are closest
+        // to a flat start crowd at the rim.
         if (found.worst < kStandsUp * good_enough) {
             const std::vector<Vec3> flat = start, bulge = membrane(source, columns, spreader);
             for (const double height : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0}) {

@@ -18,7 +18,7 @@ using namespace topology;
 
 namespace {
 
-/// Target positions of nodes that are known before any face is filled; empty for others.
+/// Target positions of the source nodes that are known before any face is filled; empty for other nodes.
 std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source, const RimColumns& columns,
                                               const surface::Seeds& seeds, const surface::Imprint& imprint)
 {
@@ -29,7 +29,7 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
         std::vector<double> at = moved != source.moved_on_edge.end() ? moved->second : seeds.fractions(edge);
         for (double& f : at) {
             f = image.from + f * (image.to - image.from);
-            if (f < 0 || f > 1) f -= std::floor(f); // past the start of a closed edge
+            if (f < 0 || f > 1) f -= std::floor(f); // the position lies past the start of a closed edge
         }
         const std::vector<Vec3> points = surface::edge_points(imprint.volume->model, image.target, at);
         for (std::size_t i = 0; i < nodes.size(); ++i) places[index(nodes[i])] = points[i];

@@ -22,29 +22,30 @@ using namespace topology;
 
 namespace {
 
-/// A gap wider than this share of the smaller member is intended, whatever the tolerance: half of the largest
-/// tolerance a model can have. A higher value reports more intended gaps. Not measured.
+/// A gap wider than this share of the smaller member is intended, whatever the tolerance. The value is half
+/// of the largest tolerance that a model can have. A higher value reports more intended gaps. Not measured.
 constexpr double kWidest = 5e-3;
-/// Minimum share of the area within four windows that is also within one window. Faces that diverge linearly
-/// have a quarter; faces that curve away from a contact have a half.
+/// Minimum share of the area closer than four windows that is also closer than one window. Between faces that
+/// diverge linearly the share is a quarter; between faces that curve away from a contact it is a half.
 constexpr double kStaysNear = 0.6;
-/// Minimum share of a face, or of an edge, that is near the other member. A smaller share counts only if the
-/// overlap is wider on average than the window, or longer than `kCorner` windows along an edge.
+/// Minimum share of a face, or of an edge, that is near the other member. A smaller part counts only if it is
+/// wider on average than the window or, along an edge, longer than `kCorner` windows.
 constexpr double kPart = 0.05;
-/// Vertices of two rims correspond if their distance is at most this factor times the distance of the rims.
-/// At corners of 30°, vertices are twice as far apart as the sides.
+/// Vertices of two rims correspond if their distance is at most this many times the distance of the rims. At
+/// corners of 30°, vertices are nearly four times as far apart as the sides.
 constexpr double kCorner = 4;
-/// If more than this share of the contact area is apart, the faces are joined only in part.
+/// If more than this share of the area within the window is not within the tolerance, the faces coincide only
+/// in part.
 constexpr double kApart = 0.05;
-/// If a face covers part of another, its corners are moved onto that face and along its rim, each within the
-/// tolerance. The total may reach √2 times the tolerance.
+/// Factor on the tolerance for parts that were split off faces: corners were moved onto the other face and
+/// along its rim, each time within the tolerance, so the total may reach √2 times the tolerance.
 constexpr double kLaid = 1.5;
-/// A face lies entirely over another if at least this share of it does.
+/// A face counts as covered entirely if at least this share of it is covered.
 constexpr double kWhole = 0.98;
-/// Sample points of an edge.
+/// Number of sample points on an edge.
 constexpr int kAsked = 64;
 
-/// Vertices of a face's rim, except starts of closed edges.
+/// Vertices of a face's rim, except those at which closed edges start.
 std::vector<Vec3> corners_of(const Model& model, FaceId face)
 {
     std::vector<Vec3> corners;
@@ -122,7 +123,7 @@ public:
         }
     }
 
-    /// Find edges of both members along faces of the other.
+    /// Find edges of either member that run along faces of the other.
     void find_edges(std::vector<NearMiss>& found, const RunContext& context)
     {
         find_edges(pair_.a, one_, pair_.b, other_, found, context);
@@ -146,7 +147,7 @@ private:
                overlap.b.within >= kPart * face_area(other_.volume->model, faces.second);
     }
 
-    /// Refuse faces that coincide in part and are slightly apart elsewhere.
+    /// Refuse two faces that coincide in part and are slightly apart elsewhere.
     void refuse_parted(const Faces& faces, const FaceOverlap& overlap) const
     {
         if (is_curved(faces) || overlap.a.within - overlap.a.on <= kApart * overlap.a.within) return;
@@ -180,7 +181,7 @@ private:
         miss.message = message_of(miss, "assembly.near_miss", "");
     }
 
-    /// @param more  appended to the text.
+    /// @param more  text that is appended to the message.
     [[nodiscard]] Message message_of(const NearMiss& miss, const char* code, const char* more) const
     {
         const bool of_b = miss.edge && miss.edge_of == miss.b;
@@ -260,7 +261,7 @@ private:
         }
     }
 
-    /// Whether a face of the member is close to one of the other member.
+    /// Whether a near miss was found between this face and a face of the other member.
     [[nodiscard]] bool is_near(std::size_t member, FaceId face) const
     {
         return std::ranges::any_of(near_, [&](const Faces& faces) {
@@ -271,7 +272,8 @@ private:
     const NearPair& pair_;
     const AssemblyMember &one_, &other_;
     std::span<const std::vector<double>> sag_;
-    const std::vector<std::vector<bool>>& shared_; ///< for each face of the members: some member shares it
+    /// For each face of each member, whether it is shared with some member.
+    const std::vector<std::vector<bool>>& shared_;
     std::set<Faces> near_;
 };
 

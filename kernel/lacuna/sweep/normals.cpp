@@ -9,7 +9,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Smoothing passes over each layer: a compromise between even steps and the layer's shape. Not measured.
+/// Number of smoothing passes over each layer. More passes make quads more even but flatten the layer. Not
+/// measured.
 constexpr int kPasses = 5;
 
 /// Move every node that is not on the rim to the mean of its neighbours.

@@ -23,7 +23,7 @@ using surface::FaceNames;
 
 namespace {
 
-/// Rounding error of a rotated point, in grid steps: some ten operations on its coordinates.
+/// Rounding error of a rotated point, in steps of the grid: about ten operations act on its coordinates.
 constexpr double kRounding = 16;
 
 /// A face of a member.
@@ -32,14 +32,14 @@ struct MemberFace {
     FaceId face;
 };
 
-/// Faces of one side of a pair, and the edges around them.
+/// The faces of one side of a pair, and the edges around them.
 struct Side {
     std::vector<MemberFace> faces;
     std::vector<MemberEdge> edges;
     std::vector<Vec3> marks;    ///< ends and middles of edges, centres of closed ones
     Vec3 centre = Vec3::Zero(); ///< mean point of the edges
     Vec3 normal = Vec3::Zero(); ///< sum of the area vectors
-    double area = 0, reach = 0; ///< largest distance of a mark from the centre
+    double area = 0, reach = 0; ///< total area; largest distance of a mark from the centre
 };
 
 bool is_equal(const surface::PeriodicPair& a, const surface::PeriodicPair& b)
@@ -51,7 +51,7 @@ bool is_equal(const surface::PeriodicPair& a, const surface::PeriodicPair& b)
            (!a.onto || a.onto->matrix() == b.onto->matrix());
 }
 
-/// A request and the members with it.
+/// A requested pair, and the members that request it.
 struct Request {
     surface::PeriodicPair pair;
     std::vector<std::size_t> members;
@@ -190,7 +190,7 @@ private:
         return best;
     }
 
-    /// A smaller angle or, of equal angles, a smaller shift along the axis.
+    /// Whether motion `a` has a smaller angle than `b` or, with equal angles, a smaller shift along the axis.
     static bool is_less(const Isometry3d& a, const Isometry3d& b)
     {
         const Eigen::AngleAxisd x(a.linear()), y(b.linear());
@@ -198,7 +198,8 @@ private:
         return std::abs(x.axis().dot(a.translation())) < std::abs(y.axis().dot(b.translation()));
     }
 
-    /// Rotations that take the centre and the normal to the other side's centre and reversed normal.
+    /// The rotations that take centre and normal of the first side to the centre and the reversed normal of
+    /// the other.
     [[nodiscard]] std::vector<Isometry3d> rotations() const
     {
         std::vector<Isometry3d> found;
@@ -214,8 +215,8 @@ private:
             found.push_back(motion);
         };
         add(tilt);
-        // Take the mark farthest from the axis (the normal through the centre) to each mark at the same
-        // distance from its axis.
+        // Each axis is the normal through the centre. Take the mark farthest from the first axis to every
+        // mark that is equally far from the other axis.
         const auto across = [](const Vec3& p, const Vec3& centre, const Vec3& normal) {
             return Vec3(p - centre - normal * normal.dot(p - centre));
         };
@@ -231,8 +232,8 @@ private:
         return found;
     }
 
-    /// Fit a motion to pairs of edges: the ends and centres of edges, and those of their images under the
-    /// given motion. Empty unless the result maps all edges.
+    /// Fit a motion to pairs of edges, by the ends and centres of edges and of their images under the given
+    /// motion. Empty unless the result maps all edges.
     std::optional<Isometry3d> refined(Isometry3d motion, bool turns)
     {
         std::vector<std::size_t> image = rough_images(motion);
@@ -250,10 +251,11 @@ private:
             points.push_back({own.to, along ? other.to : other.from});
         }
         if (!turns) {
-            // The difference of two vertices is exact more often than the difference of means.
+            // The difference of two vertices is exact more often than the difference of two means.
             motion.translation() = points.front()[1] - points.front()[0];
         } else {
-            // If all points lie on one line or coincide, the turn is undetermined; the normal fixes it.
+            // If all points lie on one line or coincide, they leave the rotation undetermined; the normals
+            // fix it.
             const Vec3 tip = a_.reach * a_.normal.normalized(), other = -b_.reach * b_.normal.normalized();
             points.push_back({a_.centre + tip, b_.centre + other});
             points.push_back({a_.centre - tip, b_.centre - other});
@@ -264,12 +266,13 @@ private:
                 to.col(static_cast<Eigen::Index>(i)) = points[i][1];
             }
             const Eigen::Matrix4d fit = Eigen::umeyama(from, to, false);
-            if (count > 4) motion.matrix() = fit; // with fewer points the given turn is as accurate
+            // With fewer points the given motion is as accurate as the fit.
+            if (count > 4) motion.matrix() = fit;
         }
         if (!fits(motion)) return std::nullopt;
         return motion;
     }
-    /// As `images()`, for a motion that is not exact yet.
+    /// As `images()`, with a larger tolerance for a motion that is not exact yet.
     std::vector<std::size_t> rough_images(const Isometry3d& motion)
     {
         const double exact = tolerance_;
@@ -330,7 +333,7 @@ private:
         return pairs;
     }
 
-    /// Check that corners of facets lie on the other face, as near as facets are to their surfaces.
+    /// Check that corners of facets lie on the other face, as closely as facets lie on their surfaces.
     void compare(const MemberFace& a, const MemberFace& b, const Isometry3d& onto) const
     {
         const Face &face_a = model(a)[a.face], &face_b = model(b)[b.face];
@@ -379,9 +382,8 @@ double grid_of(std::span<const AssemblyMember> members)
             largest = std::max(largest, p.cwiseAbs().maxCoeff());
     int exponent = 0;
     std::frexp(largest, &exponent);
-    return std::ldexp(1.0, exponent + 3 - std::numeric_limits<double>::digits); // 3 bits: two for four times
-                                                                                // the coordinates, one for
-                                                                                // halves
+    // Three more bits than the coordinates need: two for four times the coordinates, and one for halves.
+    return std::ldexp(1.0, exponent + 3 - std::numeric_limits<double>::digits);
 }
 
 void tie_points(std::vector<Vec3>& places, const std::vector<char>& fixed, std::span<const Tie> ties,

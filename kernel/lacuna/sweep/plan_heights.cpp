@@ -20,21 +20,21 @@ using namespace topology;
 
 namespace {
 
-/// Number of points along each column at which the size is sampled. It decides how short a variation of the
-/// size is seen. Not measured.
+/// Number of points along each column at which the size is sampled; shorter variations of the size are
+/// missed. Not measured.
 constexpr int kSamples = 32;
 
 /// Number of chords that represent a column when its turning is measured: few enough to ignore local dents,
-/// enough to see the bends of a sweep. Not measured.
+/// and enough to resolve the bends of a sweep. Not measured.
 constexpr std::size_t kTurnChords = 8;
 
-/// Mean data of the columns between both rims.
+/// Values averaged over the columns between both rims.
 struct Columns {
     double length = 0;
     double turning = 0; ///< total turning from the source to the target [radian]
-    double sides = 0;   ///< number of layers by the size in the middle of each column
-    /// Layers required by the size from the source to evenly spaced positions; empty: the size is constant
-    /// along the sweep.
+    double sides = 0;   ///< number of layers that the size in the middle of each column requires
+    /// Numbers of layers that the size requires from the source up to evenly spaced positions; empty: the
+    /// size is constant along the sweep.
     std::vector<double> wanted;
 };
 
@@ -51,7 +51,7 @@ double turning_of(const std::vector<Vec3>& points)
     return sum * kTurnChords / (kTurnChords - 1);
 }
 
-/// @param middle  size at the middle of a column. @param size  size along the columns; null: not used.
+/// @param middle  size in the middle of a column. @param size  size along the columns; null: constant.
 Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                    const surface::SizeField& middle, const surface::SizeField& size,
                    const RunContext& context)
@@ -84,14 +84,14 @@ Columns columns_of(const OpenVolume& volume, const std::vector<surface::LinkingS
     return mean;
 }
 
-/// Layers required by the bends of the columns, with `curvature` layers for a full turn.
+/// Number of layers that the bends of the columns require, with `curvature` layers for a full turn.
 int bend_layers(const Columns& columns, const SweepOptions& options)
 {
     return static_cast<int>(std::ceil(columns.turning * options.curvature / kFullTurn - kCountSlack));
 }
 
-/// Layers about as high as the quads are wide, at least `least`. @throw InvalidInput  more layers than node
-/// numbers allow.
+/// Heights of at least `least` layers that are about as high as the quads are wide. @throw InvalidInput
+/// there are more layers than node numbers allow.
 std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int least)
 {
     if (!(columns.sides < std::numeric_limits<Index>::max() / 16.0)) {
@@ -104,7 +104,7 @@ std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int 
     return layer_heights(spec);
 }
 
-/// Number of sides wanted from the source up to a share of the columns' length.
+/// Number of layers that the size requires from the source up to a share of the columns' length.
 double wanted_at(const Columns& columns, double share)
 {
     const double at = share * kSamples;
@@ -139,7 +139,7 @@ std::vector<double> end_table(const OpenVolume& volume, const surface::LayerTabl
     return {};
 }
 
-/// Whether the heights that given meshes of walls prescribe already contain the boundary layers of the ends.
+/// Whether heights prescribed by given meshes of walls already contain the boundary layers of the ends.
 bool has_rows(const std::vector<double>& heights, const std::vector<double>& low,
               const std::vector<double>& high, double length)
 {
@@ -184,8 +184,9 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
     return heights;
 }
 
-/// Move the layer nearest to each corner of a path onto the corner, and the layers between in proportion.
-/// @throw NotSweepable  fewer layers than parts of the path.
+/// Move the layer nearest to each corner of a path onto this corner, and the layers between corners in
+/// proportion.
+/// @throw NotSweepable  there are fewer layers than parts of the path.
 std::vector<double> through_corners(const std::vector<double>& heights, const std::vector<double>& levels)
 {
     const std::size_t layers = heights.size() - 1, parts = levels.size() - 1;
@@ -210,7 +211,7 @@ std::vector<double> through_corners(const std::vector<double>& heights, const st
     return moved;
 }
 
-/// As plan_heights(), without corners of a path.
+/// As `plan_heights()`, but the corners of a path are ignored.
 PlannedHeights planned_heights(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links,
                                const surface::LayerTables& tables, const std::vector<double>& asked,
                                const SourceSize& sizes, const SweepOptions& options, int least,

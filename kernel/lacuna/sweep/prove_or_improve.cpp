@@ -19,8 +19,8 @@ using namespace topology;
 
 namespace {
 
-/// Skin nodes inside a face slide on it; nodes between faces are fixed, as are nodes of faces with given
-/// quads.
+/// For each node, the surface that it may slide on: skin nodes inside a face slide on the face. Nodes between
+/// faces and nodes of faces with given quads are fixed.
 std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
                                  const std::set<FaceId>& kept)
 {
@@ -37,7 +37,7 @@ std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<Fa
     return surface;
 }
 
-/// The edge that leads from a vertex towards a point; invalid: none.
+/// The edge that leads from a vertex towards a point; invalid if there is none.
 EdgeId edge_towards(const Model& model, VertexId vertex, const Vec3& to)
 {
     const Vec3 way = (to - model.at(model[vertex].point)).stableNormalized();

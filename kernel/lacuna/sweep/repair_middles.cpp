@@ -15,14 +15,15 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Limit of rounds over the invalid cells; each round may spoil neighbours that the next one repairs. Not
-/// measured.
+/// Maximum number of rounds over the invalid cells. Moves of one round may spoil neighbouring cells, which
+/// the next round repairs. Not measured.
 constexpr int kRounds = 4;
-/// Number of step lengths, each half the previous one: from a tenth of the side to 1/80 of it. Not measured.
+/// Number of step lengths. Each is half of the previous one, from a tenth of the side down to an eightieth.
+/// Not measured.
 constexpr int kSteps = 4;
 constexpr double kFirstStep = 0.1;
 
-/// Recompute the centres of a cell and its faces from the middles of their sides, except settled ones.
+/// Recompute the centres of a cell and its faces from the middles of their sides; settled centres stay.
 void place_centres(mesh::HexMesh& mesh, const SkinMiddles& skin, std::size_t cell)
 {
     const mesh::CellNodes nodes = mesh::cell_nodes(mesh, cell);
@@ -92,8 +93,8 @@ private:
         return least;
     }
 
-    /// Try the straight position, half the bend, then a search along the axes; keep the best for the worst
-    /// cell.
+    /// Try the straight position, half the bend, and then steps along the axes. Keep the position that is
+    /// best for the worst cell.
     void improve(std::size_t place, const std::vector<std::size_t>& cells, const Vec3& a, const Vec3& b)
     {
         Vec3& node = mesh_.middles.nodes[place];
@@ -112,7 +113,7 @@ private:
         if (!bend.isZero(0))
             for (const double share : {0.0, 0.5, 1.5}) offer(straight + share * bend);
         double step = kFirstStep * (b - a).norm();
-        // Unsettled middle nodes on the skin may only move back towards the straight side.
+        // Middle nodes on the skin that are not settled may only move back towards the straight side.
         for (int i = 0; i < kSteps && skin_.state(place) == Middle::inside; ++i, step /= 2)
             for (int d = 0; d < 6; ++d) offer(Vec3(best + (d % 2 == 0 ? step : -step) * Vec3::Unit(d / 2)));
         least(cells); // restores the centres
@@ -125,7 +126,7 @@ private:
     const mesh::Incidence at_side_ = mesh::quads_at_nodes(mesh_.middles.side_of, mesh_.middles.sides.size());
 };
 
-/// The largest share of a cell's bends with which it is valid [0, 1].
+/// The largest factor in [0, 1] on all bends of a cell for which the cell is valid.
 double valid_share(const std::array<Vec3, 27>& nodes)
 {
     const std::array<Vec3, 27> straight = mesh::as_hex27(std::span(nodes).first<8>());
@@ -139,7 +140,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
     return low;
 }
 
-/// Report the most bent side of the cell among those fixed by the skin.
+/// Refuse the mesh because of a cell: name the most bent of those sides of the cell that the skin fixes.
 [[noreturn]] void refuse(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
                          const std::vector<FaceId>& faces, const SkinMiddles& skin, std::size_t cell,
                          std::size_t count)
@@ -177,7 +178,8 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         face = entity_of(volume.model, faces[index(mesh::skin_quad(mesh, i).patch)]);
         break;
     }
-    // The relative bend of a side is proportional to its length; the suggested size is a tenth lower.
+    // The relative bend of a side is proportional to its length. The suggested size is a tenth smaller than
+    // needed.
     constexpr double kBelow = 0.9;
     const double share = kBelow * valid_share(quality::hex27_of(mesh, cell));
     constexpr std::size_t kFirstUpright = 16;
@@ -191,7 +193,7 @@ double valid_share(const std::array<Vec3, 27>& nodes)
         "The middle node of a side on {} must lie at {}, {:.2g} off a side of length {:.2g}",
         count, cells, own, layer, mesh.layers, face, place_in_short(mesh.node(index(nodes.node[*worst]))),
         found(most), side);
-    // If the straight cell is good, the bend is the cause, and the size that the bend requires will help.
+    // A smaller size helps only if the bend is the cause, that is, if the cell is good with straight sides.
     if (straight < kPoorCell)
         throw NotSweepable(std::move(refusal).remedy(
             "the cell is already poor with straight sides: its scaled Jacobian is {:.2g}", found(straight)));

@@ -22,20 +22,20 @@ using namespace topology;
 
 namespace {
 
-/// If at least this share of each face lies on the other, they are the same face, provided that their rims
-/// agree. Coarse chords of a rim leave parts of a flat face uncovered; facets of different fineness leave
-/// gaps next to the rim of a curved face.
+/// Two faces whose rims agree are the same face if at least this share of either lies on the other. Less than
+/// the whole may be covered, because coarse chords of a rim cut off parts of a flat face, and facets of
+/// different fineness leave gaps next to the rim of a curved one.
 constexpr double kMostly = 0.5;
-/// Faces that share a smaller fraction only touch along their rims.
+/// If the common part is a smaller share of the faces, they only touch along their rims.
 constexpr double kNothing = 1e-3;
-/// Points of one rim may be off the chords of the other by this factor times the sag of the chords, because
-/// the sag is an estimate.
+/// The sag of chords is an estimate, so points of one rim may be off the chords of the other by this many
+/// times the sag.
 constexpr double kRimSag = 1.5;
-/// Faces that touch along a rim and curve away from each other are within the facet error over less than this
-/// share of their area.
+/// Two faces that touch along a rim and curve away from each other are close, within the error of their
+/// facets, over less than this share of their area.
 constexpr double kAlongRim = 0.5;
-/// Points count as lying on a volume's skin within this share of its diagonal, because the facets of its
-/// curved faces and of the neighbour's may differ.
+/// A point counts as lying on a volume's skin within this share of the volume's diagonal, because facets of
+/// curved faces may differ from those of the neighbour.
 constexpr double kInside = 5e-3;
 /// A face prepared for comparison.
 struct Side {
@@ -48,7 +48,7 @@ struct Side {
     [[nodiscard]] const Face& face_data() const { return model()[face]; }
 };
 
-/// The points of a face's loops, as one chain each.
+/// The points of each of a face's loops, as a chain.
 std::vector<std::vector<Vec3>> chains_of(const Side& side)
 {
     std::vector<std::vector<Vec3>> chains;
@@ -60,7 +60,7 @@ std::vector<std::vector<Vec3>> chains_of(const Side& side)
     return chains;
 }
 
-/// Maximum distance of a rim from another.
+/// Maximum distance of a rim from another rim, and its place.
 struct RimOff {
     double distance = 0;
     Vec3 place = Vec3::Zero();
@@ -95,8 +95,8 @@ bool rim_lies_on(const Side& one, const Side& other, double tolerance)
 
 bool is_void(const Side& side) { return side.face_data().origin == Origin::made_void; }
 
-/// Whether faces in two boxes can share more than a line. This holds if the boxes, each widened by a limit,
-/// overlap.
+/// Whether the faces in two boxes can share more than a line, that is, whether the boxes overlap if each is
+/// widened by a limit.
 bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double limit)
 {
     const Vec3 common = (a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min())).array() + limit;
@@ -107,21 +107,21 @@ bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, doub
 struct InCommon {
     bool any = false, whole = false;
     double limit = 0; ///< maximum distance of the facets of the same surface
-    /// The reason to refuse the pair: a face that is shared in part or, if nothing is shared, overlapping
-    /// volumes.
+    /// The error for this pair: a face that is shared in part or, if no face is shared, overlapping volumes.
     std::optional<Message> refusal;
     bool same_side = false; ///< both volumes are on the same side of it
-    double apart = 0;       ///< for one common face: distance of the arcs of both rims
+    double apart = 0;       ///< if the faces are the same: distance between the arcs of both rims
     double sag = 0;         ///< maximum distance of the rims' chords from these arcs
 };
 
-/// One face in two members, whose rims may be apart. @return  whether they are the same face nevertheless
+/// Compare the rims of a face that two members share. @return  whether it is one face although the rims
+/// differ
 bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
                 double tolerance, double window, InCommon& common)
 {
     RimOff off = rim_off(one, other);
     const RimOff back = rim_off(other, one);
-    // A rim that was projected onto facets is as far off the curve as these facets.
+    // A rim that was projected onto facets is as far off its curve as these facets are.
     const double slack = std::max(tolerance + kRimSag * std::max(off.sag, back.sag), common.limit);
     if (back.distance > off.distance) off = back;
     if (off.distance <= tolerance) return true;
@@ -166,7 +166,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                      whole_other = face_area(other.model(), other.face);
         const double there = overlap->a.on / whole, back = overlap->b.on / whole_other;
         if (there <= kNothing && back <= kNothing) return {};
-        // The faces lie on both sides of one curve and approximate it by different chords.
+        // The two faces lie on opposite sides of one curve, which they approximate by different chords.
         if (std::max(there, back) < kMostly) {
             const double under = area_under_arcs(rim_chords(one.model(), one.face),
                                                  rim_chords(other.model(), other.face), tolerance);
@@ -204,7 +204,8 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
     return common;
 }
 
-/// Report rims that agree within the sag of their chords but do not lie on one curve; the gap is closed.
+/// Report a shared face whose rims agree within the sag of their chords but do not lie on one curve. The
+/// meshes have no gap there.
 NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFace& faces,
                 const InCommon& common, double area, double tolerance)
 {
@@ -228,10 +229,10 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
     return miss;
 }
 
-/// Facets of a volume whose midpoints are tested for lying inside another volume.
+/// Number of facets of a volume whose midpoints are tested for lying inside another volume.
 constexpr std::size_t kAsked = 64;
 
-/// The facets of a volume that has no free edges; of others, nothing.
+/// The facets of a volume, if it has no free edges; otherwise an empty tree.
 geometry::FacetTree closed_skin(const OpenVolume& volume)
 {
     std::vector<Triangle> facets;
@@ -242,8 +243,9 @@ geometry::FacetTree closed_skin(const OpenVolume& volume)
     return {volume.model.points, facets};
 }
 
-/// Refuse a volume if part of its skin is inside another by more than the facet error of both. An open volume
-/// has no inside and is not checked. @param skin_of_b  see `closed_skin()`; made when first needed
+/// Refuse a volume if part of its skin lies deeper inside another volume than the facet errors of both
+/// explain. An open volume has no inside and is not checked. @param skin_of_b  see `closed_skin()`; made when
+/// first needed
 void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
                  const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
                  std::span<const Side> sides_of_b, const Eigen::AlignedBox3d& box_of_b,
@@ -255,7 +257,7 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
     if (!skin_of_b) skin_of_b = closed_skin(*b.volume);
     const geometry::FacetTree& tree = *skin_of_b;
     std::vector<Triangle> own;
-    std::vector<double> sag; // sag of the face that each facet of `own` belongs to
+    std::vector<double> sag; // for each facet of `own`, the sag of its face
     for (const Side& side : sides_of_a) {
         own.insert(own.end(), side.face_data().triangles.begin(), side.face_data().triangles.end());
         sag.resize(own.size(), side.sag);
@@ -284,7 +286,7 @@ struct MemberSides {
     std::vector<Eigen::AlignedBox3d> box;
     std::vector<std::optional<geometry::FacetTree>> skin; ///< see `closed_skin()`; made when first needed
 
-    /// @param sag  of each member's first faces; the others' are added.
+    /// @param sag  of the first faces of each member; the sag of the other faces is appended.
     MemberSides(std::span<const AssemblyMember> members, std::vector<std::vector<double>>& sag)
         : sides(members.size()), box(members.size()), skin(members.size())
     {
@@ -318,8 +320,8 @@ struct MemberSides {
 
 } // namespace
 
-/// Facets that meet at an angle represent an arc that deviates from them by about an eighth of that angle
-/// times their height over the common side.
+/// Two facets that meet at an angle approximate an arc. The arc deviates from them by about an eighth of that
+/// angle times the height of a facet over the common side.
 double facet_sag(const Model& model, const Face& face)
 {
     double sag = 0;
@@ -428,7 +430,7 @@ std::vector<FaceContact> faces_in_contact(std::span<const AssemblyMember> member
             const bool hidden = covered[pair.a][faces.first.index()] != 0 ||
                                 covered[pair.b][faces.second.index()] != 0;
             if (touch ? a.glue == b.glue : hidden) continue;
-            // A strip along a common rim is none, unless it is most of a face.
+            // A strip along a common rim is no contact, unless it is most of one of the faces.
             const double limit = pair.tolerance + sag[pair.a][faces.first.index()] +
                                  sag[pair.b][faces.second.index()];
             const double strip = std::max(limit, pair.window) * overlap.box.diagonal().norm();

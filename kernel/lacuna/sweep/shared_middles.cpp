@@ -62,7 +62,7 @@ SharedMiddles::Key SharedMiddles::key_of(const Vec3& a, const Vec3& b)
     return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
 }
 
-/// The smallest corner and the opposite one.
+/// The smallest corner and the one opposite to it.
 SharedMiddles::Key SharedMiddles::key_of(const std::array<Vec3, 4>& corners)
 {
     const auto least = std::ranges::min_element(corners, before);

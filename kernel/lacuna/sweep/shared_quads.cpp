@@ -10,10 +10,10 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Places and their positions along an oblique line, sorted.
+/// The positions along an oblique line, sorted, each with the index of its place.
 std::vector<std::pair<double, Index>> along_line(std::span<const Vec3> places)
 {
-    // A direction that mesh rows are unlikely to have.
+    // Rows of a mesh are unlikely to have this direction.
     const Vec3 slanted = Vec3(1, 0.6180339887498949, 0.2720196495140690).normalized();
     std::vector<std::pair<double, Index>> line;
     for (const Vec3& p : places) line.emplace_back(slanted.dot(p), static_cast<Index>(line.size()));

@@ -15,7 +15,7 @@ using namespace topology;
 
 namespace {
 
-/// Measure the quads in the planes of their corners, and refuse one that folds there.
+/// Measure each quad in the plane of its corners, and refuse a quad that is folded there.
 void measure(const Model& model, ShellQuads& shell)
 {
     double sum = 0;
@@ -23,7 +23,7 @@ void measure(const Model& model, ShellQuads& shell)
         const mesh::CellNodes& quad = shell.quads[q];
         const std::size_t corners = quad.count;
         const auto at = [&](std::size_t k) { return shell.nodes[index(quad.node[k % corners])]; };
-        const Vec3 area = (at(2) - at(0)).cross(at(3) - at(1)) / 2; // of a triangle: at(3) is at(0)
+        const Vec3 area = (at(2) - at(0)).cross(at(3) - at(1)) / 2; // in a triangle, at(3) is at(0)
         double least = 1;
         for (std::size_t k = 0; k < corners; ++k) {
             const Vec3 next = at(k + 1) - at(k), last = at(k + corners - 1) - at(k);
@@ -108,11 +108,12 @@ ShellQuads shell_quads(const Model& model, const SweepOptions& options, const Ru
         shell.report.push_back(formatted("size: {:.2g} [model length] by default, {}",
                                          sizes.by_default->length, sizes.by_default->why));
     for (const std::string& note : source.notes) shell.report.push_back(note);
-    std::vector<std::size_t> order(source.quads.quads.size()); // by face: kept triangles stand last
+    std::vector<std::size_t> order(source.quads.quads.size()); // the order by faces; kept triangles are last
     for (std::size_t q = 0; q < order.size(); ++q) order[q] = q;
     std::ranges::stable_sort(order, {}, [&](std::size_t q) { return source.quads.face[q]; });
     for (const std::size_t q : order) {
-        const Quad quad = mesh::turned_over(source.quads.quads[q]); // its quads have normals into a volume
+        // Quads of a source have normals into the volume.
+        const Quad quad = mesh::turned_over(source.quads.quads[q]);
         mesh::CellNodes& own = shell.quads.emplace_back();
         own.count = mesh::corner_count(quad);
         std::copy_n(quad.begin(), own.count, own.node.begin());

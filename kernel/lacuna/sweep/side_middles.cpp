@@ -35,14 +35,14 @@ public:
         EdgeId edge;
         double fraction = 0; ///< share of its length
     };
-    /// The position halfway between two points on an edge between two faces. Empty if the faces have no
-    /// common edge, or if the side does not lie on it.
+    /// The point of an edge halfway between two of its points. Empty if the two faces have no common edge, or
+    /// if the side does not lie on one.
     std::optional<Place> half_way(FaceId one, FaceId other, const Vec3& from, const Vec3& to)
     {
         const auto found = between_.find(std::minmax(one, other));
         if (found == between_.end()) return std::nullopt;
         const double length = (to - from).norm();
-        // One tree of all edges between the two faces finds the edge.
+        // All edges between the two faces are in one tree; the closest segment shows which edge it is.
         const Curve& all = curve_of(found->second);
         const geometry::FacetTree::Hit hit = all.tree.closest((from + to) / 2);
         if (hit.triangle < 0) return std::nullopt;
@@ -62,7 +62,8 @@ public:
     }
 
 private:
-    /// Nodes of an edge are at most as far from its chords as the sag of the chords.
+    /// A side lies on an edge if its nodes are near it, as a share of the side; nodes may be off the edge's
+    /// chords by their sag.
     static constexpr double kNear = 0.1;
 
     struct Curve {
@@ -101,7 +102,7 @@ private:
     std::map<std::vector<EdgeId>, Curve> curves_;
 };
 
-/// A position on a side, or exactly the side's midpoint if the difference is only rounding.
+/// The given position, or exactly the side's midpoint if the two differ only by rounding.
 Vec3 settled(const SideOfSkin& side, const Vec3& at)
 {
     const Vec3 straight = (side.from + side.to) / 2;
@@ -166,7 +167,8 @@ std::vector<std::optional<Vec3>> middles_on_faces(const Model& model, std::span<
     std::vector<std::optional<Vec3>> middles(sides.size());
     std::map<FaceId, std::vector<std::size_t>> of_face;
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        // A side between two faces without an edge is projected onto the face that has a surface.
+        // A side between two faces that have no common edge is projected onto the face that has an exact
+        // surface.
         const bool other = model[sides[i].face].surface == nullptr &&
                            model[sides[i].other].surface != nullptr;
         of_face[other ? sides[i].other : sides[i].face].push_back(i);

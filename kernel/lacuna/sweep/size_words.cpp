@@ -20,7 +20,7 @@ NamedEntity beyond(const Model& model, EdgeId edge, FaceId face)
     return entity_of(model, edge);
 }
 
-/// The size required by a narrow place.
+/// Describe the narrow place that requires a size.
 std::string width_in_words(const Model& model, const surface::SizeCause& cause)
 {
     const NamedEntity a = beyond(model, *cause.edge, cause.face), b = beyond(model, *cause.other, cause.face);
@@ -29,7 +29,7 @@ std::string width_in_words(const Model& model, const surface::SizeCause& cause)
                      cause.width, sides);
 }
 
-/// The rim edge whose curvature requires the shortest sides.
+/// Describe the edge of the rim whose curvature requires the shortest sides.
 std::string bends_in_words(const Model& model, const surface::Seeds& seeds)
 {
     double least = kInfinity;

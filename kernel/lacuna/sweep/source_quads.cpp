@@ -24,16 +24,17 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of source quads that narrow places may cause by default; narrower places stay coarse. A
-/// ring of three quads across a width of a 200th of its radius has some 8,000. Not measured.
+/// Maximum number of source quads that narrow places may cause by default; if there would be more, the places
+/// stay coarse. A ring whose width is a 200th of its radius needs some 8,000 quads for three quads across.
+/// Not measured.
 constexpr double kMostForWidth = 20000;
 
-/// Maximum number of cells if only the size or only the number of layers is given: more would fill a large
-/// workstation's memory in a solver, and often come from a length in the wrong unit. Not measured.
+/// Maximum number of cells unless both size and number of layers are given. With more, a solver would exceed
+/// the memory of a large workstation; often a length was given in the wrong unit. Not measured.
 constexpr double kMostUnasked = 50e6;
 
-/// Expected number on faces of a role: of quads if `power` is 2, of sides across them if it is 1. If some
-/// faces keep given quads, all faces are counted with the density of these, otherwise by the size.
+/// Expected number of quads on the faces of a role (`power` 2), or of sides across them (`power` 1). If some
+/// of the faces keep given quads, the others are assumed to be as dense; otherwise the size is used.
 double sides_over(const OpenVolume& volume, Role role, const surface::SizeField& size, int power,
                   const SweepOptions& options)
 {
@@ -62,8 +63,8 @@ double sides_over(const OpenVolume& volume, Role role, const surface::SizeField&
     return given_area > 0 ? given * all_area / given_area : by_size;
 }
 
-/// Additional quads due to the curvature of the rims. Sides grow by 0.3 per length away from the rim, as in
-/// the paver; the number of quads is then the integral of the inverse square of the side.
+/// Additional quads due to the curvature of the rims. Away from the rim, sides grow by 0.3 per length, as in
+/// the paver. The number of quads is the integral of the inverse square of the side.
 double quads_by_turns(std::span<const surface::LinkingSurface> links, const Model& model,
                       const surface::SizeField& size, int per_turn)
 {
@@ -81,8 +82,8 @@ double quads_by_turns(std::span<const surface::LinkingSurface> links, const Mode
     return more / kGrading;
 }
 
-/// Estimate the number of cells from areas, lengths and given meshes. Numbers that can never be stored are
-/// refused here, before memory fills.
+/// Estimate the number of cells from areas, lengths and given meshes. A mesh with more nodes than node
+/// numbers is refused here, before any memory is used.
 ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
                              KnownLinks& links, const RunContext& context)
 {
@@ -100,7 +101,7 @@ ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, c
                 found(quads), found(asked))
                 .remedy("use a larger 'size' or fewer 'layers'"));
     if (layers > 0 && options.size) return {quads * layers, 0};
-    if (layers == 0) { // the mean width of the walls is the mean length of both rims
+    if (layers == 0) { // the mean width of the walls is the mean length of the rims
         double width = 0;
         for (const Role end : {Role::source, Role::target})
             for (const Rim& rim : rims(volume.model, volume.faces(end)))
@@ -138,7 +139,7 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)
             throw NotSweepable(std::move(refusal).remedy("quads = \"auto\" paves it"));
         };
     }
-    // A grid has as many quads across a neck as its rim provides.
+    // A grid cannot add quads across a neck: their number follows from the rim.
     const bool grids = options.quads != Quads::paved && !narrow;
     return [rows = options.rows, grids](const quads::PlanarRegion& region, const RunContext& context) {
         return quads::pave(region, {.exact_rows = rows, .grids = grids}, context).mesh;

@@ -15,25 +15,25 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Enough preconditioned steps for the relaxation to converge; the best intermediate mesh is kept.
+/// Number of preconditioned steps, enough for the relaxation to converge. The best mesh on the way is kept.
 constexpr int kRelaxations = 20;
-/// Bound on the rounds of trials; the last round is the first one without gain.
+/// Maximum number of rounds of trials. A round without gain is the last.
 constexpr int kPolishes = 20;
-/// Number of directions tried around a node for each step length. Not measured.
+/// Numbers of directions and of step lengths that are tried around a node. Not measured.
 constexpr int kDirections = 8;
 constexpr int kLengths = 3;
 
 const Vec3& at(std::span<const Vec3> points, Index i) { return points[index(i)]; }
 
-/// The part of a move along the surface.
+/// The tangential part of a move.
 Vec3 along(const Vec3& move, const Vec3& normal)
 {
     const double squared = normal.squaredNorm();
     return squared > 0 ? Vec3(move - normal * (normal.dot(move) / squared)) : move;
 }
 
-/// Change the weights of the neighbours so that their weighted mean, projected along the node's normal, is
-/// the node itself. The sum of the weights is unchanged.
+/// Change the weights of a node's neighbours so that their weighted mean, projected along the node's normal,
+/// is the node itself. The sum of the weights stays the same.
 void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbours, const Vec3& node,
                    const Vec3& normal, std::span<double> weights)
 {
@@ -60,7 +60,7 @@ void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbour
     std::vector<double> turned(weights.begin(), weights.end());
     const Vec2 pull = inverse * mean;
     for (std::size_t k = 0; k < neighbours.size(); ++k) turned[k] *= 1 - pull.dot(seen(neighbours[k]) - mean);
-    // Negative weights can fold the mesh; in that case the sides' own weights are kept.
+    // Negative weights could fold the mesh, so the sides' own weights are kept instead.
     if (std::ranges::all_of(turned, [](double w) { return w > 0; })) {
         std::copy(turned.begin(), turned.end(), weights.begin());
     }
@@ -89,7 +89,7 @@ double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<con
 
     double worst = 1;
     const std::size_t corners = mesh::corner_count(quad);
-    // An equilateral triangle counts as much as a square.
+    // The factor gives an equilateral triangle the quality of a square.
     const double best = corners == 3 ? 2 * std::numbers::inv_sqrt3 : 1;
     for (std::size_t i = 0; i < corners; ++i) {
         const Vec3 out = at(nodes, quad[(i + 1) % corners]) - at(nodes, quad[i]);

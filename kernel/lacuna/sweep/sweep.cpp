@@ -63,8 +63,9 @@ void raise_order(const OpenVolume& shape, ProvedSweep& result, const SweepOption
     }
 }
 
-/// Mesh a volume by a plan, prove the mesh, and compare it with the sealed shape. All cells are made here.
-/// @throw NotSweepable  the plan cannot be meshed, the proof fails, or the shape differs.
+/// Mesh a volume by a plan, prove the mesh, and compare it with the sealed shape. Every hexahedral mesh of a
+/// sweep is made here.
+/// @throw NotSweepable  the volume cannot be meshed by the plan, the proof fails, or the shape differs.
 Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOptions& asked, KnownLinks& links,
                      const RunContext& context)
 {
@@ -83,11 +84,12 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     quality::require(result.proof);
     report_progress(context, "shape of the skin");
     Swept& swept = result.swept;
-    // Quads copied from a neighbour are compared too: they are not part of the sealed shape.
+    // Quads copied from a neighbour are compared too, because they are not part of the sealed shape.
     const OpenVolume& shape = shape_of(volume, options);
     const std::set<FaceId> kept = options.beside.shape != nullptr ? std::set<FaceId>{} : result.kept;
     if (options.order == 2) raise_order(shape, result, options, context);
-    // Curved quads are compared as four straight ones, whose error is at most a quarter of the whole quad's.
+    // A curved quad is compared as four straight ones, whose error is at most a quarter of that of a straight
+    // quad.
     swept.fidelity = compare(shape, swept.mesh, result.faces, kept, swept.quality.volume,
                              {options.max_deviation, options.beside.between}, context, swept.skin().layers);
     swept.report.push_back(in_words(swept.fidelity));
@@ -100,13 +102,13 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     return std::move(swept);
 }
 
-/// Maximum number of meshes tried for a volume, without wedges and with them.
+/// Maximum number of meshes tried for a volume: so many without wedges, and so many with them.
 constexpr std::size_t kMostTried = 6;
-/// Error code of an end with given triangles: no plan may remesh it without a request.
+/// Error code for given triangles on an end. No plan may remesh them unless the user requests it.
 constexpr std::string_view kOwnTriangles = "surface.given_triangles";
 
-/// The only search: meshes the plans, best first, as long as the mesh is poor, and returns the best mesh that
-/// is valid and has the right shape.
+/// Meshes the plans in order, as long as the mesh is poor, and returns the best mesh that is valid and has
+/// the right shape.
 class Search {
 public:
     Search(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
@@ -140,7 +142,7 @@ public:
     }
 
 private:
-    /// Whether rotating all loops together gives each loop the rotation that its own walls give.
+    /// Whether the plan's common rotation of all loops equals the rotation that each loop's own walls give.
     [[nodiscard]] bool is_like_each(const Plan& plan)
     {
         if (plan.turning == surface::Turning::each) return false;
@@ -162,8 +164,8 @@ private:
         } catch (const NotSweepable& error) {
             const Message why = error.message().about(words);
             tried_.push_back(why.text());
-            const bool own = error.code() == kOwnTriangles; // without wedges, no plan could remesh the given
-                                                            // triangles
+            // No plan without wedges could keep the given triangles.
+            const bool own = error.code() == kOwnTriangles;
             if (own) left_[plan.wedges] = 0;
             refusal_ = refusal_ && !own ? refusal_->attempt(why) : error.message();
         }
@@ -177,11 +179,12 @@ private:
     std::optional<Swept> best_;
     const Plan* plan_ = nullptr; ///< the best plan so far
     std::optional<Message> refusal_;
-    std::vector<std::string> tried_;                          ///< a line for each plan
-    std::array<std::size_t, 2> left_{kMostTried, kMostTried}; ///< plans without wedges and with them
+    std::vector<std::string> tried_; ///< a line for each plan
+    /// Plans still allowed, without wedges and with them.
+    std::array<std::size_t, 2> left_{kMostTried, kMostTried};
 };
 
-/// The options with the requested intervals on layers merged in.
+/// The options, with intervals requested on side lines added as layers.
 SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options, KnownLinks& known,
                                   const RunContext& context)
 {
@@ -197,8 +200,8 @@ SweepOptions with_layer_intervals(const OpenVolume& volume, SweepOptions options
                                .remedy("leave one of them out"));
     }
     spec.count = layers->count;
-    // The bias of an edge counts from the end at which the sweep starts; the bias of layers counts from the
-    // source named by the user.
+    // The bias of an edge counts from the end where the sweep starts. The bias of layers counts from the
+    // source that the user named.
     const bool turn = volume.turned_round && !layers->from_named_source;
     spec.bias = turn ? 1 / layers->bias : layers->bias;
     return options;
@@ -225,12 +228,12 @@ Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunConte
     return Search(volume, options, links, context).run(plans(volume, options, links, context));
 }
 
-/// Volume error at which the suggested sizes aim, below the limit of 1 %: on bends and barrels the actual
-/// error was up to 1.6 times the estimate.
+/// Volume error at which the suggested sizes aim. It is below the limit of 1 % because on bends and barrels
+/// the actual error was up to 1.6 times the estimate.
 constexpr double kWanted = 0.006;
 
-/// The volume difference, and numbers that would avoid it: the error of straight sides grows with the square
-/// of their length.
+/// Report the volume difference, and numbers that would avoid it. The error of straight sides grows with the
+/// square of their length.
 std::string volume_in_words(const Swept& swept)
 {
     const double lost = volume_lost(swept.fidelity), part = std::sqrt(kWanted / std::abs(lost));
@@ -245,7 +248,7 @@ std::string volume_in_words(const Swept& swept)
         static_cast<int>(std::ceil(swept.mesh.layers / part)));
 }
 
-/// What to do about poor cells.
+/// Suggest what to do about poor cells.
 std::string poor_in_words(double least)
 {
     return formatted(

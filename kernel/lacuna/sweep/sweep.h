@@ -33,23 +33,24 @@ struct LayerPlan;
 enum class Spacing { geometric, bell, both_ends };
 
 struct LayerSpec {
-    /// Number of layers, >= 1. With 0 it follows from `heights`, from the rows of the walls' own meshes, or
-    /// from the length of the sweep and the size; if the size varies along the sweep, the heights vary with
-    /// it.
+    /// Number of layers, >= 1. With 0, the number follows from `heights`, from the rows of given meshes on
+    /// walls, or from the length of the sweep and the size. If the size varies along the sweep, so do the
+    /// heights.
     int count = 0;
     /// Ratio of layer heights, > 0 [-]: last / first (geometric), middle / end (bell), end / middle
     /// (both_ends).
     double bias = 1;
     Spacing spacing = Spacing::geometric;
-    /// Instead of a count: increasing, in (0, 1], the last one 1 up to the rounding of sums.
+    /// Heights instead of a count: increasing numbers in (0, 1]; the last one is 1 up to the rounding of
+    /// sums.
     std::vector<double> heights;
 };
 
-/// @throw InvalidInput  a count below 0, a bias that is not positive, heights that do not rise to 1.
+/// @throw InvalidInput  the count is negative, the bias is not positive, or the heights do not increase to 1.
 void check(const LayerSpec& spec);
 
 /// Heights in [0, 1] of every layer's nodes: layers + 1 numbers from 0 to 1.
-/// @throw InvalidInput  as `check()`; a bias so far from 1 that layers have no height.
+/// @throw InvalidInput  as `check()`, or the bias is so far from 1 that some layers have no height.
 /// @pre  a count of at least 1, or heights.
 std::vector<double> layer_heights(const LayerSpec& spec);
 
@@ -64,24 +65,26 @@ enum class Interior {
     normals,   ///< for comparison: the paper's advance along local normals
 };
 
-/// Nodes of the skin that coincide with a neighbour's up to rounding.
+/// Nodes of the skin that are moved onto coincident nodes of a neighbour, from which they differ by rounding.
 struct SettledNodes {
-    std::set<FaceId> faces;                    ///< faces of these nodes; the nodes are then fixed
+    std::set<FaceId> faces; ///< the faces that these nodes lie on; all nodes of these faces are then fixed
     std::vector<std::pair<Index, Vec3>> nodes; ///< with the neighbour's positions; duplicates are allowed
 };
 
 /// Constraints from neighbouring volumes of an assembly.
 struct Beside {
-    /// Null, or called with each mesh before it is proved, and with the face of each of its patches: finds
-    /// nodes to be moved onto a neighbour's.
+    /// Called with each mesh before it is proved, and with the face of each of its patches. It returns the
+    /// nodes that must be moved onto a neighbour's nodes. May be null.
     std::function<SettledNodes(const mesh::SkinNodes&, const std::vector<FaceId>&)> settle;
-    /// The shape with which the skin is compared, by the volume's faces; null: the volume itself.
+    /// The shape with which the skin is compared; its faces have the ids of the volume's faces. Null: the
+    /// volume.
     const topology::OpenVolume* shape = nullptr;
     /// Faces between this volume and others, which are not part of the outer skin; see `FidelityOptions`.
     std::set<FaceId> between{};
-    /// Faces whose quads a neighbour made: they are kept in any style.
+    /// Faces with quads copied from a neighbour: these are kept with any option `quads`.
     std::set<FaceId> handed{};
-    /// Whether the volume has given meshes of its own, as far as known: it could then be loaded without them.
+    /// Whether the volume itself has given meshes, as far as known. Errors may then suggest to load it
+    /// without them.
     bool own_mesh = true;
 };
 
@@ -94,33 +97,34 @@ enum class Fallback {
 };
 
 /// Default number of quads across a narrow place of the source, and of layers. Paving meets a size only on
-/// average. With a default of three, all tested places had at least two quads across; with two, half of them
-/// had only one (rings and channels 0.02 to 1 wide).
+/// average: with a default of three, all tested places (rings and channels 0.02 to 1 wide) had at least two
+/// quads across; with a default of two, half of them had only one.
 inline constexpr int kDefaultGap = 3;
 
 struct SweepOptions {
     LayerSpec layers;
     surface::SizeField size; ///< null: `surface::default_size()`, reduced as for `kDefaultGap`
     int curvature = 12;      ///< sides for a full turn where `size` is coarser, >= 0; 0: the size alone
-    /// If straight sides on bends change the mesh's volume by more than this share, bends get more sides as
-    /// far as that helps [0, 1); 0: never.
+    /// If straight sides on bends change the mesh's volume by more than this share, bends get more sides, as
+    /// long as this helps [0, 1); 0: never.
     double volume_share = 0.02;
-    int gap = 0; ///< least number of quads across a narrow place of the source, >= 0; 0: none, or 3 if no
-                 ///< size is given
+    /// Minimum number of quads across a narrow place of the source, >= 0; 0: no minimum, or 3 if no size is
+    /// given.
+    int gap = 0;
     /// Allowed distance between the skins, >= 0 [model length]; 0: default of `FidelityOptions`.
     double max_deviation = 0;
     Quads quads = Quads::automatic;
-    /// Given triangles of an end are kept and swept to wedges. If all sides of a rim are given and their
-    /// number is odd, one triangle is added. Without `wedges`, such triangles are an error, and a side of
+    /// Whether given triangles of an end are kept and swept to wedges. If all sides of a rim are given and
+    /// their number is odd, one triangle is added. If false, such triangles are an error, and one side of
     /// such a rim is split.
     bool wedges = false;
     Fallback fallback = Fallback::none;
-    int rows = 0; ///< exact rows along every loop of the source, >= 0; needs quads automatic or paved
+    int rows = 0; ///< exact rows along every loop of the source, >= 0; only with `quads` automatic or paved
     surface::SizeField row_height; ///< height of these rows; null: the size
-    /// Thin rows of cells along walls and ends; each face is in at most one.
+    /// Thin rows of cells along walls and ends. A face may be in one table only.
     std::vector<surface::BoundaryLayer> boundary_layers;
     std::vector<surface::Interval> intervals; ///< numbers of sides
-    /// Pairs of faces with the same mesh. `sweep_assembly()` makes them, also for a single volume.
+    /// Pairs of faces that get the same mesh. Applied by `sweep_assembly()`, also for a single volume.
     std::vector<surface::PeriodicPair> periodic;
     quads::PlanarQuadMesher quad_mesher; ///< the mesher of `Quads::gmsh`
     mesh::TetMesher tet_mesher;          ///< the mesher of `Fallback::mixed`
@@ -130,25 +134,25 @@ struct SweepOptions {
     double min_scaled_jacobian = 0;  ///< lower bound for accepted meshes [0, 1]
     bool improve = true;             ///< move nodes of folded or poor cells
     ImproveOptions improving;        ///< limits of that improvement
-    Beside beside;                   ///< constraints in an assembly, which sets them
-    /// Whether nodes of layers may be generated when they are written: `Swept::layers`.
+    Beside beside;                   ///< constraints in an assembly, set by `sweep_assembly()`
+    /// Whether nodes of layers may be generated only when they are written; see `Swept::layers`.
     bool layered = false;
     const Crew* crew = nullptr; ///< processes that help with generated layers; null: none
 };
 
-/// Check options before any work is done. `sweep()` calls it itself; a host may call it first.
-/// @throw InvalidInput  names the option, the allowed and the given value: layers, improving,
-///                      min_scaled_jacobian, curvature, volume_share, gap, max_deviation; rows below 0 or
-///                      with quads that are not paved, a row height without rows; boundary layers and
-///                      intervals with invalid lengths or counts, or together with rows; threads of the
-///                      context below 0 or above 1024.
+/// Check options before any work is done. `sweep()` calls this itself; a host may call it first.
+/// @throw InvalidInput  layers, improving, min_scaled_jacobian, curvature, volume_share, gap or max_deviation
+///         is out of range; rows are negative, or combined with quads that are not paved; a row height is
+///         given without rows; boundary layers or intervals have invalid lengths or counts, or are combined
+///         with rows; the context has less than 0 or more than 1024 threads. The message names the option,
+///         and the allowed and the given value.
 void check(const SweepOptions& options, const RunContext& context = {});
 
 /// Hexahedra with their proof and report.
 struct Swept {
     mesh::HexMesh mesh;
-    /// With `SweepOptions::layered`, if the layers are good as placed: the generator of the nodes that `mesh`
-    /// does not hold. Proved and compared like all meshes.
+    /// The generator of the nodes that `mesh` does not hold. Set with `SweepOptions::layered` if the layers
+    /// are good as placed. Such a mesh is proved and compared like all others.
     std::optional<mesh::LayeredNodes> layers;
     std::shared_ptr<const LayerPlan> plan; ///< the plan by which `layers` are placed
     double min_scaled_jacobian = 1;
@@ -156,32 +160,33 @@ struct Swept {
     Fidelity fidelity;               ///< the skin against the sealed skin
     std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
     std::vector<std::string> report; ///< a line for each stage: seeds, quads, walls, target, layers, shape
-    /// The lines of the report on default sizes and layer counts, and on poor cells that result from them.
-    /// They are also logged once; for an assembly, by the caller that sweeps the whole.
+    /// The lines of the report on default sizes and numbers of layers, and on poor cells that result from
+    /// them. They are also logged once; in an assembly, the caller that sweeps the whole logs them.
     std::vector<std::string> defaults;
-    std::vector<std::string> notes;    ///< lines on a changed volume; logged likewise, after "note: "
+    std::vector<std::string> notes;    ///< lines on a changed volume; logged in the same way, after "note: "
     std::vector<std::string> not_kept; ///< the lines of the report on given meshes that are not kept
 
     [[nodiscard]] mesh::SkinNodes skin() const { return {mesh, layers ? &*layers : nullptr}; }
 };
 
-/// Mesh a sealed volume with hexahedra, and with wedges if requested. The correspondence of the ends is
-/// derived from the sealed walls.
+/// Mesh a sealed volume with hexahedra, and with wedges if requested. The sealed walls determine which parts
+/// of the ends correspond.
 ///
 /// Given meshes of faces are kept, node for node: the source's quads, rows of quads on walls, the target's
-/// quads if they are connected like the source's, and the nodes of all their rims. The report counts them. A
-/// face with given quads is a mesh, so its triangles are cells too. A face of triangles only is a shape and
-/// is remeshed inside; with `wedges` it is a mesh if it keeps its nodes. With an explicit style
-/// (`Quads::paved`) all faces are remeshed.
+/// quads if they are connected like the source's, and the nodes of the rims of all these. The report counts
+/// them. On a face with given quads, the given triangles are cells too. A face with triangles only is a shape
+/// and is remeshed inside; with `wedges`, its triangles are cells if the face keeps its nodes. With an
+/// explicit option such as `Quads::paved`, all faces are remeshed.
 ///
 /// Edges between the faces of an end, and edges around or up the walls, become chains of mesh edges. The
-/// sweep runs from source to target, or in the opposite direction if that is better, or with the quads laid
-/// out between both outlines if both are poor; the report states the choice, and `mesh` counts its layers
-/// from the end where the sweep starts.
-/// @throw InvalidInput   as `check()`; a size that is not a positive length, or too many cells to number.
+/// sweep runs from source to target. If that gives poor cells, it runs from target to source, or the quads
+/// are laid out between both outlines. The report states the choice, and `mesh` counts its layers from the
+/// end where the sweep starts.
+/// @throw InvalidInput   as `check()`; or a size is not a positive length, or there are too many cells to
+///         number.
 /// @throw NotSweepable   names the face, wall or cells, the expected and the actual value, and a remedy. With
-///                       boundary layers as `surface::rim_rows()`, `seed_source()` and `mesh_source()`, and
-///                       "sweep.layers_thickness": rows that cannot have their thickness.
+///         boundary layers, as `surface::rim_rows()`, `seed_source()` and `mesh_source()`, and
+///         "sweep.layers_thickness"  rows cannot have their thickness.
 /// @post  the mesh is proved: conformal, skin closed, every Jacobian certified positive, its skin on the
 ///        sealed skin within `max_deviation`.
 Swept sweep(const topology::OpenVolume& volume, const SweepOptions& options, const RunContext& context = {});

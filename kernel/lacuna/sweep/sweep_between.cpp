@@ -40,8 +40,8 @@ using namespace topology;
 
 namespace {
 
-/// Whether walls are meshed in parallel with the source's quads. This pays if the quads take long on one
-/// thread; it is possible if both do not need the same CAD process.
+/// Whether walls are meshed in parallel with the source's quads. This saves time if the quads, which use one
+/// thread, take long. It is possible if the two do not need the same CAD process.
 bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
                   const std::vector<surface::LinkingNodes>& rim, const std::vector<double>& heights)
 {
@@ -53,9 +53,9 @@ bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
     if (!free || std::ranges::any_of(volume.model.faces, exact) ||
         std::ranges::any_of(volume.model.edges, on_curve))
         return false;
-    // The time for quads grows with the square of the rim, the time for walls with rim times layers. With
-    // many layers the walls, which get one thread here, would take longer. Measured: 4 µs per quad, 0.6 µs
-    // per wall node.
+    // The time for quads grows with the square of the rim, the time for walls with rim times layers. The
+    // walls get one thread here, so with many layers they would take longer than the quads. Measured: 4 µs
+    // per quad, 0.6 µs per wall node.
     std::size_t round = 0;
     for (const surface::LinkingNodes& nodes : rim) round += nodes.source_at.size();
     return 2 * heights.size() <= round;
@@ -80,7 +80,7 @@ RimColumns columns_of(const std::vector<surface::LinkingSurface>& links, const s
     return columns;
 }
 
-/// Fix nodes of columns along creases of the walls, as those on edges are.
+/// Fix the nodes of columns along creases of the walls, like nodes on edges.
 void hold_creases(const std::vector<surface::LinkingSurface>& links, const surface::SourceMesh& source,
                   std::size_t rows, std::vector<char>& held)
 {
@@ -98,8 +98,8 @@ void hold_creases(const std::vector<surface::LinkingSurface>& links, const surfa
     }
 }
 
-/// Whether all walls are void and ruled between the ends, with straight void edges: class I of the paper,
-/// whose node lines are straight.
+/// Whether all walls are void and ruled between the ends, with straight void edges. This is class I of the
+/// paper, in which node lines are straight.
 bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links)
 {
     for (const FaceId wall : volume.faces(Role::wall)) {
@@ -142,7 +142,7 @@ std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const M
     return good;
 }
 
-/// Sorted by node; the last position of each node is kept.
+/// Sort moved nodes; if a node occurs more than once, keep its last position.
 std::vector<std::pair<Index, Vec3>> in_order(std::vector<std::pair<Index, Vec3>> nodes)
 {
     std::map<Index, Vec3> once;
@@ -176,8 +176,8 @@ void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept
     good.reset();
 }
 
-/// Whether only the layer placement determines inner nodes. At order 2, members with neighbours are excluded,
-/// because neighbours look up each other's middle nodes in stored meshes.
+/// Whether inner nodes follow from the placement of layers alone. Excluded at order 2 are members of an
+/// assembly, because neighbours look up each other's middle nodes in stored meshes.
 bool may_be_layered(const SweepOptions& options)
 {
     return options.layered && (options.order == 1 || !options.beside.settle) &&
@@ -193,7 +193,7 @@ bool came_with_mesh(const OpenVolume& volume, Role end, bool wedges)
     });
 }
 
-/// Given quads do not move, so rows of other heights do not fit.
+/// Refuse rows on a source whose quads are kept: given quads do not move, so they cannot have other heights.
 void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, const SweepOptions& options)
 {
     if (rows.empty() || options.quads != Quads::automatic) return;
@@ -217,8 +217,8 @@ geometry::MotionPointer moving_faces(const OpenVolume& volume)
     return alike ? surface::swept_motion(volume) : nullptr;
 }
 
-/// Imprint of the target's inner edges on the source. Empty if there are none, or if both ends have given
-/// meshes, which may have the same graph.
+/// Imprint of the target's inner edges on the source. Empty if the target has none. Also empty if both ends
+/// have given meshes: these may be connected alike.
 std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
                                            const std::vector<surface::LinkingSurface>& links,
                                            const surface::SizeField& size, bool wedges)
@@ -307,8 +307,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const bool keeps_target = !given_target.face.empty();
     const bool moved = motion && !keeps_target;
     if (!keeps_target && !imprint && !moved && !surface::inner_edges(volume, Role::target).empty())
-        imprint = surface::imprint_target(volume, links, size); // refuses faces that keep their quads, by
-                                                                // name
+        // Refuses faces that keep their quads, with their names.
+        imprint = surface::imprint_target(volume, links, size);
     EndFaces ends = end_faces(volume, source, imprint, motion != nullptr);
     if (keeps_target) ends.target = std::move(given_target.face);
     if (!given_target.why.empty()) {

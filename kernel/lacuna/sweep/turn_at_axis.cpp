@@ -25,10 +25,10 @@ using namespace topology;
 
 namespace {
 
-/// Least number of layers of a full turn, as for hexahedra alone: with fewer layers, a cell spans 120° or
+/// Minimum number of layers of a full turn, as for hexahedra alone. With fewer layers a cell spans 120° or
 /// more.
 constexpr int kLeastPerTurn = 4;
-/// Angle of a layer with which chords lose 1 % of a circle's area [radian].
+/// Angle of a layer at which its chords lose 1 % of the circle's area [radian].
 const double kOnePercent = std::sqrt(0.06);
 
 class Turner {
@@ -67,10 +67,10 @@ private:
         std::size_t quad;
     };
 
-    /// A face id that stands for the face between two parts.
+    /// The id of an imaginary face between two parts.
     [[nodiscard]] FaceId between() const { return FaceId(flat_.model.faces.size()); }
 
-    /// The mesh may have been swept from either end of the flat volume.
+    /// Take the quads of the source from the mesh of the flat volume, which may start at either end.
     void take_source()
     {
         const mesh::HexMesh& mesh = base_.mesh;
@@ -89,7 +89,7 @@ private:
         }
     }
 
-    /// Orient the quads in the direction of the turn.
+    /// Orient the quads so that they face in the direction of the turn.
     void orient()
     {
         const double sense = turn_.angle < 0 ? -1 : 1;
@@ -166,7 +166,7 @@ private:
                 .remedy("use another 'size', or quads = \"paved\""));
     }
 
-    /// The strips along each segment of the axis, in order.
+    /// The strips along each segment of the axis, in order along it.
     [[nodiscard]] std::vector<std::vector<Strip>> chains() const
     {
         std::map<Index, const Strip*> from;
@@ -188,7 +188,7 @@ private:
         return all;
     }
 
-    /// The place of a source node in a layer; a node on the axis stays.
+    /// The position of a source node in a layer. Nodes on the axis do not move.
     [[nodiscard]] Vec3 place(Index node, int layer) const
     {
         const Vec3& at = nodes_[index(node)];
@@ -205,7 +205,7 @@ private:
         Swept& part;
         std::map<Index, Index> known;
 
-        /// @param patch  of the base; -1: shared with another part
+        /// @param patch  number of a patch of `base`; -1: the face is shared with another part
         Index operator()(Index patch)
         {
             const auto [at, fresh] = known.try_emplace(patch, static_cast<Index>(part.faces.size()));
@@ -257,7 +257,7 @@ private:
         mesh.volume_groups = base_.mesh.volume_groups;
     }
 
-    /// Triangles round the axis, swept along it.
+    /// Make the wedges along one segment of the axis: triangles around the axis, swept along it.
     void add_core(const std::vector<Strip>& chain)
     {
         Swept& part = result_.parts.emplace_back();
@@ -293,7 +293,7 @@ private:
         mesh.volume_groups = base_.mesh.volume_groups;
     }
 
-    /// Prove the parts, and compare their total volume with the volume that the source's facets sweep in the
+    /// Prove the parts. Compare their total volume with the volume that the source's facets sweep in the
     /// turn.
     void measure()
     {

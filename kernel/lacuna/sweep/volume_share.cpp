@@ -23,36 +23,37 @@ using namespace topology;
 
 namespace {
 
-/// Allowed relative volume error with default numbers: in total, then the shares of the curvature of ends and
-/// of the curvature along the sweep, where these exist. The total must stay below 1 %; the margin covers
-/// effects that the model ignores.
+/// Allowed relative volume error with default numbers: in total, the share of it for the curvature of ends,
+/// and the share for curvature along the sweep. The last two are reserved only if there is such curvature.
+/// The total must stay below 1 %; the margin covers effects that the model ignores.
 constexpr double kAllLost = 0.008, kLostByEnds = 0.002, kLostByLayers = 0.003;
-/// Upper bound of sides per full turn: the area of an inscribed polygon of 100 sides is off by 0.07 %.
+/// Maximum number of sides per full turn. An inscribed polygon of 100 sides lacks 0.07 % of the circle's
+/// area.
 constexpr int kMostPerTurn = 100;
-/// Creases across an end are resolved up to this many sides per turn. If more are needed, the creases are
-/// only fine facets, and a smaller size is enough.
+/// Creases across an end get nodes up to this many sides per turn. If they would need more, they are only the
+/// sides of fine facets, and a smaller size is enough.
 constexpr int kMostForCreases = 40;
-/// The curvature of an end may reduce its quad size to the first value as a fraction, and further as long as
-/// the end has at most as many quads as the second value. Neither value is measured.
+/// The curvature of an end may reduce its size to the first value, as a share of the default. It may reduce
+/// it further as long as the end has at most as many quads as the second value. Not measured.
 constexpr double kLeastPart = 0.25, kMostForEnds = 2000;
-/// Quads inside ends are longer than the size. Measured on domes with six to twelve sides: their quad count
-/// is half to two thirds of their area divided by the squared size.
+/// Factor by which quads inside ends are longer than the size. Measured on domes with six to twelve sides:
+/// their number of quads is half to two thirds of the area divided by the squared size.
 constexpr double kLonger = 1.35;
-/// Upper bound of the mean elongation of quads on an end, √(area / projected area): steeper ends, such as
+/// Upper bound of the mean elongation of quads on an end, √(area / projected area). Steeper ends, such as
 /// most of a ball, are not paved in one plane.
 constexpr double kSteepest = 2;
-/// Factor by which an end may have fewer rim sides than the size requires, so that its grid closes: 16
-/// instead of 24, for instance.
+/// An end may have fewer rim sides than the size requires, by this factor, so that its grid closes: for
+/// instance 16 instead of 24.
 constexpr double kFewer = 1.5;
 /// Factor between the sizes that are tried.
 constexpr double kSmaller = 0.9;
-/// Most layers that curvature along the sweep may request: enough for a spiral of five turns.
+/// Maximum number of layers because of curvature along the sweep: enough for a spiral of five turns.
 constexpr int kMostLayers = 300;
-/// Resolution of the wall model: columns along a rim, in total, and rows from source to target. A circle of
-/// 128 columns is off by 0.04 %.
+/// Resolution of the wall model: total number of columns along a rim, and number of rows from source to
+/// target. A polygon of 128 sides lacks 0.04 % of the circle's area.
 constexpr double kColumns = 128;
 constexpr int kRows = 64;
-/// Walls count as straight from rim to rim if this changes the volume by no more than this fraction.
+/// Walls count as straight from rim to rim if straight ones change the volume by at most this share.
 constexpr double kStraight = 1e-3;
 double lost_by(double turn, double side) { return turn * side * side / 12; }
 
@@ -63,7 +64,7 @@ double area_of(const OpenVolume& volume, Role end)
     return area;
 }
 
-/// The volume that an end loses by its own curvature. Creases between nodes of its rims are not counted.
+/// The volume that an end loses by its own curvature. Creases that have nodes at both ends lose nothing.
 double lost_on_end(const OpenVolume& volume, Role end, double scale, const SweepOptions& options,
                    const surface::SizeField& size, const std::set<Index>& kept)
 {
@@ -71,8 +72,8 @@ double lost_on_end(const OpenVolume& volume, Role end, double scale, const Sweep
     double lost = 0;
     for (const FaceId id : volume.faces(end)) {
         const Face& face = model[id];
-        // Sides of order 2 lie on exact surfaces. On facets they may have stayed straight for the sake of
-        // cell quality.
+        // Sides of order 2 lie on exact surfaces. On facets they may have been kept straight for better
+        // cells.
         if (face.kind == "plane" || (options.order > 1 && face.surface != nullptr)) continue;
         // Quads are paved in the plane, so they are longer on a steep end.
         const double steep = std::sqrt(face_area(model, id) / face_area_vector(model, id).norm());
@@ -108,16 +109,15 @@ double lost_on_ends(const OpenVolume& volume, const SweepOptions& options, const
 /// Six times the volume of a tetrahedron with its fourth corner in the origin.
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
 
-/// Number of sides of a mesh: by sides per full turn, and by a fraction of the requested size.
+/// The number of sides of a mesh, given by sides per full turn and by a factor on the requested size.
 struct Sides {
     int per_turn = 0; ///< 0: as many as the wall model has columns
     double part = 1;
 };
 
-/// Rows of points on the walls of each linking surface, with many more columns and rows than a mesh. A mesh
-/// takes its nodes from positions between these points. The enclosed volume is summed over wall quads, plus
-/// cones that close the ends: one apex serves all rims of the target, and the origin serves the rims of the
-/// source.
+/// Rows of points on the walls of each linking surface, with many more columns and rows than a mesh has. The
+/// nodes of a mesh are interpolated between these points. The enclosed volume is that of the wall quads plus
+/// cones that close the ends. One apex serves all rims of the target, and the origin all rims of the source.
 class Walls {
 public:
     Walls(const OpenVolume& volume, std::vector<surface::LinkingSurface> links, const SweepOptions& options,
@@ -134,7 +134,7 @@ public:
         for (const surface::LinkingSurface& link : links_) {
             Ring& ring = rings_.emplace_back();
             const std::vector<double> turning = surface::turning_of_segments(volume.model, link);
-            std::vector<std::vector<double>> shares; // for each segment: evenly spaced node positions
+            std::vector<std::vector<double>> shares; // for each segment: evenly spaced positions of nodes
             int first = 0;
             for (const surface::RimSegment& segment : link.segments) {
                 const double length = segment.source_to - segment.source_from;
@@ -190,7 +190,7 @@ public:
         double sum = 0;
         for (const Ring& ring : rings_) {
             double own = enclosed(ring, sides, layers, 1);
-            // Splitting each side in two recovers 3/4 of the volume that a parabola recovers.
+            // Splitting each side in two regains 3/4 of the volume that a parabola regains.
             if (curved_) own += 4. / 3 * (enclosed(ring, sides, layers, 2) - own);
             sum += ring.sign * (own - ring.within);
         }
@@ -200,7 +200,7 @@ public:
 private:
     struct Segment {
         int first = 0, fine = 1; ///< index of its first column, and number of its columns
-        bool fixed = false;      ///< a single side, even if more are requested
+        bool fixed = false;      ///< it stays a single side, even if more are requested
         double by_size = 1;      ///< number of sides that the size asks for
         double turn = 0;         ///< turning angle of the rim [radian]
 
@@ -272,7 +272,7 @@ private:
     bool straight_ = true;
 };
 
-/// Finds the number of sides by trying them on the wall model.
+/// Finds the numbers of sides by trying them on the wall model.
 class Planner {
 public:
     Planner(const OpenVolume& volume, std::span<const surface::LinkingSurface> links,
@@ -306,8 +306,8 @@ public:
     }
 
     /// If the requested sides lose too much, choose sides that lose six tenths of the allowed share; the rest
-    /// is left for the layers. A polygon of n sides in a circle lacks about 2 π² / 3 n² of its area. If that
-    /// is not enough, sides are added as long as each step clearly helps.
+    /// is left for the layers. A polygon of n sides lacks 2 π² / (3 n²) of its circle's area. If that is not
+    /// enough, sides are added as long as each step clearly helps.
     VolumePlan by_numbers()
     {
         constexpr double kOfShare = 0.6, kHelps = 0.75;
@@ -332,7 +332,8 @@ public:
     }
 
 private:
-    /// Relative loss on the rims or, if larger, on ends, whose quads follow the sides of their rims.
+    /// Relative loss on the rims or, if it is larger, on the ends, whose quads are as long as the sides of
+    /// the rims.
     double lost_by_numbers(int per_turn)
     {
         const double fewer = static_cast<double>(options_.curvature) / per_turn;
@@ -377,7 +378,8 @@ private:
         walls_->follow(context_);
     }
 
-    /// The number of layers, from the default up, for which curved walls lose no more than `share`.
+    /// A function that returns the number of layers, starting from `least`, with which curved walls lose at
+    /// most `share`.
     std::function<int(int)> layers(const Sides& sides, double share)
     {
         find_walls();
@@ -397,10 +399,10 @@ private:
     const surface::SizeField& size_;
     const RunContext& context_;
     surface::RimFacets facets_{volume_, links_};
-    std::vector<std::vector<std::pair<double, double>>> pairs_; ///< breaks that the model follows
+    /// The breaks for which the walls are modelled.
+    std::vector<std::vector<std::pair<double, double>>> pairs_;
     std::vector<char> on_crease_;
-    double on_ends_ = 0, ends_ = 0;       ///< volume lost on ends: without breaks, and with the current
-                                          ///< breaks
+    double on_ends_ = 0, ends_ = 0; ///< volume lost on ends: without breaks, and with the current breaks
     std::shared_ptr<Walls> rims_, walls_; ///< wall models: straight between the rims, and as given
 };
 

@@ -12,9 +12,10 @@ namespace lacuna::quads {
 
 /// A block of quads around the centre of a region, and the region without it.
 ///
-/// Four mirror axes at 45° meet at the centre. Cutting along all of them would leave corners of 45° there,
-/// too sharp for quads, so a block of quads takes the centre's place. Its corners lie on two of the axes, the
-/// middles of its sides on the other two. The region around it is cut along all axes.
+/// Four mirror axes at 45° to each other meet at the centre. If the region were cut along all of them, the
+/// parts would have corners of 45° there, too sharp for quads. Therefore a block of quads takes the place of
+/// the centre. Its corners lie on two of the axes, and the middles of its sides on the other two. The region
+/// around the block is cut along all axes.
 struct CentralBlock {
     PlanarRegion around;     ///< the region with the block as its last hole, whose nodes come last
     std::vector<Vec2> inner; ///< nodes inside the block, numbered after those of `around`

@@ -10,29 +10,31 @@
 namespace lacuna::quads {
 
 struct CleanOptions {
-    std::function<double(const Vec2&)> size; ///< target edge length [model length]; none: only shape counts
-    /// Scaled Jacobian [-]; no change may produce a quad below both this and the previous worst.
+    std::function<double(const Vec2&)> size; ///< target edge length [model length]; null: only shape counts
+    /// Scaled Jacobian [-]. No change may produce a quad that is worse than this and than the previous worst.
     double least = 0.6;
-    int largest_patch = 400; ///< limit of quads refilled at once, >= 4
-    int passes = 4;          ///< over all irregular points, >= 1
-    /// Search a third time, with larger limits, and use a base budget of 50,000 quads; otherwise 15,000.
+    int largest_patch = 400; ///< maximum number of quads that are refilled at once, >= 4
+    int passes = 4;          ///< number of passes over all irregular points, >= 1
+    /// Whether a third search with larger limits follows. The base budget is then 50,000 quads, otherwise
+    /// 15,000.
     bool thorough = true;
-    /// Budget of quads in all tried fillings: this many times the mesh's quads, plus the base budget.
+    /// Budget of quads in all fillings that are tried: this multiple of the mesh's number of quads, plus the
+    /// base budget.
     double effort = 3;
 };
 
 /// Change the connections of quads so that more interior points have four quads, and more boundary points
-/// have as many as right angles fit in their angle. The boundary stays as it is.
+/// have as many quads as right angles fit in their angle. The boundary is not changed.
 ///
-/// Doublets are removed first. Then the function grows patches around irregular points until no corner is
-/// concave, and fills each with the template of two to six sides that has the fewest irregular points (Bunin
-/// 2006; Verma and Suresh 2017). One template replaces many local changes (collapsed quads, swapped and
-/// opened edges, collapsed chords) and pairs points of three and of five quads over any distance. After
-/// smoothing, a change is kept if its corners are positive, no quad is worse than both `options.least` and
-/// the previous worst, and the quality lost, summed over the quads, is within a limit per irregular point
-/// removed.
+/// Doublets are removed first. Then patches are grown around irregular points until no corner of their
+/// outline is concave. Each patch is filled with the template of two to six sides that has the fewest
+/// irregular points (Bunin 2006; Verma and Suresh 2017). One template replaces many local changes (collapsed
+/// quads, swapped and opened edges, collapsed chords), and pairs points of three quads with points of five
+/// over any distance. A change is kept if after smoothing its corners are positive, no quad is worse than
+/// both `options.least` and the previous worst, and the loss of quality, summed over the quads, is within a
+/// limit for each irregular point removed.
 /// @param fixed  number of boundary points. They come first and are neither moved nor renumbered; other
-///               points may be.
+///         points may be renumbered.
 /// @pre   quads are counter-clockwise and conforming; some may be folded. Nothing is done if they do not
 ///        conform.
 /// @post  the least scaled Jacobian is not smaller than before, or not smaller than `options.least`. Quads

@@ -9,7 +9,7 @@
 
 namespace lacuna::quads::paving {
 
-/// Whether a loop turns too sharply at its node at `place` for the node to be left out.
+/// Whether a loop turns so sharply at its node at `place` that the node cannot be left out.
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place);
 
 /// A run: the part of a loop between two nodes that stay, or a whole loop without such nodes. Some of its
@@ -23,25 +23,26 @@ struct WholeRun {
     [[nodiscard]] std::size_t points() const { return (nodes.size() - 1 + whole) / 2; }
 };
 
-/// Places at which the runs of a loop begin, ascending; then the end of the last run, which is the first
-/// place plus the number of the loop's nodes. Each run reaches from one node that stays to the next; a loop
-/// without such nodes is one run.
+/// Positions at which the runs of a loop begin, in ascending order. The last entry is the end of the last
+/// run: the first position plus the number of the loop's nodes. Each run extends from one node that stays to
+/// the next; a loop without such nodes is one run.
 std::vector<std::size_t> runs_of(const PlanarRegion& region, const std::vector<Index>& loop);
 
-/// A region with every other node of its loops. Whole sides of some runs are sides of the coarse region too.
-/// Until `choose_whole_sides()` selects them, the points of such a run are spaced evenly along it.
+/// A region with every other node of its loops. Some runs have whole sides, which are sides of the coarse
+/// region too. Until `choose_whole_sides()` selects them, the points of such a run are evenly spaced along
+/// it.
 struct CoarseRegion {
-    PlanarRegion region;    ///< with twice the size; may have an odd number of boundary sides
+    PlanarRegion region;    ///< region with twice the size; its number of boundary sides may be odd
     std::vector<Index> own; ///< number of each of its points in the fine region
-    /// In the fine region, the node left out after each point; -1: the side is whole.
+    /// For each point, the node of the fine region that was left out after it; -1: the side is whole.
     std::vector<Index> next;
     std::vector<WholeRun> runs; ///< runs with whole sides; the total number of whole sides is even
 };
 
-/// Which runs get whole sides besides those with an odd number of sides.
+/// Which runs have whole sides.
 enum class WholeSides {
-    of_odd_runs, ///< no others; odd runs have one whole side each
-    of_outline,  ///< the longest run of the outer loop has as many as all others together
+    of_odd_runs, ///< only runs with an odd number of sides, one each
+    of_outline,  ///< also the longest run of the outer loop: as many as all other runs together
 };
 
 /// Leave every other boundary node out.
@@ -49,16 +50,17 @@ enum class WholeSides {
 std::optional<CoarseRegion> coarse_region(const PlanarRegion& region,
                                           WholeSides sides = WholeSides::of_odd_runs);
 
-/// Select the whole sides of the runs that have any: a row of quads leads from each of them to a whole side
-/// of another run, and the sum of the rows' lengths is least. Without such runs there is nothing to select.
-/// @param coarse  quads and triangles of the coarse region, its points first.
-/// @return for each side of these cells (`mesh::opposite_sides()`), 1 if it stays whole because such a row
-///         crosses it, else 0. Empty if there are no such rows.
+/// Select the whole sides of the runs that have any. A row of quads leads from each whole side to a whole
+/// side of another run, and the total length of these rows is minimal. If no run has whole sides, there is
+/// nothing to select.
+/// @param coarse  quads and triangles of the coarse region, with its points first.
+/// @return  for each side of these cells (`mesh::opposite_sides()`), 1 if it stays whole because such a row
+///         crosses it, otherwise 0. Empty if there are no such rows.
 std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const PlanarQuads& coarse);
 
-/// Cut every cell of a mesh of the coarse region through the nodes that were left out: a quad into four
-/// quads, a triangle into three, a quad between whole sides into two. The other new nodes are placed half way
-/// between their neighbours.
+/// Cut every cell of a mesh of the coarse region at the nodes that were left out: a quad into four quads, a
+/// triangle into three, and a quad between whole sides into two. Other new nodes are placed halfway between
+/// their neighbours.
 /// @param fine    the region from which the coarse one was made; its points come first.
 /// @param coarse  quads and triangles (`mesh::is_triangle()`), the coarse region's points first.
 /// @param whole   sides that stay whole, from `choose_whole_sides()`

@@ -32,27 +32,27 @@ struct CountTask {
 /// Mean of the target size along the boundary [model length].
 double mean_size(const CountTask& task);
 
-/// Number of quads that the size asks for: from the region's size if it has one, otherwise from the wanted
-/// numbers of sides.
+/// Number of quads that the size requires. It is computed from the region's size if there is one, otherwise
+/// from the wanted numbers of sides.
 double quads_asked(const CountTask& task);
 
 /// Range for the number of sides of a segment, relative to the wanted number.
 struct CountRange {
     double least, most;
 };
-/// Ranges for the loops of a ring, and for other segments of four sides or more. In kRing, edges are 0.6 to
-/// 1.6 times as long as asked, the range in which `measure_plane()` counts a size as right. kSegment is the
+/// kRing applies to the loops of a ring: edges may be 0.6 to 1.6 times as long as wanted, the range that
+/// `measure_plane()` counts as right. kSegment applies to other segments of four sides or more, and is the
 /// promised range of sizes. Segments of fewer sides may change by one side.
 inline constexpr CountRange kRing{1 / kLongestOfSize, 1 / kShortestOfSize}, kSegment{1 / 1.25, 1.25};
-/// Factor by which rounding may exceed a ring's range, so that repeated segments of a loop still get equal
-/// numbers. A larger value keeps more symmetry, but the edges of one loop then miss the size asked.
+/// Rounding may exceed a ring's range by this factor, so that repeated segments of a loop still get equal
+/// numbers. A larger value preserves more symmetry, but the edges of one loop then miss their size.
 inline constexpr double kRingRounding = 1.03;
 inline constexpr CountRange kRingSegment{kRing.least / kRingRounding, kRing.most* kRingRounding};
 
 /// Whether a number of sides is within a range of the wanted number, or differs from it by one.
 bool is_within(const CountRange& range, double wanted, int sides);
 
-/// (n − wanted)² / n: equal for equal ratios above and below; infinite for n = 0.
+/// (n − wanted)² / n. Too many and too few sides by the same ratio cost the same. Infinite for n = 0.
 double cost_of_sides(double wanted, int sides);
 
 /// Numbers of sides of every segment, and their cost for comparison with those of other parts of a region.
@@ -61,7 +61,7 @@ struct Counts {
     double cost = 0;
 };
 
-/// The sides of a segment with the same heading.
+/// Consecutive sides of a segment with the same heading.
 struct CountedRun {
     std::size_t segment = 0;
     int quarter = 0; ///< heading in quarter turns, 0…3
@@ -72,23 +72,27 @@ struct CountedRun {
 /// The runs of one loop and its excess, which is zero if the loop closes.
 struct CountedLoop {
     std::vector<CountedRun> runs;
-    /// For headings 0 and 1, the number of sides along the heading minus the number back.
+    /// For headings 0 and 1: the number of sides along the heading minus the number in the opposite
+    /// direction.
     std::array<int, 2> excess{};
     std::array<int, 2> added{}; ///< sides along headings 0 and 1 that the loop's rows of quads add
     double wanted = 0;          ///< total number of wanted sides
     int soft = 0;               ///< turns made by the loop's rows of quads
 };
 
-/// A loop's runs with their wanted numbers, rounded, and its excess after its rows are placed.
-/// @param share  factor for the wanted numbers.
+/// The runs of a loop with their wanted numbers of sides, rounded, and the loop's excess after its rows are
+/// placed.
+/// @param share  factor on the wanted numbers.
 /// @return  empty if the loop fits no grid.
 std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop, double share = 1);
 
-/// Change runs by one side, the cheapest first, until a loop has no excess. @return false if none may change
+/// Change runs by one side, the cheapest change first, until a loop has no excess. @return  false if no
+/// further change is allowed
 /// @throw Cancelled
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range);
 
-/// Add or remove one side along a heading and one back, whichever costs less; nothing if neither is allowed.
+/// Add one side along a heading and one in the opposite direction, or remove one of each, whichever costs
+/// less. Nothing is done if neither is allowed.
 /// @param quarter  0 or 1
 void change_both(const CountTask& task, CountedLoop& loop, int quarter);
 

@@ -7,8 +7,8 @@
 
 namespace lacuna::quads::paving {
 
-/// The sides of a loop, grouped in bounding boxes of consecutive sides for quick tests whether a line crosses
-/// them.
+/// The sides of a loop, with bounding boxes of consecutive sides. It tests quickly whether a line crosses any
+/// of them.
 class LoopSides {
 public:
     /// @pre the mesh and the loop outlive this object; points may be added to the mesh.

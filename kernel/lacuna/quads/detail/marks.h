@@ -40,8 +40,8 @@ private:
     unsigned now_ = 0;
 };
 
-/// Hash of a number (the finaliser of splitmix64). The sum of the hashes identifies a set, whatever its
-/// order.
+/// Hash of a number (the finaliser of splitmix64). A sum of such hashes identifies a set, because it does not
+/// depend on the order.
 inline std::uint64_t mixed(std::uint64_t x)
 {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -10,8 +10,8 @@
 
 namespace lacuna::quads {
 
-/// The symmetries of a region that also map quads onto quads, without the identity, each with the images of
-/// all nodes including inner ones.
+/// The symmetries of a region, except the identity, that also map quads onto quads. Each has the images of
+/// all nodes, including inner nodes.
 /// @pre  `find_fault()` finds no fault.
 std::vector<Symmetry> mesh_symmetries(const PlanarQuads& mesh, const PlanarRegion& region);
 

@@ -10,29 +10,31 @@
 
 namespace lacuna::quads {
 
-/// Numbers of sides for the part of a symmetric region between mirror axes, and hence for all of its images.
-/// If no grid fills the part, they are the wanted numbers, rounded, and the cost is infinite.
+/// Numbers of sides for the part of a symmetric region between mirror axes, applied to all images of the
+/// part. If no grid fills the part, they are the wanted numbers, rounded, and the cost is infinite.
 /// @return empty if the region cannot be cut along any axis.
 std::optional<Counts> mirror_counts(const CountTask& task);
 
 /// Give the axes of a part numbers of sides with which one grid fills the part, as `pattern_counts()` does.
-/// If there are no such numbers, use those that the size asks for, with an even total around the part.
-/// @return cost of the grid for comparison with other parts; infinite if there is none.
-/// @param few  whether, if nothing else fits, numbers may deviate as far as those of a ring.
+/// If there are no such numbers, use those that the size requires, with an even total around the part.
+/// @param few  whether numbers may deviate as much as those of a ring, if nothing else fits.
+/// @return  cost of the grid, for comparison with other parts; infinite if there is no grid.
 /// @throw Cancelled
 double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunContext& context);
 
-/// The axes of a part are divided by a size graded away from short given sides. Below this number of quads,
-/// the size asked is tried first, because a graded size would leave too few lines for the whole part.
+/// Axes of a part are divided by a size that grows away from short given sides. Below this number of quads,
+/// the requested size is tried first, because the graded size would leave too few lines for the whole part.
 inline constexpr double kFewForGrading = 200;
 
-/// Limit of parts, between different pairs of mirror axes, that are tried; the pairs are ranked.
+/// Maximum number of parts that are tried. Each lies between another pair of mirror axes; the best ranked
+/// pairs are used.
 inline constexpr std::size_t kMostChoices = 4;
 
-/// The cheapest result over the parts between different pairs of axes.
-/// @param sizes  sizes for dividing the axes; the last one is used only if no grid fills a part with the
-///               others.
-/// @param make   makes a result with a cost from a part; infinite if no grid fills the part.
+/// The cheapest result over parts between different pairs of axes.
+/// @param sizes  sizes for dividing the axes. The last one is used only if no grid fills a part with the
+///         others.
+/// @param make   makes a result from a part. The result has a cost, which is infinite if no grid fills the
+///         part.
 /// @return empty if there are no parts.
 template <class Make>
 auto cheapest_of_parts(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,

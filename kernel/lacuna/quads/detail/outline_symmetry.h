@@ -12,8 +12,8 @@
 
 namespace lacuna::quads {
 
-/// Symmetries whose angles differ by less are the same [radian]. The bound is far above the accuracy of nodes
-/// and far below the angle between two symmetries.
+/// Symmetries whose angles differ by less than this are the same [radian]. The value is far above the
+/// accuracy of nodes and far below the angle between two symmetries.
 inline constexpr double kSameAngle = 1e-5;
 
 /// A rotation about a centre. If `mirrors`, a reflection that reverses y is applied before it.
@@ -44,26 +44,26 @@ struct Symmetry {
     std::vector<Index> to;
 };
 
-/// The symmetries of a region's boundary nodes, without the identity. If there are more than 64 rotations, a
-/// subgroup with at most 64 of them, which keeps the quarter turns; mirror axes are kept only if one passes
-/// through the outer loop's first node.
-/// @note  O(nodes) for each node of the outer loop that is as far from the centre as the farthest; most
-///        candidates that are no symmetry fail at once.
+/// The symmetries of a region's boundary nodes, except the identity. If there are more than 64 rotations,
+/// only a subgroup of at most 64 is returned, which contains the quarter turns, and mirror axes only if one
+/// of them passes through the first node of the outer loop.
+/// @note  O(nodes) for each node of the outer loop that is as far from the centre as the farthest one. Most
+///         candidates that are not symmetries fail at once.
 std::vector<Symmetry> outline_symmetries(const PlanarRegion& region);
 
 /// The part of a symmetric region between two adjacent mirror axes, or on one side of its only axis. Its
 /// images about the centre make up the region.
 struct MirrorPart {
     PlanarRegion region;
-    std::vector<Index> whole;   ///< node of the whole region at each node; -1: a node only on an axis
-    std::vector<int> axis;      ///< piece of an axis on which the side from each node to the next lies; -1:
-                                ///< none
-    std::vector<char> ray;      ///< position of each node: 0 on no axis, 1 or 2 on one, 3 at the centre
-    bool has_centre = false;    ///< whether the centre lies in the region
-    bool is_some = false;       ///< whether the region has further symmetries besides those of the images
-    std::vector<double> wanted; ///< number of sides that the size asks for on each piece of an axis
-    /// The images, in order about the centre. The first is the part itself; the second, fourth … are
-    /// mirrored.
+    std::vector<Index> whole; ///< node of the whole region at each node; -1: a node only on an axis
+    /// For the side from each node to the next: the piece of an axis on which it lies; -1: none.
+    std::vector<int> axis;
+    std::vector<char> ray;   ///< for each node: 0 if it is on no axis, 1 or 2 on that axis, 3 at the centre
+    bool has_centre = false; ///< whether the centre lies in the region
+    bool is_some = false;    ///< whether the region has more symmetries than those of the images
+    std::vector<double> wanted; ///< number of sides that the size requires on each piece of an axis
+    /// The images, in order about the centre. The first one is the part itself; the second, fourth and so on
+    /// are mirrored.
     std::vector<Symmetry> images;
 
     /// Add a node to the last loop.
@@ -77,24 +77,25 @@ struct MirrorPart {
     }
 };
 
-/// Cut a region along mirror axes that pass through boundary nodes, cross no side, and divide no corner into
-/// halves far from a multiple of 90°.
+/// Cut a region along mirror axes. An axis can be used if it passes through boundary nodes, crosses no side,
+/// and divides no corner into halves that are far from multiples of 90°.
 ///
 /// If the centre is outside the region or in a hole, up to eight axes are used. Otherwise two perpendicular
-/// ones are used, or one if no two are perpendicular: more would give the centre a valence of six or more.
-/// Pairs through more loops rank first, because a loop that is cut need not be placed in the grid; then pairs
-/// through the outer loop's first node. Nodes are placed along the axes at the spacing of `size`.
-/// @param symmetries  of the region that may be used: all of them or a subgroup.
+/// axes are used, or one if no two are perpendicular: more axes would give the centre a valence of six or
+/// more. Pairs of axes that cut more loops rank first, because a loop that is cut need not be placed in the
+/// grid. Next come pairs that pass through the first node of the outer loop. Nodes are placed along the axes
+/// at the spacing of `size`.
+/// @param symmetries  symmetries of the region that may be used: all, or a subgroup.
 /// @param size        spacing of the nodes on the axes.
 /// @param choice      rank of the perpendicular pair, from 0.
-/// @return empty if there is no such axis or `choice` is too large.
+/// @return  empty if there is no such axis, or `choice` is too large.
 std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
                                       const SizeField& size, std::size_t choice);
 
 /// Set the number of sides of each piece of an axis, >= 1.
 void divide_axes(MirrorPart& part, const std::vector<int>& sides, const SizeField& size);
 
-/// The quads of the whole region from those of its part: an image for each symmetry, joined along the axes.
+/// The quads of the whole region: the images of the quads of its part, joined along the axes.
 PlanarQuads unfold(const MirrorPart& part, const PlanarQuads& mesh, const PlanarRegion& region);
 
 } // namespace lacuna::quads

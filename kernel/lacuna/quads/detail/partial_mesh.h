@@ -14,7 +14,7 @@
 namespace lacuna::quads::paving {
 
 /// Weights of the terms of a cut's cost. No weights are best for all outlines, so small regions are cut with
-/// several.
+/// several sets of weights.
 struct CutWeights {
     /// Deviation of the angles at the cut's ends from multiples of a right angle.
     double corners = 1;

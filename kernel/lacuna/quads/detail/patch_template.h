@@ -28,11 +28,12 @@ SideCounts side_counts(std::size_t loop, std::span<const std::size_t> corners);
 
 /// Where the grids of a patch of 3 or 5 sides meet on each side, in edges from the side's start.
 ///
-/// One grid lies at each corner. The spokes, lines from a node in the middle, separate them. The spoke that
-/// ends on side i has foot[i + 1] edges, and side i has foot[i] + foot[i + 2] edges; for an odd number of
-/// sides this has one solution.
-/// @param ends_in_cut  the last side is a cut: the first foot may then be 0, and the grids meet on the cut.
-/// @return false if the solution is not in integers above 0.
+/// There is one grid at each corner. The grids are separated by spokes, lines that start at a node in the
+/// middle. The spoke that ends on side i has foot[i + 1] edges, and side i has foot[i] + foot[i + 2] edges.
+/// For an odd number of sides these equations have one solution.
+/// @param ends_in_cut  whether the last side is a cut. The first foot may then be 0; the grids meet on the
+///         cut.
+/// @return  false if the solution does not consist of integers above 0.
 bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMostSides>& foot);
 
 /// A straight line of edges across a patch; the parts on either side need no further cut.
@@ -42,21 +43,22 @@ struct TemplateCut {
     double fault = 0;             ///< deviation from straight and square, 0 is best [-]
 };
 
-/// The cuts with which a loop of two to six corners is filled with the fewest irregular nodes, the best
-/// ranked first: straight and square to the sides if possible. If no cut is needed, one "cut" without edges.
-/// For three or five corners that cannot be filled with one irregular node, some of the cuts with three.
+/// The cuts with which a loop of two to six corners is filled with the fewest irregular nodes. The best comes
+/// first: straight, and square to the sides if possible. If no cut is needed, the result is one "cut" without
+/// edges. For three or five corners that cannot be filled with one irregular node, the result contains some
+/// of the cuts with three.
 ///
 /// @param loop     in order, the patch on the left.
 /// @param corners  positions in the loop, ascending.
 /// @param most     maximum number of cuts; half as many if the cuts join opposite sides.
-/// @note  The numbers of edges determine which cuts there are. The positions of the points rank them, and
-///        exclude those that slant or have far too many or too few edges. O(product of the numbers of edges
-///        of two sides).
+/// @note  The numbers of edges determine which cuts exist. The positions of the points rank them, and exclude
+///         cuts that are slanted or have far too many or too few edges. O(product of the numbers of edges of
+///         two sides).
 std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners,
                                    std::size_t most);
 
-/// Upper bound on the irregular nodes of the cuts of `find_cuts()` if it finds one; a large number for other
-/// numbers of corners.
+/// Upper bound of the number of irregular nodes with the cuts of `find_cuts()`, if it finds one; a large
+/// number if the number of corners is not two to six.
 int fewest_irregular(std::size_t loop, std::span<const std::size_t> corners);
 
 /// Quads that fill a loop.

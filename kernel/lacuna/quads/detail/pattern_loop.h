@@ -26,21 +26,22 @@ LoopFrame straight_frame(const PlanarRegion& region);
 /// Centre of the area within a loop.
 Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop);
 
-/// The direction that most of the boundary runs along or across; if there is none, the direction of the lines
-/// between the loops' centres [radians].
+/// The direction along or across which most of the boundary runs. If there is none, the direction of the
+/// lines between the centres of the loops [radians].
 double main_angle(const PlanarRegion& region);
 
 /// A loop whose sides follow the lines of a grid.
 ///
-/// Headings are counted in right angles and not taken modulo 4, so the difference of two neighbours is the
-/// turn at the node between them: 1 at an end, 0 on a side, -1 at a corner, -2 at a reversal. If the boundary
-/// itself does not turn so, the turn is soft: it takes place some rows of quads further inside.
+/// Headings are counted in right angles and not reduced modulo 4, so the difference of two neighbouring
+/// headings is the turn at the node between them: 1 at an end, 0 on a side, -1 at a corner, -2 at a reversal.
+/// If the boundary itself turns differently there, the turn is soft: the grid turns some rows of quads
+/// further inside.
 struct PatternLoop {
     std::vector<Index> nodes;
     std::vector<int> heading;      ///< heading of the side from each node to the next
     std::vector<double> direction; ///< direction of each side, unwrapped like the headings [right angles]
-    std::vector<int> soft;         ///< number of rows to place before the loop may turn at each node
-    std::vector<char> movable;     ///< whether the turn at a node may be moved to a neighbour
+    std::vector<int> soft;         ///< for each node, number of rows to place before the loop may turn there
+    std::vector<char> movable;     ///< for each node, whether its turn may be moved to a neighbour
     int turns = 0;                 ///< total turn of the loop in its frame, in right angles
 
     [[nodiscard]] std::size_t size() const { return nodes.size(); }
@@ -58,12 +59,14 @@ struct PatternLoop {
     }
 };
 
-/// How the grid turns at ends of 135°, half way to a side, and at angles between a corner and a side.
+/// How the grid turns at ends of 135°, whose angle is halfway to a side, and at angles between a corner and a
+/// side.
 enum class TurnStyle {
-    soft,      ///< turns where the boundary fits best; behind a row if the boundary itself turns less
-    hard_ends, ///< the same, but one quad takes the whole angle of an end of 135°
-    few_soft,  ///< a turn stays on the boundary if that fits almost as well, because soft turns cost
-               ///< irregular nodes
+    /// The grid turns where this fits the boundary best; behind a row if the boundary itself turns less.
+    soft,
+    hard_ends, ///< as `soft`, but one quad takes the whole angle of an end of 135°
+    /// A turn stays on the boundary if that fits almost as well, because soft turns cost irregular nodes.
+    few_soft,
 };
 
 /// Whether a region's boundary has ends of about 135°.
@@ -81,29 +84,29 @@ std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::ve
 /// Whether `TurnStyle::few_soft` gives any loop other headings in a straight grid than `TurnStyle::soft`.
 bool has_doubtful_turns(const PlanarRegion& region);
 
-/// Number of rows that suits the soft turns where a loop bulges: about a third of the radius of the widest
-/// turn; 1 if there are none. The rows are placed in front of all soft turns.
+/// The number of rows that suits the soft turns where a loop bulges: about a third of the radius of the
+/// widest turn; 1 if there are no such turns. The rows are placed in front of all soft turns.
 int fitting_rows(const PatternLoop& loop);
 
-/// The numbers of rows worth a trial: one to three; for wider turns also larger ones, nearest to the fitting
-/// one first.
+/// The numbers of rows to try: one to three, and for wider turns also larger numbers. The number nearest to
+/// the fitting one comes first.
 std::vector<int> rows_to_try(int fitting);
 
-/// Set the number of rows before soft turns; at most three where the loop is bent inward, because holes have
-/// other loops around them.
+/// Set the number of rows before soft turns. Where the loop is bent inward there are at most three, because
+/// other loops surround a hole.
 /// @pre  `loop` is unchanged since `head_loop()`.
 void set_soft_rows(PatternLoop& loop, int rows);
 
-/// Whether a grid can follow a loop all round: the loop has no soft turns, and the grid turns at every corner
-/// that suits only one quad.
+/// Whether grid lines can follow a loop all around: the loop has no soft turns, and the grid turns at every
+/// corner that suits only one quad.
 /// @pre  `loop` is unchanged since `head_loop()`, in a polar frame.
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop);
 
 /// Place rows of quads along the parts of a loop with soft turns, until all turns are on the loop's nodes.
 ///
-/// A part ends at nodes where the boundary itself turns. At an end (one quad) the row stops on the
-/// neighbouring side; at corners and reversals it gets an edge of its own. If an end is the only such node,
-/// the row runs around the whole loop and one quad has that corner.
+/// A part of the loop ends at nodes where the boundary itself turns. At an end (one quad), the row stops on
+/// the adjacent side. At corners and reversals, the row gets an edge of its own. If an end is the only such
+/// node, the row runs around the whole loop and one quad has that corner.
 /// @return false if rows would use a side twice.
 bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
                       const SizeField& height);
@@ -111,14 +114,14 @@ bool lay_pattern_rows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<
 /// How far a loop is from closing, from its excess of sides along headings 0 and 1; 0 if it closes.
 inline int badness(const std::array<int, 2>& excess) { return excess[0] * excess[0] + excess[1] * excess[1]; }
 
-/// Move the movable turns, by as little as possible, until the loop closes in the grid: as many sides in each
-/// direction as back.
+/// Move the movable turns, by as few nodes as possible, until the loop closes in the grid, that is, until it
+/// has as many sides in each direction as in the opposite one.
 /// @param period  excess of sides along heading 0 that counts as closed, for a grid around a hole.
 /// @return false if that is impossible.
 bool close_pattern_loop(PatternLoop& loop, int period);
 
 /// Make a closed round loop one column narrower and one row higher in the grid.
-/// @return false if its turns cannot be moved so.
+/// @return  false if its turns do not allow this.
 bool trade_column_for_row(PatternLoop& loop);
 
 /// The loop's positions in the grid, from (0, 0).

@@ -14,16 +14,17 @@ namespace lacuna::quads {
 /// Widths of a ring along its outer loop.
 struct RingWidths {
     double least = 0, most = 0; ///< [model length]
-    std::size_t narrowest = 0;  ///< number of the outer loop's node there
-    std::size_t half = 0;       ///< mean number of nodes from there to where the width is half way to the
-                                ///< widest
+    std::size_t narrowest = 0;  ///< index of the outer loop's node where the ring is narrowest
+    /// Mean number of nodes from `narrowest` to the points where the width is halfway between `least` and
+    /// `most`.
+    std::size_t half = 0;
 
-    /// Number of rows of the given height that the rest of the ring should have in addition to those of its
-    /// narrow part, so that all rows are about equally high; 0 if `measure_plane()` accepts the heights of a
-    /// constant number of rows.
+    /// Number of rows that the rest of the ring should have in addition to those of its narrow part, so that
+    /// all rows are about as high as `height`. 0 if `measure_plane()` accepts the heights of a constant
+    /// number of rows.
     [[nodiscard]] int steps(double height) const;
-    /// Number of rows of the given height in which sides may be added or removed: the mean number of rows,
-    /// minus one.
+    /// Number of rows of this height that may change their number of quads: the mean number of rows minus
+    /// one.
     [[nodiscard]] int changing(double height) const;
 };
 
@@ -34,18 +35,18 @@ RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& o
 /// Whether a loop runs around without a turn.
 bool runs_round(const PatternLoop& loop);
 
-/// Let a loop without turns step inward by some rows on the part within `half` nodes of `middle`, and out
-/// again: two soft turns each way. This reduces its length along the grid by twice as many sides.
+/// Let a loop without turns step inward by some rows on the part within `half` nodes of `middle`, and back
+/// out again, by two soft turns each. This reduces its length along the grid by twice as many sides.
 /// @return false if the part is too short.
 bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows);
 
 /// Place rows along a loop without turns until it has another number of sides.
 ///
-/// The first row is as long as the loop, so no irregular node lies on the boundary. In the next rows each of
-/// `corners` nodes, evenly spaced, is an end or a corner of the grid, which removes two sides from the row or
-/// adds two. Each of them leaves a node of three quads and one of five; between the two lie the changed rows.
-/// The sides of the rows are made even.
-/// @param by  number of sides to add (> 0) or remove; even.
+/// The first row has as many quads as the loop has sides, so no irregular node lies on the boundary. In each
+/// of the next rows, `corners` evenly spaced nodes are ends or corners of the grid: each removes two sides
+/// from the row or adds two. Each leaves a node of three quads and a node of five quads, with the changed
+/// rows between them. The sides of the rows are then evenly spaced.
+/// @param by  even number of sides to add (> 0) or remove (< 0).
 /// @return false if the corners would meet.
 bool change_sides(PatternLoop& loop, int by, int corners, std::vector<Vec2>& points, std::vector<Quad>& quads,
                   const SizeField& height);

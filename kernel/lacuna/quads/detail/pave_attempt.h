@@ -19,7 +19,7 @@ struct Attempt {
     PlanarQuads mesh;
     PaveReport report;
     RowStyle style = RowStyle::by_shape;
-    double worst = -2;         ///< least sine; -2: no mesh, -1: a mesh with a fault
+    double worst = -2;         ///< minimum sine of a quad; -2: no mesh, -1: a mesh with a fault
     Vec2 where = Vec2::Zero(); ///< centre of the worst quad
 };
 
@@ -33,12 +33,12 @@ struct AttemptSetting {
     double flat = 0; ///< quads with a smaller sine count as folded [-]
 };
 
-/// Fill a region in one way, by rows, cuts and patches or by triangles. The mesh is not improved yet.
+/// Fill a region in one way: by rows, cuts and patches, or by triangles. The mesh is not improved yet.
 Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWeights& weights,
                       const RunContext& context);
 
 /// Open folds, clean and smooth.
-/// @param thorough  for the cleaning, see `CleanOptions`
+/// @param thorough  whether cleaning is thorough, see `CleanOptions`
 void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough,
                     const RunContext& context);
 

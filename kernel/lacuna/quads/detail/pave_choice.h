@@ -13,14 +13,14 @@
 
 namespace lacuna::quads::paving {
 
-/// Quality score for choosing between two attempts; higher is better, 3.325 at most.
+/// Quality score for choosing between two attempts; higher is better, and 3.325 is the maximum.
 ///
-/// The score is the sum of the mean scaled Jacobian, twice the least one up to kGood, half the least one from
-/// there to kBest, and half the shares of right sizes and of right row heights, minus twice the share of
-/// irregular nodes, including those on the boundary. The least one counts most because a sweep repeats the
-/// worst quad and makes it worse; above kBest smoothing reaches it anyway. The outline, not the number of
-/// quads, determines how many irregular nodes there must be, so their share is taken of at least kFewNodes
-/// nodes. A larger weight favours its term at the cost of the others.
+/// The score is the sum of: the mean scaled Jacobian; twice the minimum scaled Jacobian up to kGood, and half
+/// of it from there to kBest; half the share of sides of right size; and half the share of rows of right
+/// height. Twice the share of irregular nodes, including those on the boundary, is subtracted. The minimum
+/// counts most because a sweep repeats the worst quad and makes it worse; above kBest, smoothing reaches it
+/// anyway. The number of irregular nodes depends on the outline and not on the number of quads, so their
+/// share refers to at least kFewNodes nodes. A larger weight favours its term at the cost of the others.
 double score_of(const PlaneQuality& quality);
 
 /// A place as text for a message: "(0.5, 1.25)".
@@ -30,20 +30,20 @@ std::string position_text(const Vec2& p);
 class AttemptChooser {
 public:
     /// @param region, context  kept by reference.
-    /// @param cut  whether images of a part may fill a symmetric region.
+    /// @param cut  whether a symmetric region may be filled by images of a part.
     AttemptChooser(const PlanarRegion& region, const PaveOptions& options, const RunContext& context,
                    bool cut = true);
 
     /// Run all steps below until a further one cannot improve the result.
     void run();
-    /// Try grids, then the quads of a coarser region. Unless the result is good, pave few quads with weights
-    /// of their own without rows, and with rows. Unless that is good, try every promising style of rows with
-    /// the default weights.
+    /// Try grids, then the cut quads of a coarser region. If the result is not good: with few quads, pave
+    /// with weights for few quads, without rows and with rows; then, if it is still not good, try every
+    /// promising style of rows with the default weights.
     void try_default_weights();
     /// The score of a style with other cut weights; the attempt is not kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
-    /// Try the weights of `cut_weight_rows()` while the region is small and the score can still improve; for
-    /// few quads only if the best mesh is poor.
+    /// Try the weights of `cut_weight_rows()` while the region is small and the score can still improve. With
+    /// few quads this is done only if the best mesh is poor.
     void try_all_weights();
     /// Try triangles if nothing else fills the region well.
     void try_triangles();
@@ -59,8 +59,8 @@ public:
 
 private:
     void consider(Attempt made);
-    /// Try the grid of a region of right angles. Unless that is good, try images of a part between mirror
-    /// axes and the grids of `fill_patterns()`, the more promising first.
+    /// Try the grid of a rectilinear region. If it is not good, try images of a part between mirror axes and
+    /// the grids of `fill_patterns()`, the more promising of the two first.
     void try_grids();
     /// Keep the quads of a coarser region, each cut in four, if they are good.
     /// @return whether no further attempt is needed.
@@ -72,13 +72,13 @@ private:
     [[nodiscard]] Attempt fill_about(const CentralBlock& block) const;
     /// The part between mirror axes, with nodes on them; empty if there are no axes.
     [[nodiscard]] std::optional<MirrorPart> part_of_region() const;
-    /// Keep images of a part if they are good; otherwise add them to the grids.
-    /// @param few  whether the given sides determine the sizes of quads.
+    /// Keep images of a part if they are good; otherwise add them to `grids`.
+    /// @param few  whether there are so few quads that the given sides determine their sizes.
     bool try_part(const MirrorPart& part, bool few, std::vector<Attempt>& grids);
     /// Images of the quads of a part.
     [[nodiscard]] Attempt fill_part(const MirrorPart& part) const;
     void try_few_weights();
-    /// Finish an attempt and compare it with the best, unless an equal one was finished before.
+    /// Finish an attempt and compare it with the best one, unless an identical attempt was finished before.
     void finish(Attempt begun);
     void pave_in(RowStyle style);
     [[nodiscard]] Attempt begin(RowStyle style, const CutWeights& weights = {}) const;
@@ -110,11 +110,11 @@ private:
     bool is_near_least_ = false; ///< whether the best attempt has nearly the least number of irregular nodes
 };
 
-/// The weights with which small regions are also cut, one set a row, in the order of trial.
+/// The sets of weights with which small regions are also cut, in the order of trial.
 std::span<const CutWeights> cut_weight_rows();
 
-/// Sine below which a quad counts as folded: a sweep cannot use a flatter quad, unless the given corners are
-/// that sharp.
+/// A quad counts as folded if its sine is below this value: a sweep cannot use a flatter quad. The value is
+/// lower if given corners are that sharp.
 double flat_below(const PlanarRegion& region);
 
 } // namespace lacuna::quads::paving

@@ -14,26 +14,27 @@ struct Cut {
     std::size_t edges = 1;        ///< mesh edges along the line
 };
 
-/// The cost of a line that divides an angle: 0 if both parts suit whole quads and no quad is added.
+/// The cost of dividing an angle by a line: 0 if both parts suit whole numbers of quads and no quad is added.
 double end_cost(double whole, double part, const CutWeights& weights);
 
-/// The length of edges between two points: the number of edges is proportional to the mean of 1 / size.
+/// The length of edges along a line between two points: the inverse of the mean of 1 / size.
 double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b);
 
-/// The best line that divides a loop into two even ones, by the weights of `PartialMesh`. It meets the
-/// outline at multiples of a right angle, is short relative to the outline it cuts off, leaves parts whose
-/// sides agree in number, and stays away from other nodes.
-/// @return empty if every line crosses the outline, or none makes both parts smaller.
+/// The best line that divides a loop into two loops of even numbers of nodes, by the weights of
+/// `PartialMesh`. A good line meets the outline at multiples of a right angle, is short relative to the part
+/// of the outline that it cuts off, leaves parts whose opposite sides have equal numbers of edges, and stays
+/// away from other nodes.
+/// @return  empty if every line crosses the outline, or no line makes both parts smaller than the loop.
 /// @note  At most about 96 nodes are tried, in all pairs, then the nodes near the best ones.
 std::optional<Cut> best_cut(const PartialMesh& partial, const Cycle& cycle,
                             const std::vector<double>& angles);
 
-/// Cut one quad off a loop where it has the best shape: for loops in which `best_cut()` finds no line. Both
-/// parts are even and smaller.
+/// Cut one quad off a loop where this quad has the best shape. Used for loops in which `best_cut()` finds no
+/// line. Both parts have even numbers of nodes and are smaller than the loop.
 Cut blind_cut(const PartialMesh& partial, const Cycle& cycle);
 
-/// Add nodes along a line, spaced as the size at both ends asks. @return all of the line's nodes, both ends
-/// included.
+/// Add nodes along a line, spaced according to the size at its ends. @return  all nodes of the line,
+/// including both ends.
 Cycle nodes_along(PartialMesh& partial, Index from, Index to, std::size_t edges);
 
 /// The two loops on either side of a cut; `line` runs from position `cut.from` to position `cut.to`.

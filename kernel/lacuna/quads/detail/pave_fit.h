@@ -10,7 +10,9 @@ namespace lacuna::quads::paving {
 /// How well a loop can be filled as one patch.
 struct PatchFit {
     std::vector<std::size_t> corners; ///< 3 to 5 positions in the cycle; empty if no patch fits
-    double quality = 0; ///< 1 for a rectangle of right counts and sizes; <= 0 if it would fold [-]
+    /// 1 for a rectangle with equal numbers on opposite sides and quads of the right size; <= 0 if it folds
+    /// [-].
+    double quality = 0;
 };
 
 /// The best corners of a loop, and the quality of a patch with these corners, estimated from a few sample

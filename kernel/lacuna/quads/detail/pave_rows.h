@@ -9,8 +9,8 @@ namespace lacuna::quads::paving {
 
 /// How strictly a row keeps its height.
 enum class RowKind {
-    tall,  ///< as high as asked on most of the loop, otherwise the row is dropped
-    exact, ///< as high as asked everywhere, otherwise the row is dropped
+    tall,  ///< as high as requested on most of the loop; otherwise the row is dropped
+    exact, ///< as high as requested everywhere; otherwise the row is dropped
 };
 
 /// Whether a loop needs a row: the deviations of its angles from multiples of a right angle sum to more than
@@ -19,13 +19,14 @@ bool needs_row(const PartialMesh& partial, const Cycle& cycle);
 
 /// Place a row of quads inward from each wanted loop, and replace the loop by the row's inner side.
 ///
-/// By their angle, loop nodes are ends (one quad), sides (two, of neighbouring edges), corners (three) or
-/// reversals (four). Rows have the height `height`; where another side is near, all but exact rows take a
-/// third of the gap. A row that would fold, run into another or leave too few nodes is dropped.
+/// By their angles, nodes of the loop are ends (one quad), sides (two quads, one for each adjacent edge),
+/// corners (three quads) or reversals (four). Rows have the height `height`. Where another side is near, rows
+/// are lowered to a third of the gap, except exact rows. A row that would fold, run into another one or leave
+/// too few nodes is dropped.
 ///
-/// @param wanted  the loops that should get a row; false afterwards for those that got none.
-/// @param height  of the row over a boundary point [length].
-/// @return number of rows placed.
+/// @param wanted  whether each loop should get a row; set to false for loops that got none.
+/// @param height  height of the row over a boundary point [length].
+/// @return  number of rows placed.
 int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>& wanted,
              const SizeField& height, RowKind kind);
 

@@ -21,10 +21,12 @@ struct TargetAreas {
     std::vector<Target> asked; ///< for each point; empty: no targets
 };
 
-/// Energy of the quads around one point, with its gradient and curvature as functions of the point.
+/// Energy of the quads around one point, with its gradient and curvature as functions of the point's
+/// position.
 ///
-/// The energy sums f², f = (|a|² + |b|²) / 2 det, over the corners that change with the point. The square
-/// gives bad corners more weight. With a target area h², (det / h² + h² / det) / 2 is added.
+/// The energy is the sum of f², with f = (|a|² + |b|²) / (2 det), over the corners that change if the point
+/// moves. The square gives bad corners more weight. If there is a target area h², (det / h² + h² / det) / 2
+/// is added for each of these corners.
 struct StarEnergy {
     double value = 0;
     Vec2 slope{0, 0};
@@ -80,7 +82,7 @@ public:
         inverse_p_ = Lanes{} + areas.asked[p].inverse;
     }
 
-    /// Add the energy of these quads and its derivatives. @return false where a corner is folded
+    /// Add the energy of these quads and its derivatives. @return  false if a corner is folded
     LACUNA_INLINE bool add_to(StarEnergy& around, const Vec2& x, double weight) const
     {
         const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
@@ -105,7 +107,8 @@ public:
         return true;
     }
 
-    /// Add the energy alone. @return false where a corner is folded, or its sine squared is less than `least`
+    /// Add the energy alone. @return  false if a corner is folded, or the square of its sine is less than
+    /// `least`
     LACUNA_INLINE bool add_to(double& value, const Vec2& x, double weight, double least) const
     {
         Corners corners;
@@ -128,8 +131,7 @@ public:
         return true;
     }
 
-    /// Add `weight` times the sum of f - 1 over the corners that change, quad by quad, until the value
-    /// reaches a bound.
+    /// Add `weight` times f - 1 for each corner that changes, quad by quad, until the value reaches a bound.
     LACUNA_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
     {
         Corners corners;
@@ -141,8 +143,8 @@ public:
     }
 
 private:
-    /// Squared lengths of a quad's sides, the two at the point first, and twice the areas at the corners that
-    /// change.
+    /// Squared lengths of a quad's sides, beginning with the two at the point, and twice the areas at the
+    /// corners that change.
     struct Corners {
         Lanes aa, bb, cc, dd, det_p, det_n, det_r;
     };
@@ -198,7 +200,7 @@ private:
     };
 
     Lanes nx_, ny_, ox_, oy_, rx_, ry_;
-    Lanes counts_; ///< 1, or 0 where a lane repeats the last quad
+    Lanes counts_; ///< 1; 0 in a lane that only repeats the last quad
     Lanes area_p_, inverse_p_, area_n_, inverse_n_, area_r_, inverse_r_;
     bool has_area_;
 };
@@ -216,7 +218,7 @@ public:
             lanes_[i].set(points, star, i * SpokeLanes::kLanes, p, areas);
     }
 
-    /// The energy with its derivatives. @return false where a corner is folded
+    /// The energy with its derivatives. @return  false if a corner is folded
     LACUNA_INLINE bool differentiate(const Vec2& x, double weight, StarEnergy& around) const
     {
         around = {};
@@ -226,7 +228,7 @@ public:
         return true;
     }
 
-    /// The energy alone; infinite where a corner is folded, or its sine squared is less than `least`.
+    /// The energy alone; infinite if a corner is folded, or the square of its sine is less than `least`.
     LACUNA_INLINE double energy(const Vec2& x, double weight, double least) const
     {
         double value = 0;

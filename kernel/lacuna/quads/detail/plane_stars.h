@@ -59,7 +59,7 @@ inline std::vector<Index> valences(std::span<const Quad> quads, std::size_t poin
     return valence;
 }
 
-/// The least sine of the quads at a point if it were at `x`; at most 1.
+/// The smallest sine of the quads at a point if the point were at `x`; at most 1.
 inline double worst_quad(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
     double worst = 1;
@@ -69,7 +69,7 @@ inline double worst_quad(std::span<const Vec2> points, std::span<const Spoke> st
     return worst;
 }
 
-/// The shortest side at a point if it were at `x`.
+/// The shortest side at a point if the point were at `x`.
 inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
     double squared = kInfinity;
@@ -80,10 +80,10 @@ inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke>
     return std::sqrt(squared);
 }
 
-/// When a point is moved to improve its worst sine, its shortest side keeps at least this share of its
-/// initial length. Sines do not depend on lengths: a needle has the sines of a square, and without a limit
-/// sides shrank to a millionth of their neighbours. A higher value prevents more of the improvements, a lower
-/// one allows shorter edges.
+/// If a point is moved to improve its worst sine, its shortest side keeps at least this share of its initial
+/// length. Sines do not depend on lengths: a needle has the sines of a square, and without a limit sides
+/// shrank to a millionth of their neighbours. A higher value prevents more of the improvements; a lower one
+/// allows shorter edges.
 inline constexpr double kShortestKept = 0.25;
 
 /// The shortest side that each point must keep, by `kShortestKept`; 0 for the first `fixed` points and for
@@ -96,10 +96,10 @@ inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Sta
     return least;
 }
 
-/// Least sine, at most 1, of the corners that change when a point moves to `x`, if it exceeds `floor`;
-/// otherwise some number up to `floor`. The search stops at the first corner that does not exceed the floor.
-/// In most trials this is the same corner as in the trial before.
-/// @param first  position in the star to begin with; set to the one that did not exceed the floor
+/// The smallest sine, at most 1, of the corners that change if a point moves to `x`, if this sine exceeds
+/// `floor`; otherwise any number up to `floor`. The search stops at the first corner that does not exceed the
+/// floor. In most trials this is the same corner as in the previous trial.
+/// @param first  position in the star at which the search begins; set to the position at which it stopped
 inline double least_sine_above(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
                                double floor, std::size_t& first)
 {
@@ -126,7 +126,7 @@ inline double least_sine_above(std::span<const Vec2> points, std::span<const Spo
     return least;
 }
 
-/// The same without a floor.
+/// As `least_sine_above()`, without a floor.
 inline double least_sine(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
     std::size_t first = 0;

@@ -59,8 +59,8 @@ public:
         valence_.push_back(0);
         return static_cast<Index>(out_.size()) - 1;
     }
-    /// Replace quads by others with the same outline. @return the numbers of the new quads. Numbers of
-    /// removed quads are reused, the last removed first.
+    /// Replace quads by others with the same outline. @return  the numbers of the new quads. They reuse the
+    /// numbers of removed quads, the last removed first.
     std::vector<Index> replace(std::span<const Index> removed, std::span<const Quad> added);
 
 private:

@@ -19,14 +19,14 @@ using Cycle = std::vector<Index>;
 /// A length as a function of the place: the size asked of quads, or the height of rows.
 using SizeField = std::function<double(const Vec2&)>;
 
-/// The point at a place of a loop; places past its end continue from its start.
+/// The point at a position of a loop. Positions past the end continue from the start.
 inline const Vec2& point_of(std::span<const Vec2> points, const Cycle& loop, std::size_t place)
 {
     return points[index(loop[place % loop.size()])];
 }
 
-/// The point at a distance of `sides` sides along a loop from a place; places past its end continue from its
-/// start.
+/// The point that is `sides` sides further along a loop than a position. Positions past the end continue from
+/// the start.
 Vec2 point_along(std::span<const Vec2> points, const Cycle& loop, std::size_t from, double sides);
 
 /// Add points that divide a loop evenly from one place up to another, excluding the latter.
@@ -54,7 +54,7 @@ void for_sides_of(const std::vector<Cycle>& loops, const Visit& visit)
     }
 }
 
-/// The same with the end points of every side of a region's boundary.
+/// Call `visit` with the end points of every side of a region's boundary.
 template <class Visit>
 void for_boundary_sides(const PlanarRegion& region, const Visit& visit)
 {
@@ -75,7 +75,7 @@ RegionWithin region_within(std::span<const Vec2> points, const std::vector<Cycle
 
 /// Add quads over a region made by `region_within()` to the mesh.
 /// @param own    the mesh's numbers of the region's points.
-/// @param inner  the further points of the quads, which are added.
+/// @param inner  points inside the region; they are added to the mesh.
 void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std::vector<Index>& own,
                  std::span<const Vec2> inner, std::span<const Quad> filling);
 void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQuads& filling);

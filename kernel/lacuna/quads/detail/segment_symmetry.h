@@ -26,20 +26,20 @@ std::size_t segment_count(std::span<const int> segment);
 /// @param segment  segment of the side from each node to the next, 0, 1, …
 std::vector<SegmentSymmetry> segment_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
-/// The symmetries of `segment_symmetries()` that also map the first node of every loop with a single segment
-/// onto the first node of such a loop. This is required if nodes are counted from there.
+/// The symmetries of `segment_symmetries()` that also map the first node of each loop with a single segment
+/// onto the first node of such a loop. This is needed where nodes are counted from that node.
 std::vector<SegmentSymmetry> end_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
-/// Two segments that are mirror images of each other; or, given twice, one that is its own mirror image.
+/// Two segments that are mirror images of each other. A segment that is its own mirror image is given twice.
 using SegmentPair = std::array<std::size_t, 2>;
 
-/// The pairs of `end_symmetries()`, for each reflection in the order of the loops.
+/// For each reflection of `end_symmetries()`, its pairs of segments in the order of the loops.
 std::vector<SegmentPair> mirrored_segments(const PlanarRegion& region, std::span<const int> segment);
 
 /// Whether the segments of every pair have equal numbers of sides.
 bool are_alike(std::span<const int> counts, std::span<const SegmentPair> pairs);
 
-/// How many pairs have unequal numbers of sides, or an odd number if a segment is its own mirror image.
+/// Number of pairs that have unequal numbers of sides, or an odd number if a segment is its own mirror image.
 int unlike(std::span<const int> counts, std::span<const SegmentPair> pairs);
 
 } // namespace lacuna::quads

@@ -12,23 +12,23 @@
 namespace lacuna::quads {
 
 struct SmoothPlaneOptions {
-    std::function<double(const Vec2&)>
-        size;                 ///< edge length asked for [model length]; none: shape alone counts
-    int sweeps = 12;          ///< over all points, >= 0
-    double size_weight = 0.1; ///< weight of size against shape, >= 0 [-]
+    std::function<double(const Vec2&)> size; ///< edge length wanted [model length]; null: only shape counts
+    int sweeps = 12;                         ///< number of sweeps over all points, >= 0
+    double size_weight = 0.1;                ///< weight of size against shape, >= 0 [-]
     double good_enough = 0.7; ///< quads with a smaller scaled Jacobian are improved one by one [-]
-    int repairs = 20;         ///< rounds over them, >= 0
+    int repairs = 20;         ///< number of rounds over these quads, >= 0
     bool untangle = true;     ///< untangle folded quads first
 };
 
 /// Smooth quads of the plane by moving their points, except the first `fixed` ones.
 ///
-/// 1. Where a corner is folded, the quads around it are untangled (foldover-free maps, Garanzha et al. 2021,
-///    in two dimensions: ε falls as the least determinant rises, with L-BFGS inside).
-/// 2. Every point in turn takes Newton steps on the convex energy of its corners, (|a|² + |b|²) / 2 det and,
+/// 1. Where a corner is folded, the quads around it are untangled by foldover-free maps (Garanzha et al.
+///    2021) in two dimensions: ε decreases as the smallest determinant grows, and each step is a minimisation
+///    by L-BFGS.
+/// 2. Each point in turn takes Newton steps on the convex energy of its corners, (|a|² + |b|²) / (2 det) and,
 ///    with a size h, (det/h² + h²/det) / 2. No step may fold a quad.
-/// 3. The points of the worst quads are moved, one after the other, to where the least sine around them is
-///    largest, as long as no side becomes much shorter than those around it.
+/// 3. The points of the worst quads are moved, one after the other, to the position with the largest minimum
+///    sine around them, as long as no side becomes much shorter than those around it.
 /// @post  the least scaled Jacobian is not smaller than before.
 /// @throw Cancelled
 /// @note  Deterministic, for any number of threads: 20,000 points and more are swept on all of them.

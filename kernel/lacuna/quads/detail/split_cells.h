@@ -21,12 +21,13 @@ struct MixedMesh {
 /// Cut convex cells into convex quads without changing the boundary. It never fails, so it fills regions in
 /// which rows and cuts fail.
 ///
-/// Every inner edge is halved, except those of a T-join in the dual graph: a set of edges of which an odd
-/// number meets every terminal and an even number every other cell. The terminals are the cells with an odd
-/// number of boundary edges, so each cell has an even number of whole edges. A nearly shortest T-join is
-/// found by growing breadth-first trees from all terminals at once and joining them by a minimum spanning
-/// tree. A cell without whole edges becomes four quads, a triangle three. With two whole edges a quad becomes
-/// two or three quads, a triangle five. All corners stay below a straight angle if those of the cells are.
+/// Every inner edge is halved, except the edges of a T-join in the dual graph. A T-join is a set of edges
+/// such that an odd number of them meets every terminal and an even number every other cell. The terminals
+/// are the cells with an odd number of boundary edges, so each cell has an even number of whole edges. A
+/// nearly shortest T-join is found by growing breadth-first trees from all terminals at once and joining them
+/// by a minimum spanning tree. Without whole edges, a quad is cut into four quads and a triangle into three.
+/// With two whole edges, a quad is cut into two or three quads and a triangle into five. All corners of the
+/// quads stay below a straight angle if those of the cells are.
 /// @pre   the boundary has an even number of edges; cells are convex, conforming and in one piece.
 /// @note  Deterministic. O(cells log cells).
 MixedMesh split_cells(const MixedMesh& mesh);

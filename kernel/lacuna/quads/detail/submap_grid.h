@@ -46,13 +46,14 @@ std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<
 /// 2003).
 Vec2 mean_value_position(const std::vector<Vec2>& points, const GridLoop& outer, const Vec2& p);
 
-/// Rotate and move a hole's grid coordinates to fit a goal as closely as possible.
-/// @param goal  the outline's coordinates, interpolated at the hole's nodes.
+/// Rotate and move a hole's grid coordinates so that they are as close to `goal` as possible.
+/// @param goal  coordinates of the outline, interpolated at the hole's nodes.
 void place_hole(const std::vector<Vec2>& goal, GridLoop& hole);
 
-/// The grid that loops enclose: which cells are inside, and the nodes at their corners.
+/// The grid that loops enclose: the cells inside, and the nodes at their corners.
 ///
-/// Corners are stored per cell, because the two sides of a slit have different nodes at the same grid point.
+/// Corners are stored for each cell, because the two sides of a slit have different nodes at the same grid
+/// point.
 class SubmapGrid {
 public:
     /// @param period  > 0: the first coordinate is periodic around a ring, and the loops' coordinates are

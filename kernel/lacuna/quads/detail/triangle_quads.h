@@ -5,12 +5,12 @@
 
 namespace lacuna::quads {
 
-/// Fill a region with quads by way of triangles. It always works if the loops are simple, so it is the last
-/// resort if rows and cuts fold.
+/// Fill a region with quads made from triangles. This always works if the loops are simple, so it is the last
+/// resort if rows and cuts give folded quads.
 ///
-/// Constrained Delaunay triangles of the asked size are merged in pairs that form convex quads, the best
-/// first, and all cells are split into quads (`split_cells()`). The quads are valid, but many and irregular,
-/// so the caller should clean and smooth them.
+/// Constrained Delaunay triangles of the requested size are merged in pairs that form convex quads, the best
+/// pairs first. All cells are then split into quads (`split_cells()`). The quads are valid, but many and
+/// irregular, so the caller should clean and smooth them.
 /// @return no quads if loops touch.
 /// @pre    the total number of edges of the loops is even.
 /// @note   Deterministic. O(n log n) in practice.

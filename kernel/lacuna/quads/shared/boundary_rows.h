@@ -54,9 +54,10 @@ struct RowsFilling {
 ///
 /// Each node of a row stands at the row's height above both boundary sides at its foot, measured square to
 /// them. At a corner where rows end on existing boundary nodes, nearby row nodes lean as these boundary nodes
-/// do. Where two sides with rows meet in a corner, their rows cross there. At a convex-outward corner the
-/// rows of one side continue along the ends of the other side's rows.
-/// @param core  fills the region inside the rows.
+/// do. Where two sides with rows meet in a corner, their rows cross there. At an outer corner
+/// (`RowTurn::outer`), such as that of a square hole, the rows of one side continue along the ends of the
+/// other side's rows.
+/// @param core  mesher for the region that the rows leave.
 /// @return  the quads of the rows first; a finding if the rows do not fit.
 /// @throw   any exception of `core`.
 /// @note    O(rows · sides), plus the filling.

@@ -59,8 +59,8 @@ private:
 /// The angle inside the region at each of its boundary nodes, loop after loop [radian].
 std::vector<double> boundary_angles(const PlanarRegion& region);
 
-/// Limits for a good row quad: the deviation of a corner from its ideal angle [radian], and the share of the
-/// row's height by which an end of the side opposite the boundary may miss that height.
+/// Limits for a good row quad: the deviation of a corner from its ideal angle [radian], and the deviation
+/// from the row's height of the ends of the side opposite to the boundary, as a share of that height.
 inline constexpr double kRowOffRight = std::numbers::pi / 9, kRowOffHeight = 0.3;
 
 /// Ideal corner angle of a row quad at a boundary node [radian]: half the node's angle if two quads share the
@@ -74,7 +74,7 @@ double row_corner(double angle, Index quads);
 /// single quad in a corner below 70° or above 110° does not.
 /// @param angle  inside the region [radian].
 bool may_be_good(double angle, Index quads);
-/// The same for any number of quads.
+/// Whether some number of quads, from one to four, allows such corners.
 bool may_be_good(double angle);
 
 /// Measure quads over a region.
@@ -96,11 +96,11 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region);
 /// @param euler   of the region: 2 minus the number of its loops
 int least_irregular(std::span<const double> angles, int euler, double either = 0);
 
-/// The same for a region. No mesh has fewer irregular nodes if boundary nodes whose number of quads does not
+/// As above, for a region. No mesh has fewer irregular nodes if boundary nodes whose number of quads does not
 /// fit their angle are counted too.
 int least_irregular(const PlanarRegion& region);
 
-/// The first reason why the quads are no valid mesh of the region, in words; empty if they are valid.
+/// The first reason, in words, why the quads are not a valid mesh of the region; empty if they are valid.
 ///
 /// Checked: boundary points moved or missing; corners that are no points or occur twice; sides used by three
 /// quads, or by two in the same direction; boundary sides that are not those of the loops; points without a

@@ -15,8 +15,8 @@ struct RegionSide {
     std::size_t loop, place;
 };
 
-/// The sides of a region in the order in which they should be divided: the longest relative to the local size
-/// first.
+/// The sides of a region in the order in which they should be divided: the side that is longest relative to
+/// the local size comes first.
 std::vector<RegionSide> sides_by_length(const PlanarRegion& region);
 
 /// Fill a region whose boundary may have an odd number of sides. If it has, the mesh has one triangle, the

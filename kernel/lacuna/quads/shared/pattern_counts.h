@@ -12,9 +12,9 @@ namespace lacuna::quads {
 
 /// A segment of a region's boundary and the number of sides it should get.
 struct BoundarySegment {
-    double wanted = 1;  ///< number of sides by the size asked, not rounded, > 0
-    int least = 1;      ///< least number of sides, >= 1
-    bool fixed = false; ///< the number of sides is given
+    double wanted = 1;  ///< number of sides that the size requires, not rounded, > 0
+    int least = 1;      ///< minimum number of sides, >= 1
+    bool fixed = false; ///< whether the number of sides is given
 };
 
 /// The even number nearest to `wanted` that is at least `least`.

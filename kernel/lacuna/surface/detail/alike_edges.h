@@ -11,17 +11,18 @@
 /// Edges of a symmetric face that need equal numbers of sides. Internal to this folder.
 namespace lacuna::surface {
 
-/// Classes of a face's edges under its symmetries, each in the order of the loops. Symmetries are those of
-/// the outline in the plane normal to the face's normal.
-/// @return  all edges, one without a counterpart as a class of its own; empty if the face has no symmetry.
+/// Classes of edges of a face that its symmetries map onto each other, each class in the order of the loops.
+/// Symmetries are those of the outline in the plane normal to the face's mean normal.
+/// @return  classes that contain all edges; an edge without a counterpart is a class of its own. Empty if the
+///         face has no symmetry.
 std::vector<std::vector<EdgeId>> alike_edges(const topology::Model& model, FaceId face);
 
-/// Classes of edges of each face that need equal numbers of sides.
+/// For each face, the classes of its edges that need equal numbers of sides.
 using AlikeEdges = std::map<FaceId, std::vector<std::vector<EdgeId>>>;
 
-/// Set one number of sides on edges that a face's symmetries map onto each other, if their wanted numbers
-/// agree and none is given.
-/// @param faces  those that keep their own quads are skipped.
+/// Request the same number of sides on edges that a symmetry of a face maps onto each other, if the wanted
+/// numbers agree and none of the numbers is given.
+/// @param faces  faces to treat; a face that keeps its own quads is skipped.
 /// @return  the classes to which this applied.
 AlikeEdges ask_alike(Seeds& seeds, const topology::Model& model, std::span<const FaceId> faces);
 

@@ -12,13 +12,13 @@ namespace lacuna::surface {
 
 /// Corresponding entities of source and target, if both ends are split in the same way.
 struct AlikeEnds {
-    std::vector<RimPair> pairs; ///< where inner edges end on the rims
+    std::vector<RimPair> pairs; ///< vertices of the rims at which inner edges end
     std::map<topology::EdgeUse, topology::EdgeUse>
-        edges;                      ///< inner uses of source faces; the target's run in the same direction
+        edges; ///< for each inner edge use of a source face, the use of the target in the same direction
     std::map<FaceId, FaceId> faces; ///< target face of each source face
 };
 
-/// Match the faces of both ends, as graphs, from the rims inwards; nothing if they are split differently.
+/// Match the faces of both ends as graphs, from the rims inwards. Empty if the ends are split differently.
 /// O(edges of the ends).
 std::optional<AlikeEnds> alike_ends(const topology::OpenVolume& volume,
                                     std::span<const LinkingSurface> links);

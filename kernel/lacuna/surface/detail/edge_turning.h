@@ -9,9 +9,9 @@ namespace lacuna::surface {
 
 /// The turn of an edge, or of a chain of edges, along its length.
 ///
-/// The bend at each point of the polyline is spread over the adjacent halves of its two sides, so a polyline
-/// cut from a curve turns as evenly as the curve. Sharp bends are corners and are ignored, as are the
-/// vertices between edges.
+/// The bend at each point of the polyline is spread over the adjacent halves of its two sides, so that a
+/// polyline cut from a curve turns as evenly as the curve. Sharp bends are corners; they are ignored, and so
+/// are the vertices between edges.
 class EdgeTurning {
 public:
     EdgeTurning(const topology::Model& model, EdgeId edge);
@@ -25,7 +25,7 @@ private:
     void append(const topology::Model& model, topology::EdgeUse use);
     [[nodiscard]] double upto(double s) const;
 
-    std::vector<double> at_{0}, sum_{0}; ///< running lengths, and the turn up to each
+    std::vector<double> at_{0}, sum_{0}; ///< running lengths, and the turn up to each length
 };
 
 } // namespace lacuna::surface

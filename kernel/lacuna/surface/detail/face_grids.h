@@ -18,20 +18,20 @@ struct FaceGrids {
     std::map<FaceId, MappedFace> mapped;              ///< faces of four sides, with their grids
 };
 
-/// Choose mapped and submapped faces by their sides. If a minimum count across narrow places is set, sides of
-/// mapped faces get it.
-/// @throw NotSweepable "surface.not_four_sided"  if all faces must be mapped.
+/// Decide by the sides of each face whether it is mapped or submapped. If a minimum number of quads across
+/// narrow places is set, the sides of mapped faces get at least this number.
+/// @throw NotSweepable "surface.not_four_sided"  a face cannot be mapped although the style requires it.
 FaceGrids choose_grids(const SeedTask& task, Seeds& seeds);
 
 /// Whether a face is neither mapped nor submapped nor keeps its quads.
 bool is_free(const FaceGrids& grids, const Seeds& seeds, FaceId face);
 
-/// Whether all normals of a face are within a half space, so that it can be projected onto a plane without
-/// folds.
+/// Whether all normals of a face lie within a half space around `normal`, so that the face can be projected
+/// onto a plane without folds.
 bool faces_one_way(const topology::Model& model, FaceId face, const Vec3& normal);
 
-/// Faces whose opposite sides still have different counts, because these are fixed, become free.
-/// @throw NotSweepable "surface.kept_side"  if all faces must be mapped.
+/// Make faces free whose opposite sides still have different numbers of sides because these are fixed.
+/// @throw NotSweepable "surface.kept_side"  the style requires such a face to be mapped.
 void free_unequal(const SeedTask& task, FaceGrids& grids, Seeds& seeds);
 
 } // namespace lacuna::surface

@@ -11,7 +11,7 @@
 
 namespace lacuna::surface {
 
-/// Facets of one face, with points of their own.
+/// Facets of one face, with a list of points of their own.
 struct FineFacets {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
@@ -20,9 +20,8 @@ struct FineFacets {
 
     /// A point on an edge of the face.
     struct OnEdge {
-        double at = 0;    ///< number of the segment of the edge's polyline, plus the position within the
-                          ///< segment [0, 1]
-        Index point = -1; ///< in `points`
+        double at = 0; ///< number of the segment of the edge's polyline, plus the position within it [0, 1]
+        Index point = -1; ///< index in `points`
     };
     std::map<EdgeId, std::vector<OnEdge>> edges; ///< in the direction of each edge, from end to end
     /// Distance from the midpoint of each side to the exact face; only with `FineFacetOptions::bulges`.
@@ -34,15 +33,15 @@ struct FineFacetOptions {
     /// Maximum distance of a side's midpoint from the face, relative to the size there, > 0 [-]
     double off = 0.05;
     int rounds = 8;      ///< rounds of bisection, >= 0
-    double most = 1e5;   ///< number of facets at which refinement stops
+    double most = 1e5;   ///< refinement stops at this number of facets
     bool bulges = false; ///< compute the bulges of the final facets
 };
 
 /// The facets of a face, refined where they deviate too far from the exact face for quads of the given size.
 ///
 /// Facets made for display are large compared with fine quads: rim nodes, which lie on the exact edge, would
-/// stand up to a row's height off the facets. Midpoints of bisected sides lie on the exact edges and the
-/// exact surface. A facet with one bisected side is split in two; with two bisected sides, the third is
+/// be off the facets by up to the height of a row. Midpoints of bisected sides lie on the exact edges and the
+/// exact surface. A facet with one bisected side is split in two. If two sides are bisected, the third is
 /// bisected as well and the facet is split in four. Without exact geometry the facets are not refined.
 FineFacets fine_facets(const topology::Model& model, FaceId face, const SizeField& size,
                        const FineFacetOptions& options = {});

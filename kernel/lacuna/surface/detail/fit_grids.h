@@ -8,11 +8,11 @@
 /// Numbers of sides for which a grid fills a free face. Internal to this folder.
 namespace lacuna::surface {
 
-/// Give free faces counts for which a grid fills them. Faces whose loops constrain each other come before
-/// faces that depend on settled edges: a ring around a disc before the disc. Edges of mapped faces are not
-/// changed.
-/// @param settled  edges that are not changed either.
-/// @return  `settled`, and the edges that now have the counts of a grid.
+/// Give free faces numbers of sides for which a grid fills them. A face whose loops constrain each other,
+/// such as a ring, comes before faces that depend on its edges, such as the disc inside it. Edges of mapped
+/// faces are not changed.
+/// @param settled  further edges that are not changed.
+/// @return  `settled` and the edges whose numbers of sides are now those of a grid.
 /// @throw Cancelled
 std::set<EdgeId> fit_grids(const SeedTask& task, const FaceGrids& grids, std::set<EdgeId> settled,
                            Seeds& seeds, const RunContext& context);

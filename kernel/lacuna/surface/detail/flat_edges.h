@@ -11,7 +11,7 @@
 /// Edges of both ends in one plane. Internal to this folder.
 namespace lacuna::surface {
 
-/// An edge in the plane, with its cuts at nodes.
+/// An edge in the plane, with its cuts. A cut is a position with a node.
 struct FlatEdge {
     EdgeId edge;
     std::vector<Vec2> line;
@@ -20,7 +20,7 @@ struct FlatEdge {
         double at;
         std::size_t node;
     };
-    std::vector<Cut> cuts; ///< both ends among them, in any order
+    std::vector<Cut> cuts; ///< in any order; the ends of the edge are included
 };
 
 /// The point of a polyline closest to a point.
@@ -31,7 +31,7 @@ struct Closest {
 };
 Closest closest_on(const std::vector<Vec2>& line, const std::vector<double>& at, const Vec2& p);
 
-/// The crossing of two segments, as shares of both; nothing if they are parallel or do not meet.
+/// The crossing of two segments, as shares of both; empty if they are parallel or do not meet.
 std::optional<Vec2> crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 } // namespace lacuna::surface

@@ -12,13 +12,13 @@
 namespace lacuna::surface {
 
 struct FlatEnds {
-    std::vector<FlatEdge> source, target; ///< target: without closed edges that the source has
+    std::vector<FlatEdge> source, target; ///< `target` lacks closed edges that the source has too
     std::vector<Vec2> place;              ///< for each node
     std::vector<VertexId> vertex;         ///< for each node; invalid if it is not a vertex of the source
     std::vector<EdgeId> rim;              ///< edges of the source's rim
 };
 
-/// Snapping distance at a position.
+/// The distance at a position within which nodes and edges are merged.
 using Reach = std::function<double(const Vec2&)>;
 
 /// An edge of either end in the plane of a map, without cuts.

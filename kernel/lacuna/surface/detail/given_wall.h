@@ -11,10 +11,10 @@ namespace lacuna::surface {
 struct GivenWall {
     static constexpr Index kNotGiven = -1, kBetweenGiven = -2;
 
-    std::size_t count = 0;   ///< nodes in a row
+    std::size_t count = 0;   ///< number of nodes in a row
     std::vector<Index> node; ///< model point of each node, by layer · count + node; or one of the constants
                              ///< above
-    std::vector<char> side;  ///< given quads, by layer · count + node
+    std::vector<char> side;  ///< whether each quad is given, by layer · count + node
 
     [[nodiscard]] bool has_node(std::size_t layer, std::size_t at) const
     {
@@ -31,7 +31,7 @@ struct BegunWall {
     GivenWall given;
 };
 
-/// @throw NotSweepable "surface.wall_rows"  given quads have no node on the opposite rim; names the wall.
+/// @throw NotSweepable "surface.wall_rows"  a given quad has no node on the opposite rim; names the wall.
 BegunWall begin_wall(const topology::Model& model, const LinkingSurface& link, const LinkingNodes& nodes,
                      const GivenColumns& columns, std::size_t layers);
 

@@ -14,8 +14,8 @@ struct PointSize {
     double size; ///< [model length]
 };
 
-/// Sizes at points, growing with the distance from them: the minimum of size + grading · distance over all
-/// points. A tree of boxes; a query is O(log points) if the points are spread out.
+/// Sizes that grow with the distance from given points: the minimum of size + grading · distance over all
+/// points. The points are in a tree of boxes; a query is O(log points) if they are spread out.
 class GradedPoints {
 public:
     GradedPoints(std::vector<PointSize> points, double grading);
@@ -26,9 +26,9 @@ public:
 private:
     struct Node {
         Eigen::AlignedBox3d box;
-        double least = 0; ///< minimum over its points
+        double least = 0; ///< minimum size of its points
         std::size_t begin = 0, end = 0;
-        std::size_t right = 0; ///< index of the second child; the first child follows its parent; 0: a leaf
+        std::size_t right = 0; ///< index of the second child (the first one follows its parent); 0: a leaf
     };
     std::size_t build(std::size_t begin, std::size_t end);
     void search(std::size_t node, const Vec3& place, double& least) const;

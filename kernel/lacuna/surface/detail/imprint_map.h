@@ -20,22 +20,23 @@ struct SourcePlace {
 /// Closed edges of both ends that are swept to each other.
 struct ClosedPair {
     EdgeId source, target;
-    /// Fractions of the target edge at the source edge's ends; may exceed 1 for a closed edge.
+    /// Positions on the target edge at the source edge's ends, as fractions; they may exceed 1 for a closed
+    /// edge.
     double from = 0, to = 1;
 };
 
-/// Both ends of a volume in one plane, the source counter-clockwise.
+/// Both ends of a volume mapped to one plane, in which the source runs counter-clockwise.
 class EndsMap {
 public:
-    /// @param volume  referred to; must outlive the map.
-    /// @param closed  edges that are made coincident.
-    /// @param known   lines that are made coincident.
+    /// @param volume  must outlive the map.
+    /// @param closed  pairs of closed edges that coincide in the plane.
+    /// @param known   pairs of lines that coincide in the plane.
     EndsMap(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
             std::span<const ClosedPair> closed = {}, std::span<const KnownLine> known = {});
 
     /// Whether both ends are mapped one to one.
     [[nodiscard]] bool one_to_one() const { return one_to_one_; }
-    /// Positions of points of the source and of the target; a rim point has one of each.
+    /// Plane positions of model points as part of the source and of the target; a rim point may have both.
     [[nodiscard]] const Vec2& source(Index point) const { return source_[static_cast<std::size_t>(point)]; }
     [[nodiscard]] const Vec2& target(Index point) const { return target_[static_cast<std::size_t>(point)]; }
     [[nodiscard]] SourcePlace on_source(const Vec2& place) const;

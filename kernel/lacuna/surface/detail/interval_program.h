@@ -17,10 +17,10 @@ struct IntervalVariable {
 
 /// Equal sums over two lists of variables.
 struct IntervalEquation {
-    std::vector<std::size_t> one, other; ///< variables; one that occurs twice counts twice
+    std::vector<std::size_t> one, other; ///< indices of variables; a variable that occurs twice counts twice
 };
 
-/// Minimum of a wanted number, so that the objective has no pole. Heuristic.
+/// Lower bound of a wanted number, so that the objective stays finite. Heuristic.
 constexpr double kLeastWish = 0.1;
 
 /// A wanted sum of some variables.
@@ -45,18 +45,19 @@ struct IntervalProgram {
 };
 
 /// Solve all equations and floors in integers, minimizing Σ weight (n − wanted)² / n over the wishes, where n
-/// is a wish's sum: sides too long and too short by the same ratio cost the same. Sides shorter than 0.6 or
-/// longer than 1.6 of the wanted length cost more, in proportion to the excess.
+/// is the sum of a wish's variables. With this term, sides that are too long and sides that are too short by
+/// the same ratio cost the same. Sides shorter than 0.6 or longer than 1.6 times the wanted length cost more,
+/// in proportion to the excess.
 ///
 /// Independent sets of equations are solved separately. Each set is brought to reduced row echelon form in
-/// integers with sparse rows, as in @cite mitchell_2021_intervals; an equation that contradicts earlier ones
-/// is left out. The free variables give vectors along which all equations stay satisfied. Starting from the
-/// rounded wishes, a local search moves along these vectors, single and in pairs, by steps of powers of two,
-/// always taking the step with the largest gain. A set with more than 64 free variables uses single vectors
-/// only. The result may be slightly above the minimum: of 143 random programs with solutions, one was, by a
-/// tenth (tests/surface/test_interval_program.cpp).
-/// @return  a number for each variable; 0 for those of a set whose equations contradict a floor, or that has
-///          no integer starting point.
+/// integers with sparse rows, as in @cite mitchell_2021_intervals. An equation that contradicts earlier ones
+/// is left out. Each free variable gives a vector along which all equations stay satisfied. A local search
+/// starts from the rounded wishes and moves along these vectors, singly and in pairs, by steps of powers of
+/// two. It always takes the step with the largest gain. If a set has more than 64 free variables, vectors are
+/// not paired. The result may be slightly above the minimum: in one of 143 random programs with solutions it
+/// was, by a tenth (tests/surface/test_interval_program.cpp).
+/// @return  a number for each variable; 0 for all variables of a set if its equations contradict a floor, or
+///         if it has no integer starting point.
 /// @note    Deterministic. O(equations · entries of the rows) per set, and O(free² · wishes) per step.
 std::vector<int> solve_intervals(const IntervalProgram& program);
 

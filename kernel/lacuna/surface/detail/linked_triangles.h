@@ -12,21 +12,22 @@ namespace lacuna::surface {
 
 /// A closed surface of triangles that is edited by splitting, collapsing and flipping its sides.
 ///
-/// Side 3 t + k runs from corner k of triangle t to the next corner. A side and its twin run in opposite
-/// directions. Removed triangles keep their number, with corners -1.
+/// Side 3 t + k runs from corner k of triangle t to the next corner. The twin of a side is the same side of
+/// the adjacent triangle, in the opposite direction. Removed triangles keep their numbers and have corners
+/// -1.
 class LinkedTriangles {
 public:
     struct Side {
         Index from = -1; ///< node
         Index twin = -1;
-        Index line = -1;            ///< the line on which it lies; -1: inside a face
+        Index line = -1;            ///< the line that the side lies on; -1: inside a face
         double s = 0;               ///< position of `from` on that line
         Vec3 normal = Vec3::Zero(); ///< unit normal of the face at `from`
     };
     struct Node {
         Vec3 at;
         double size = 0; ///< target length of the sides
-        Index line = -1; ///< the line on which it may move; -1: in a face, or fixed
+        Index line = -1; ///< the line on which the node may move; -1: it is inside a face, or fixed
         bool fixed = false;
         Index point = -1; ///< point of the model; -1: a new node
         Index out = -1;   ///< a side that starts here
@@ -36,9 +37,9 @@ public:
         bool kept = false; ///< part of a given mesh
     };
 
-    /// @param corners  of each triangle, nodes; closed and oriented. Nodes where several fans of triangles
-    ///        touch are duplicated and fixed.
-    /// @return number of a side without a twin; -1: none, the surface is closed.
+    /// @param corners  nodes of each triangle; closed and oriented. A node at which several fans of triangles
+    ///         touch is duplicated, and its copies are fixed.
+    /// @return  number of a side without a twin; -1: there is none, so the surface is closed.
     Index build(std::vector<Node> nodes, std::span<const Triangle> corners, std::span<const Owner> owners);
 
     [[nodiscard]] static Index next(Index s) { return s % 3 == 2 ? s - 2 : s + 1; }
@@ -56,7 +57,7 @@ public:
     [[nodiscard]] const Vec3& at(Index node) const { return nodes[index(node)].at; }
     [[nodiscard]] double length(Index s) const { return (at(to(s)) - at(from(s))).norm(); }
 
-    /// The sides that start at a node, anticlockwise.
+    /// Visit the sides that start at a node, anticlockwise.
     template <class Visit>
     void each_out(Index node, const Visit& visit) const
     {
@@ -78,12 +79,13 @@ public:
     /// The quality that the triangle would have with node `moved` at `place`.
     [[nodiscard]] double quality(Index side, Index moved, const Vec3& place) const;
 
-    /// Insert a node on a side. @param normals  of the faces left and right of the side.
-    /// @return the node.
+    /// Insert a node on a side. @param normals  normals of the faces to the left and to the right of the
+    /// side.
+    /// @return  the node.
     Index split(Index s, Node node, const std::array<Vec3, 2>& normals);
-    /// Remove the start of a side; its triangles then have the side's end as corner. @pre can_collapse(s)
+    /// Remove the start node of a side; its other triangles get the end node instead. @pre can_collapse(s)
     void collapse(Index s);
-    /// Replace a side by the other diagonal of its two triangles. @pre the diagonal is no side yet
+    /// Replace a side by the other diagonal of its two triangles. @pre this diagonal is not a side yet
     void flip(Index s);
 
     std::vector<Node> nodes;

@@ -19,25 +19,26 @@ struct WallPosition {
     FacetPosition at;
 };
 
-/// Points of the exact faces at positions, or of the facets, with one request for each face: exact surfaces
-/// lie in another process.
+/// Points at positions, on the exact faces or on the facets. There is one request for each face, because
+/// exact surfaces are in another process.
 std::vector<Vec3> points_at(const topology::Model& model, std::span<const WallPosition> places,
                             bool exact = true);
 
 /// A linking surface mapped onto a strip: s runs around it from 0 to 1 and is periodic, t increases from 0 on
 /// the source rim to 1 on the target rim.
 ///
-/// Both coordinates are harmonic (mean value weights), with values prescribed on the rims, by their segments,
-/// and on the side lines, which are upright. So the map is one to one (Tutte) for any arrangement of wall
-/// faces: stacked, side by side, with seams that do not line up.
+/// Both coordinates are harmonic (mean value weights). Their values are prescribed on the rims by the
+/// segments, and on the side lines, which are upright. The map is therefore one to one (Tutte) for any
+/// arrangement of wall faces: stacked, side by side, or with seams that do not line up.
 ///
-/// Lines of constant harmonic s crowd on the inner side of a bend. So if the walls are not straight, s is the
-/// share of the length around a section (a line of constant t), or from one side line to the next. Without
-/// side lines, sections are rotated against each other by rotation-minimizing transport of a frame. If the
-/// rims prescribe another rotation, the difference is spread evenly over the length.
+/// Lines of constant harmonic s crowd on the inner side of a bend. If the walls are not straight, s is
+/// therefore redefined as the share of the length around a section (a line of constant t) or, with side
+/// lines, of the length from one side line to the next. Without side lines, sections are rotated relative to
+/// each other by rotation-minimizing transport of a frame. If the rims prescribe another rotation, the
+/// difference is spread evenly over the length.
 class LinkingMap {
 public:
-    /// @param void_edges  include edges between void faces in the rings and uprights.
+    /// @param void_edges  whether the rings and uprights include edges between void faces.
     LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link, bool void_edges = true,
                const RunContext& context = {});
 
@@ -46,22 +47,22 @@ public:
         std::size_t near = kNoIndex;
         return locate(s, t, near);
     }
-    /// The same, for a sequence of places.
-    /// @param near  triangle of the place before, at first kNoIndex; updated
+    /// As above, for a sequence of positions.
+    /// @param near  triangle of the previous position, kNoIndex for the first one; updated
     [[nodiscard]] WallPosition locate(double s, double t, std::size_t& near) const;
 
     /// Strip coordinates of a model point of the walls; s modulo 1.
     [[nodiscard]] Vec2 place_of(Index point) const { return upright(strip_.row(point).transpose()); }
 
     /// Convert a share of the walls' length from source to target, averaged over the columns, to t. With side
-    /// lines both are equal; without them the harmonic t increases faster where the walls are narrow.
+    /// lines they are equal; without, the harmonic t increases faster where the walls are narrow.
     [[nodiscard]] double from_even(double height) const;
-    /// s of the target end of the shortest path up a linking surface without side lines, counting whole
-    /// turns.
+    /// Position s at which the shortest path up a linking surface without side lines ends on the target rim,
+    /// counting whole turns.
     [[nodiscard]] double target_branch() const { return branch_; }
 
-    /// Rotation of the transported frames against the rims' segments [turns]: on the target, and the maximum
-    /// over all sections.
+    /// Rotation of the transported frames relative to the rims' segments [turns]: at the target, and the
+    /// maximum over all sections.
     [[nodiscard]] double turn() const { return turn_; }
     [[nodiscard]] double most_turned() const { return most_turned_; }
     [[nodiscard]] bool bends() const
@@ -76,21 +77,21 @@ public:
         EdgeId edge;
         double from = 0, to = 1; ///< fractions of the edge's length at its ends
     };
-    /// Edges that run around the linking surface, between stacked faces; a layer must lie on them.
+    /// Edges that run around the linking surface between stacked faces. A layer must follow them.
     struct Ring {
         double height = 0; ///< mean t
         std::vector<Piece> pieces;
         std::vector<VertexId> vertices;
     };
     [[nodiscard]] const std::vector<Ring>& rings() const { return rings_; }
-    /// An edge between two walls that runs more up than around and is no side line.
+    /// An edge between two walls that runs more along the sweep than around it, and is not a side line.
     struct Upright {
         EdgeId edge;
         std::vector<Piece> pieces;
     };
     [[nodiscard]] const std::vector<Upright>& uprights() const { return uprights_; }
-    /// The strip's proportions: its mean length in space around the walls (s from 0 to 1) and up the walls (t
-    /// from 0 to 1).
+    /// The mean lengths of the linking surface in space: around the walls, for s from 0 to 1, and along the
+    /// sweep, for t from 0 to 1. They give the strip its proportions.
     [[nodiscard]] double width() const { return width_; }
     [[nodiscard]] double height() const { return height_; }
 
@@ -115,7 +116,7 @@ private:
     Eigen::MatrixXd strip_; ///< (s, t) of every model point
     FacetSet facets_;
     std::vector<Vec3> flat_;      ///< corners of the triangles of the tree, three each
-    std::vector<Index> original_; ///< triangle of the linking surface behind each triangle of the tree
+    std::vector<Index> original_; ///< for each triangle of the tree, the triangle of the linking surface
     double width_ = 1, height_ = 1;
     double branch_ = 0;
     std::vector<double> even_; ///< share of the walls' length at even steps of t; empty with side lines
@@ -128,13 +129,13 @@ private:
     std::vector<Upright> uprights_;
 };
 
-/// The position on the target chain of a linking surface without side lines that corresponds to the source
-/// chain's start with the least shear [running length], and its branch: see `LinkingSurface::branch`.
+/// For a linking surface without side lines: the position on the target chain that corresponds to the start
+/// of the source chain with the least shear [running length], and the branch, see `LinkingSurface::branch`.
 std::pair<double, double> unguided_target(const topology::OpenVolume& volume, const LinkingSurface& link,
                                           const RunContext& context = {});
 
-/// The edges between stacked or adjacent walls of a linking surface, without its rims and side lines.
-/// @param void_edges  with those between two void faces
+/// The edges between stacked or adjacent walls of a linking surface, except its rims and side lines.
+/// @param void_edges  whether edges between two void faces are included.
 std::vector<topology::EdgeUse> edges_between(const topology::Model& model, const LinkingSurface& link,
                                              bool void_edges);
 

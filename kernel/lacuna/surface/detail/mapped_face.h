@@ -17,14 +17,14 @@ public:
     /// @param corners  from `four_corners()`.
     MappedFace(const topology::Model& model, FaceId face, const std::vector<std::size_t>& corners);
 
-    /// Numbers of sides by the size on evenly spaced lines between the two sides of a pair, these excluded:
-    /// for sides 0 and 2, and for 1 and 3.
+    /// Numbers of sides that the size requires on evenly spaced lines inside the face: lines parallel to
+    /// sides 0 and 2, and lines parallel to sides 1 and 3.
     [[nodiscard]] std::array<std::vector<double>, 2> wanted_inside(const SizeField& size) const;
 
     struct Shape {
         double mean_scaled_jacobian = 1; ///< in space
         /// Share of grid sides in one direction whose length relative to the size is 0.6 to 1.6 times the
-        /// root mean square; the smaller of both directions.
+        /// root mean square of this ratio; the smaller value of both directions.
         double even_share = 1;
     };
     /// Quality of the best grid with any number of columns and rows.

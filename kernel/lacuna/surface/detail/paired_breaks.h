@@ -7,23 +7,23 @@
 namespace lacuna::surface {
 
 enum class Pairing {
-    in_order, ///< equal numbers on both sides are paired whatever their positions
-    near,     ///< only close ones are paired: the walls determine the others
+    in_order, ///< if both sides have equally many breaks, all are paired, whatever their positions
+    near,     ///< only breaks close to each other are paired; the walls determine the others
 };
 
 /// Corresponding breaks of two segments.
 using BreakPairs = std::vector<std::pair<double, double>>;
 
-/// Pair breaks of two segments in order, minimizing the difference of relative lengths without crossings; the
-/// others stay unpaired, with -1 on the other side.
-/// @param a, b  shares of either segment, increasing, in (0, 1).
+/// Pair breaks of two segments in order, minimizing the difference of their relative positions without
+/// crossings. A break that stays unpaired has -1 for the other side.
+/// @param a, b  breaks as shares of either segment, increasing, in (0, 1).
 /// @note  Dynamic programming; time and memory a.size() × b.size().
 BreakPairs paired_breaks(const std::vector<double>& a, const std::vector<double>& b,
                          Pairing pairing = Pairing::in_order);
-/// The same, pairing only breaks that are closer than `apart`.
+/// As above, but only breaks closer than `apart` are paired.
 BreakPairs paired_breaks(const std::vector<double>& a, const std::vector<double>& b, double apart);
 
-/// Add the other side of unpaired breaks by linear interpolation between the neighbouring pairs; in order.
+/// Replace each -1 by linear interpolation between the neighbouring pairs, and sort.
 void complete(BreakPairs& breaks);
 
 } // namespace lacuna::surface

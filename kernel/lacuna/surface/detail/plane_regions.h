@@ -9,14 +9,14 @@
 
 namespace lacuna::surface {
 
-/// A chain in the plane between two nodes; it meets other chains at nodes only.
+/// A chain in the plane between two nodes. Chains meet only at nodes.
 struct PlaneChain {
     std::vector<Vec2> line;         ///< from node to node, at least two points
     std::size_t from = 0, to = 0;   ///< numbers of its nodes
     bool left = true, right = true; ///< whether the region on that side is part of the result
 };
 
-/// A chain as a loop uses it.
+/// A chain in a loop, and its direction there.
 struct PlaneUse {
     std::size_t chain = 0;
     bool reversed = false;
@@ -29,9 +29,9 @@ struct PlaneRegion {
 
 /// The regions into which chains divide a part of the plane.
 ///
-/// Half-edges are traced by taking the leftmost turn at each node; loops of negative area are holes of the
-/// smallest loop around them.
-/// @pre  chains do not cross; none has a free end.
+/// Half-edges are traced by the leftmost turn at each node. A loop of negative area is a hole of the smallest
+/// loop around it.
+/// @pre  chains do not cross, and none has a free end.
 std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains);
 
 } // namespace lacuna::surface

@@ -12,21 +12,21 @@
 /// Faces with a round side, such as sectors and half discs. Internal to this folder.
 namespace lacuna::surface {
 
-/// The only side of a face that is round and convex.
+/// A round, convex side of a face that has only one such side.
 struct RoundSide {
     std::size_t side = 0;
-    double turn = 0, radius = 0, size = 1; ///< [radian], [model length], size at its midpoint
+    double turn = 0, radius = 0, size = 1; ///< [radian]; [model length]; size at the midpoint of the side
 };
 
-/// The round side of a face, one that turns by 45° or more.
-/// @param sides  as `sides_by_corners()` gives them.
-/// @return  nothing if no side is round, several are, or it is concave.
+/// The round side of a face: a side that turns by 45° or more.
+/// @param sides  result of `sides_by_corners()`.
+/// @return  empty if no side is round, several sides are, or the round side is concave.
 std::optional<RoundSide> bulge_of(const topology::Model& model, FaceId face,
                                   const std::vector<std::vector<EdgeId>>& sides, const SizeField& size);
 
-/// Add two wishes for a face with a round side: rows a third of the radius deep along that side, and as many
-/// sides on it as the length of the line behind these rows requires.
-/// @param parts  number of equal parts of the side; behind each part, the line has a corner
+/// Add two wishes for a face with a round side: rows with a total depth of a third of the radius along that
+/// side, and as many sides on it as the line behind these rows needs for its length.
+/// @param parts  number of equal parts of the side; the line has a corner behind the middle of each part
 /// @param round  variables of the side
 /// @param rows   variable of the number of rows
 /// @return  wanted number of sides on half of the line behind a part

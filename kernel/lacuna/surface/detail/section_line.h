@@ -21,17 +21,17 @@ inline double height_of(std::size_t section)
     return static_cast<double>(section) / static_cast<double>(kSections - 1);
 }
 
-/// A piece of an edge as a curve over its sides, 0 at its start.
+/// A piece of an edge as a curve in several sections. Its parameter u counts sides, from 0 at its start.
 struct SectionLine {
     SeedPiece* piece = nullptr;
-    std::array<std::vector<Vec3>, kSections> points; ///< at even steps of the sides; sections other than the
-                                                     ///< source may be empty
-    std::vector<double> at;                          ///< positions of the nodes, ends included [sides]
-    std::vector<double> above;                       ///< the same on the target; empty: as on the source
-    std::vector<std::size_t> variable;               ///< for each node, for a solver
+    /// At even steps of the sides; may be empty except for the source.
+    std::array<std::vector<Vec3>, kSections> points;
+    std::vector<double> at;            ///< positions of the nodes, ends included [sides]
+    std::vector<double> above;         ///< positions of the nodes on the target; empty: as on the source
+    std::vector<std::size_t> variable; ///< for each node, its variable in a solver
     std::vector<std::size_t> variable_above;
-    std::vector<double> steep; ///< mesh side at each node divided by the length of its column; used with
-                               ///< `above`
+    /// At each node, the length of a side divided by the length of the column; used with `above`.
+    std::vector<double> steep;
     bool on_rim = false;
 
     /// Position of a node's column in a section: linear from the source to the target.
@@ -62,7 +62,7 @@ struct SectionLine {
                 per_side * (a + f * (2 * (3 * c - 2 * a - b) + 3 * f * (a + b - 2 * c)))};
     }
     [[nodiscard]] Vec3 place(std::size_t section, double u) const { return spot(section, u).at; }
-    /// Direction along the edge, over half a side each way, and its derivative by u.
+    /// Direction along the edge, taken over half a side in both directions, and its derivative by u.
     [[nodiscard]] Spot tangent(std::size_t section, double u) const
     {
         const Spot before = spot(section, u - 0.5), after = spot(section, u + 0.5);
@@ -72,14 +72,14 @@ struct SectionLine {
         const Vec3 along = chord / length, slope = (after.slope - before.slope) / length;
         return {along, slope - slope.dot(along) * along};
     }
-    /// Even positions of the nodes.
+    /// Evenly spaced positions of the nodes.
     [[nodiscard]] std::vector<double> even() const
     {
         std::vector<double> places(at.size());
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<double>(i);
         return places;
     }
-    /// Mesh side at each node divided by the length of its column, for evenly spaced nodes.
+    /// At each node, the length of a side divided by the length of the column, for evenly spaced nodes.
     [[nodiscard]] std::vector<double> steepness() const
     {
         std::vector<double> steep_at;

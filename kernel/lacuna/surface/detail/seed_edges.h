@@ -10,11 +10,11 @@
 /// The requested sides of every source edge, before interval assignment. Internal to this folder.
 namespace lacuna::surface {
 
-/// The pieces of all edges with the numbers of sides by size and curvature, and with kept nodes: those of
-/// faces that keep their own quads, and those given on edges inside the source.
+/// The pieces of all edges, with the numbers of sides that size and curvature require. Kept are the nodes of
+/// faces that keep their own quads, and nodes given on edges inside the source.
 /// @param lengths  as for `seed_source()`.
 /// @param kept     faces that keep their own quads in any style.
-/// @return  with `pieces`, `kept` and `notes`.
+/// @return  seeds of which only `pieces`, `kept` and `notes` are set.
 /// @throw NotSweepable  "surface.given_triangles", "surface.not_kept", "surface.kept_rim",
 ///                      "surface.too_many_sides".
 Seeds ask_edges(const SeedTask& task, std::span<const LinkingSurface> links,

@@ -6,7 +6,8 @@
 /// Distribution of nodes over a piece of an edge. Internal to this folder.
 namespace lacuna::surface {
 
-/// Cumulative wanted sides from a piece's start to a fraction of its edge, if they vary along it.
+/// Number of sides that the size requires from the start of a piece to a fraction of its edge, if the size
+/// varies along it.
 double wanted_at(const SeedPiece& piece, double fraction);
 
 } // namespace lacuna::surface

@@ -11,7 +11,7 @@
 /// Inputs of interval assignment. Internal to this folder.
 namespace lacuna::surface {
 
-/// The source and the requests that apply to all of it; see `seed_source()`.
+/// The source, and the requests that apply to the whole source; see `seed_source()`.
 struct SeedTask {
     SeedTask(const topology::OpenVolume& volume, std::span<const LinkingSurface> links, const SizeField& size,
              QuadStyle style, const ShapeSizing& sizing, bool wedges);
@@ -22,9 +22,10 @@ struct SeedTask {
     QuadStyle style;
     ShapeSizing sizing;
     bool wedges;
-    std::vector<FaceId> faces;                ///< faces of the source
-    std::map<EdgeId, std::set<FaceId>> users; ///< source faces on each edge of them or of the rim
-    std::set<EdgeId> rim;                     ///< edges with walls
+    std::vector<FaceId> faces; ///< faces of the source
+    /// For each edge of these faces or of the rim, its source faces.
+    std::map<EdgeId, std::set<FaceId>> users;
+    std::set<EdgeId> rim; ///< edges with walls
 };
 
 /// The edges of a face, in the order of its loops; a seam occurs twice.
@@ -42,7 +43,7 @@ double quads_asked(const topology::Model& model, const Seeds& seeds, FaceId face
 /// Whether all pieces of an edge are fixed.
 bool is_fixed(const Seeds& seeds, EdgeId edge);
 
-/// Add sides one at a time where they are longest. @return false if all are fixed
+/// Add sides one at a time, always where sides are longest. @return  false if all edges are fixed
 bool raise(Seeds& seeds, const std::vector<EdgeId>& edges, int by);
 
 } // namespace lacuna::surface

@@ -13,8 +13,8 @@ namespace lacuna::surface {
 /// Isotropic remeshing of linked triangles, as `triangulate_skin()` describes.
 class SkinRemesher {
 public:
-    /// @param lines   already sampled; referred to, so they must outlive this.
-    /// @param shapes  one for each face of the model; referred to as well.
+    /// @param lines   sampled lines; must outlive this object.
+    /// @param shapes  one for each face of the model; must outlive this object.
     SkinRemesher(LinkedTriangles& mesh, std::span<const SkinLine> lines,
                  std::span<const FaceShapeTree> shapes, const SizeField& size, const RunContext& context)
         : mesh_(mesh), lines_(lines), shapes_(shapes), size_(size), context_(context)
@@ -42,7 +42,7 @@ private:
     bool move_to(Index node, const Vec3& place, double least);
     bool move_along_line(Index node, double least);
     void smooth(double least);
-    /// @param moves  whether nodes may leave their exact place.
+    /// @param moves  whether nodes may move, although they have reached their exact positions.
     void improve(bool moves);
     bool improve(Index side, bool moves);
     void make_exact(const topology::Model& model);

@@ -10,17 +10,18 @@
 
 namespace lacuna::surface {
 
-/// Sizes of the triangles of a skin: the requested sizes, reduced where the skin is curved, narrow or thin,
-/// and adapted to the given nodes nearby.
+/// Sizes of the triangles of a skin: the requested size, reduced where the skin is curved, narrow or thin,
+/// and adapted to given nodes nearby.
 ///
 /// - Curvature: a full turn has n sides, where n >= 12 is the smallest number with which the skin loses at
-///   most half of `kSameVolume` of its volume. A side h along a curvature k is off by k h² / 12 on average.
-/// - Width: faces and edges as in `shape_size()`, down to a tenth of the requested size.
-/// - Thin places: if the opposite skin is at distance w, sides sag by at most a quarter of w.
+///   most half of `kSameVolume` of its volume. A side of length h along a curvature k is off by k h² / 12 on
+///   average.
+/// - Width: faces and edges are treated as in `shape_size()`, down to a tenth of the requested size.
+/// - Thin places: if the opposite skin is at a distance w, sides sag by at most a quarter of w.
 /// - Short edges have one side.
 ///
-/// @param given  sides of given meshes: middle and length.
-/// @param size   requested.
+/// @param given  midpoints and lengths of the sides of given meshes.
+/// @param size   requested size.
 SizeField skin_sizes(const topology::Model& model, std::span<const SkinLine> lines,
                      std::vector<PointSize> given, const SizeField& size, const RunContext& context);
 

@@ -28,13 +28,13 @@ struct StripGrid {
         Vec2 place;   ///< in the strip
     };
     std::vector<Vec2> place;               ///< for each node, by layer · nodes + node
-    std::map<std::size_t, Pinned> on_edge; ///< nodes on an edge
+    std::map<std::size_t, Pinned> on_edge; ///< for nodes on an edge, their positions on it
     std::vector<std::size_t> stops;        ///< node at each stop of the net
 };
 
-/// Position of each node in the strip: first columns are vertical and layers follow the plain rings; then
-/// nodes move onto the net's stops. The displacement of the other nodes is harmonic over the grid.
-/// @param map  of the linking surface; null if the side lines alone determine the positions.
+/// Position of each node in the strip. At first, columns are vertical and layers follow the plain rings. Then
+/// nodes are moved onto the net's stops; the displacement of the other nodes is harmonic over the grid.
+/// @param map  map of the linking surface; null if the side lines alone determine the positions.
 /// @throw NotSweepable "surface.too_few_layers", "surface.wall_edge", "surface.wall_rows"  as `mesh_walls()`.
 StripGrid lay_strip(const StripTask& task, const LinkingMap* map, const WallNet& net,
                     const RunContext& context);

@@ -11,7 +11,7 @@
 /// Curves on exact surfaces. Internal to this folder.
 namespace lacuna::surface {
 
-/// A polyline on a face, lifted to its exact surface between its points.
+/// A polyline on a face whose segments are projected onto the exact surface.
 class SurfaceCurve : public geometry::ExactCurve {
 public:
     SurfaceCurve(std::vector<Vec3> points, std::vector<Vec2> uv,
@@ -20,7 +20,7 @@ public:
     {
     }
 
-    /// The parameter is the index of a point plus the share of the segment to the next.
+    /// The parameter is the index of a point plus the position within the segment to the next point.
     void evaluate(std::span<const double> params, std::span<Vec3> points,
                   const RunContext& context) const override;
 

@@ -11,8 +11,8 @@
 
 namespace lacuna::surface {
 
-/// A point after projection onto a face: its source on the facets and its present position, which the caller
-/// owns.
+/// A point after projection onto a face: its closest point on the facets and its present position, which is
+/// the caller's.
 struct Projected {
     const geometry::FacetTree::Hit* from = nullptr; ///< the closest point on the facets
     Index triangle = -1;                            ///< index of that facet in the face
@@ -28,8 +28,8 @@ class Trimming {
 public:
     Trimming(const topology::Model& model, FaceId face);
 
-    /// Move every point outside the face to the nearest point of its trimming curves; the others stay bit for
-    /// bit. A point well inside costs one comparison.
+    /// Move every point outside the face to the nearest point of its trimming curves. The other points stay
+    /// bit for bit. A point well inside costs one comparison.
     void keep_inside(std::span<const Projected> points, const RunContext& context = {}) const;
 
 private:
@@ -41,14 +41,14 @@ private:
         Vec3 inward_at_start = Vec3::Zero(), inward_at_end = Vec3::Zero();
         double bulge = 0; ///< maximum distance to the curve [model length]
     };
-    /// A point that is outside, or so close to the border that its curve decides.
+    /// A point that is outside, or so close to the border that the exact curve must decide.
     struct Near {
         std::size_t point = 0, side = 0;
         double share = 0; ///< position as a share of the side
         Vec3 on_border = Vec3::Zero(), inward = Vec3::Zero();
     };
 
-    /// A lower bound of the distance of a facet's points from the border.
+    /// Lower bounds of the distance from points of a facet to the border.
     struct Clearance {
         double facet = 0;            ///< lower bound for the whole facet [model length]
         Vec3 heights = Vec3::Zero(); ///< heights of the facet over each side [model length]

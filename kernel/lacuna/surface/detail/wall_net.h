@@ -8,11 +8,11 @@
 
 namespace lacuna::surface {
 
-/// The edges inside a linking surface as a net that the walls' nodes follow. Long edges, which run along the
-/// sweep, become columns; cross edges, which run around it, become levels. A node lies where they meet, turn
-/// or end.
+/// The edges inside a linking surface, as a net that the walls' nodes follow. Long edges run along the sweep
+/// and become columns; cross edges run around it and become levels. A node lies wherever such edges meet,
+/// turn or end.
 ///
-/// Side lines and rims are not part of the net; edges that end on them end in their nodes.
+/// Side lines and rims are not part of the net. An edge that ends on one of them ends in one of its nodes.
 struct WallNet {
     /// A vertex with a node.
     struct Stop {
@@ -23,7 +23,7 @@ struct WallNet {
     };
     static constexpr int kSource = -1, kTarget = -2;
 
-    /// Consecutive long edges, or a vertex where cross edges turn or end.
+    /// Consecutive long edges, or a single vertex at which cross edges turn or end.
     struct Column {
         double at = 0;                                ///< s in [0, 1)
         double low = 1, high = 0;                     ///< extent in t
@@ -31,11 +31,12 @@ struct WallNet {
         std::optional<double> source_at, target_at{}; ///< running lengths of its ends on the rims
         EdgeId edge;                                  ///< an edge of the column, for messages
     };
-    /// Connected cross edges, or a vertex between long edges.
+    /// Connected cross edges, or a single vertex between long edges.
     struct Level {
         double height = 0;               ///< mean t
         std::optional<std::size_t> ring; ///< index of the ring in the map
-        bool plain = false; ///< a ring that turns and ends on side lines only, and meets no long edge
+        /// Whether it is a ring that turns and ends only on side lines and meets no long edge.
+        bool plain = false;
         std::vector<std::size_t> stops;
         std::vector<std::size_t> lines; ///< side lines that the ring meets
         EdgeId edge;                    ///< an edge of the level, for messages
@@ -43,26 +44,27 @@ struct WallNet {
     struct LongEdge {
         const LinkingMap::Upright* upright;
         std::size_t low, high; ///< stops
-        bool reversed;         ///< the edge runs from target to source
+        bool reversed;         ///< whether the edge runs from target to source
     };
 
     std::vector<Stop> stops;
-    std::vector<Column> columns; ///< by rising s
-    std::vector<Level> levels;   ///< by rising height
+    std::vector<Column> columns; ///< in order of increasing s
+    std::vector<Level> levels;   ///< in order of increasing height
     std::vector<LongEdge> long_edges;
 
-    /// Whether two levels overlap along the rim, so that each needs its own layer.
+    /// Whether two levels overlap along the rim, so that they need different layers.
     [[nodiscard]] bool over_each_other(const LinkingMap& map, std::size_t a, std::size_t b) const;
 
-    /// For each level: the levels below it that overlap it and therefore need layers of their own.
+    /// For each level: the levels below it that overlap it along the rim, and therefore need different
+    /// layers.
     [[nodiscard]] std::vector<std::vector<std::size_t>> levels_below(const LinkingMap& map) const;
 };
 
 /// The largest number of levels above each other. @param below  from `WallNet::levels_below()`
 int most_levels(const std::vector<std::vector<std::size_t>>& below);
 
-/// @throw NotSweepable "surface.wall_edge"  names an edge that is neither long nor cross: round, slanted, or
-///        with an end on a rim or between two side lines where it must not end.
+/// @throw NotSweepable "surface.wall_edge"  an edge is neither long nor cross, because it is round or
+///         slanted, or it ends on a rim or between two side lines where it must not end; names the edge.
 /// @note  O(edges² + facets of rings) of the linking surface.
 WallNet wall_net(const topology::Model& model, const LinkingSurface& link, const LinkingMap& map);
 

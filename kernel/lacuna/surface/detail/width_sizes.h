@@ -9,7 +9,7 @@
 namespace lacuna::surface {
 
 /// Add the sizes that the narrow places of a face request, as `shape_size()` describes.
-/// @param least  minimum size by the gap, as a share of the requested one [-].
+/// @param least  minimum size that narrow places may request, as a share of the requested size [-].
 void add_width_sizes(const topology::Model& model, FaceId face, const SizeField& asked,
                      const ShapeSizing& sizing, double least, std::vector<PointSize>& sizes);
 

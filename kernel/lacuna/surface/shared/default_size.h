@@ -14,17 +14,18 @@ struct DefaultSize {
     std::string why;   ///< its origin, in words
 };
 
-/// Mean length of the facets' sides on the source's rims. On edges without kept nodes, facets show the
-/// accuracy of the shape, not the wanted mesh size. There, sides shorter than a twentieth of the diagonal of
-/// the rims' box count as having that length.
+/// Mean length of the facets' sides on the source's rims. On edges without kept nodes, the facets show the
+/// accuracy of the shape, not a wanted mesh size. There, sides shorter than a twentieth of the diagonal of
+/// the rims' box count as if they had that length.
 /// @note  O(points on the rims).
 DefaultSize default_size(const topology::OpenVolume& volume);
 
 /// A field of constant value.
 SizeField even_size(double length);
 
-/// A field that refuses values that are not positive lengths, before any division by them.
-/// @throw InvalidInput "sweep.size"  by the field, names the option.
+/// A field that checks the values of another field before they are used as divisors.
+/// @throw InvalidInput "sweep.size"  thrown by the returned field if a value is not a positive length; names
+///         the option.
 SizeField checked_size(const SizeField& field, const std::string& option);
 
 } // namespace lacuna::surface

@@ -12,13 +12,13 @@ namespace lacuna::surface {
 std::vector<Vec3> edge_line(const topology::Model& model, EdgeId edge);
 
 /// Points of an edge at fractions of its length (0 at `from`, 1 at `to`), on the exact curve if there is one.
-/// The ends are the vertices' own points, bit for bit.
+/// The end points are the points of the vertices, bit for bit.
 std::vector<Vec3> edge_points(const topology::Model& model, EdgeId edge, std::span<const double> fractions);
 
 /// A point of a chain.
 struct ChainPosition {
-    std::size_t use = 0; ///< number of the edge's use in the chain
-    double fraction = 0; ///< fraction of the edge's length, in the direction of the edge, not the use
+    std::size_t use = 0; ///< index of the edge use in the chain
+    double fraction = 0; ///< fraction of the edge's length, in the direction of the edge, not of the use
 };
 
 /// A chain of edge uses as one curve over its arc length.
@@ -28,15 +28,15 @@ public:
 
     [[nodiscard]] double length() const { return start_.back(); }
     [[nodiscard]] const std::vector<topology::EdgeUse>& uses() const { return uses_; }
-    /// Subtract the whole turn from a running length of a closed chain that may exceed the chain's length by
-    /// up to one turn.
+    /// A running length on a closed chain that is at most one turn too long, brought back into the chain's
+    /// length.
     [[nodiscard]] double wrapped(double s) const { return s >= length() ? s - length() : s; }
-    /// Running length at the start of use i; one more for the end.
+    /// Running length at the start of use i; with i = number of uses, the length of the chain.
     [[nodiscard]] double start(std::size_t i) const { return start_[i]; }
 
     /// Edge and fraction at a running length.
     [[nodiscard]] ChainPosition position(double s) const;
-    /// Points at running lengths, exact.
+    /// Points at running lengths, on the exact curves.
     [[nodiscard]] std::vector<Vec3> points(std::span<const double> lengths) const;
 
 private:

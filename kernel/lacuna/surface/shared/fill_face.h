@@ -22,22 +22,23 @@ struct RimNode {
 
 /// Quads over a face.
 struct FaceQuads {
-    std::vector<Vec3> points; ///< the rim's nodes first, then those inside, on the exact surface
-    std::vector<Quad> quads;  ///< counter-clockwise seen from outside
+    std::vector<Vec3> points; ///< nodes of the rim first, then inner nodes, which lie on the exact surface
+    std::vector<Quad> quads;  ///< counter-clockwise if seen from outside
     std::string how{};        ///< method, as reported by the planar mesher
     std::optional<quads::RowsFinding> finding{}; ///< why requested rows do not fit; then there are no quads
 };
 
 /// Fill a face with quads inside given boundary nodes.
 ///
-/// A planar face is filled in its plane. Any other face is flattened with facets fine enough for the size
-/// (`fine_facets()`), rim nodes included; the size is corrected for the local stretch, the plane is filled,
-/// and the new nodes are lifted through their facets to the exact surface.
-/// @param rim    nodes of the boundary; they stay, in this order.
-/// @param loops  cycles of places in `rim`, the face on the left.
-/// @param rows   along sides of the rim, at heights on the face; null: none.
-/// @throw NotSweepable "surface.not_flat"  a face that folds in the plane; what the mesher throws.
-/// @throw InvalidInput "surface.not_flat"  a curved face in several parts, closed or with a handle.
+/// A planar face is filled in its plane. Any other face is flattened, with rim nodes, using facets that are
+/// fine enough for the size (`fine_facets()`). The size is corrected for the local stretch, and the plane is
+/// filled. New nodes are mapped back through their facets to the exact surface.
+/// @param rim    nodes of the boundary, kept in this order.
+/// @param loops  cycles of indices in `rim`, with the face on the left.
+/// @param rows   rows along sides of the rim, with heights on the face; null: none.
+/// @throw NotSweepable "surface.not_flat"  the face folds when flattened; or as the mesher.
+/// @throw InvalidInput "surface.not_flat"  a curved face consists of several parts, is closed or has a
+///         handle.
 FaceQuads fill_face(const topology::Model& model, FaceId face, std::span<const RimNode> rim,
                     const std::vector<std::vector<Index>>& loops, const SizeFields& sizes,
                     const quads::PlanarQuadMesher& mesher, const quads::BoundaryRows* rows = nullptr,

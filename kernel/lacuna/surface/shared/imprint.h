@@ -14,12 +14,12 @@ namespace lacuna::surface {
 /// The part of a target edge to which a source edge is swept.
 struct EdgeImage {
     EdgeId target; ///< edge of the volume's target
-    /// Fractions of the target edge at the source edge's ends, in the source edge's direction; whole turns
-    /// are counted for closed edges.
+    /// Positions on the target edge at the two ends of the source edge, as fractions. On closed edges, whole
+    /// turns are counted.
     double from = 0, to = 1;
 };
 
-/// Two chains of points, one inside each end, that are known to be swept to each other, uniformly between the
+/// Two chains of points, one inside each end, that the sweep maps onto each other, uniformly between the
 /// given shares of their lengths.
 struct KnownLine {
     std::vector<Index> source, target;
@@ -29,8 +29,9 @@ struct KnownLine {
 
 /// A sealed volume whose source is split as its target is.
 struct Imprint {
-    /// Faces, edges and vertices of the original volume keep their ids. The parts of split source faces
-    /// follow, with the tag and the name of the whole face; imprinted edges have the tag of the target's.
+    /// Faces, edges and vertices of the original volume keep their ids. They are followed by the parts of
+    /// split source faces, with the tag and name of the whole face. Imprinted edges have the tags of the
+    /// target's edges.
     std::unique_ptr<topology::OpenVolume> volume;
     std::vector<LinkingSurface> links;
     std::vector<FaceId> source_of;      ///< for each face: the face of the original volume that contains it
@@ -47,14 +48,15 @@ std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Ro
 /// Imprint the inner edges of the target on the source.
 ///
 /// Source and target are mapped onto one plane: the source by `geometry::flatten()`, the target by the
-/// harmonic map with its rim placed by the linking surfaces. Smooth closed edges of both ends that enclose
-/// about the same region are merged, their start points aligned, and the target is mapped again with its edge
-/// on the source's. Then the target's edges are intersected with the source's. Edges and vertices closer than
-/// a fraction of the quad size are merged; the source faces are split along the others and retriangulated.
-/// @param known  lines that an earlier imprint created on both ends: they are made coincident.
-/// @throw NotSweepable "surface.not_imprinted"  names the target's edge: the ends cannot be mapped onto each
-///        other one to one, an edge is too close to another to be kept apart, or a source face keeps its own
-///        quads.
+/// harmonic map with its rim placed by the linking surfaces. Smooth closed edges of the two ends that enclose
+/// about the same region are merged, with their start points aligned; then the target is mapped again with
+/// these edges coincident. Next, the edges of the target are intersected with those of the source. Edges and
+/// vertices closer to each other than a fraction of the quad size are merged. The source faces are split
+/// along the remaining edges and retriangulated.
+/// @param known  lines that an earlier imprint created on both ends; they coincide in the plane.
+/// @throw NotSweepable "surface.not_imprinted"  the ends cannot be mapped onto each other one to one, an edge
+///         is so close to another that quads do not fit between them, or a source face keeps its own quads;
+///         names the target's edge.
 Imprint imprint_target(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                        const SizeField& size, std::span<const KnownLine> known = {});
 

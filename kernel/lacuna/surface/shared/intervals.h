@@ -16,19 +16,20 @@ struct IntervalDemands {
     std::vector<SidesAsked> sides; ///< on the source's edges
     struct Layers {
         int count = 1;
-        double bias = 1;                ///< last over first, from the source [-]
-        Argument name;                  ///< origin, for messages
-        bool from_named_source = false; ///< whether `bias` counts from the end that the user named source,
-                                        ///< not from the end where the sweep starts
+        double bias = 1; ///< ratio of last to first height, from the source [-]
+        Argument name;   ///< origin, for messages
+        /// Whether `bias` counts from the end that the user named source; otherwise from the end where the
+        /// sweep starts.
+        bool from_named_source = false;
     };
     std::optional<Layers> layers;
 };
 
-/// Find the edges of a volume to which intervals apply. Intervals on the target's rim apply to the part of
-/// the source's rim that is swept there, and intervals on a side line apply to the layers.
-/// @throw InvalidInput "surface.no_such_edge"  an edge or a vertex that the volume does not have, vertices
-///        joined by no edge or by several, an edge whose count cannot be set on its own.
-/// @throw NotSweepable "surface.sides_asked"  two numbers of layers.
+/// Find the edges of a volume to which intervals apply. An interval on the target's rim applies to the part
+/// of the source's rim that is swept there. An interval on a side line applies to the layers.
+/// @throw InvalidInput "surface.no_such_edge"  the volume does not have an edge or vertex; two vertices are
+///         joined by no edge or by several; or the number of sides of an edge cannot be set separately.
+/// @throw NotSweepable "surface.sides_asked"  two different numbers of layers are requested.
 IntervalDemands find_intervals(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                                std::span<const Interval> intervals);
 

@@ -34,9 +34,9 @@ struct FacetView {
     const geometry::ExactSurface* surface = nullptr; ///< null: the facets are the shape
 };
 
-/// Points of the exact surface at positions on facets; on the facets themselves if there is none.
+/// Points at positions on facets: on the exact surface or, if there is none, on the facets.
 std::vector<Vec3> points_at(const FacetView& facets, std::span<const FacetPosition> places);
-/// The same for one face.
+/// As above, for one face.
 std::vector<Vec3> points_at(const topology::Model& model, FaceId face, std::span<const FacetPosition> places);
 
 /// A point of a face's facets.
@@ -44,8 +44,8 @@ Vec3 point_on_facets(const topology::Model& model, FaceId face, const FacetPosit
 
 class Trimming;
 
-/// Closest points on a set of faces: the facets determine face and position, the exact surface the point, and
-/// the face's border keeps the point on the face.
+/// Closest points on a set of faces. The facets determine face and position, the exact surface determines the
+/// point, and points beyond the face's border are moved back to it.
 class Projector {
 public:
     Projector(const topology::Model& model, std::vector<FaceId> faces);
@@ -53,8 +53,8 @@ public:
     Projector& operator=(Projector&&) noexcept;
     ~Projector();
 
-    /// Move points to the closest position; points of the exact surface beyond the face's border move to the
-    /// nearest point of the border curves. @return the face of each.
+    /// Move points to the closest position on the faces. If the point of the exact surface is beyond the
+    /// face's border, it moves to the nearest point of the border curves. @return  the face of each point
     std::vector<FaceId> project(std::span<Vec3> points, const RunContext& context = {}) const;
 
 private:

@@ -6,9 +6,9 @@
 
 namespace lacuna::surface {
 
-/// Whether a size field requests more quads than `most` on the source. Quads are counted over facets,
-/// subdivided while the size varies on them; a four-sided face, which may be mapped, counts by the sides of
-/// its rim.
+/// Whether a size field requests more quads than `most` on the source. Quads are counted over facets, which
+/// are subdivided while the size varies on them. On a four-sided face, which may be mapped, they are counted
+/// by the sides of the rim.
 /// @note  O(min(quads asked for, most)) sizes.
 bool asks_for_more(const topology::OpenVolume& volume, const SizeField& size, double most);
 

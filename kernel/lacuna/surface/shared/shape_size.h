@@ -12,17 +12,18 @@ namespace lacuna::surface {
 struct ShapeSizing {
     int curvature = 12; ///< sides for a full turn of an edge or a surface, >= 0; 0: the size alone
     int gap = 0;        ///< minimum number of quads across a narrow place, >= 0; 0: no minimum
-    /// Meet `gap` on a mapped four-sided face by its number of sides across; the sides along the narrow place
-    /// stay long. If no place is narrow, rectilinear faces are submapped.
+    /// If the narrow face is mapped and has four sides, meet `gap` by its number of sides across, while the
+    /// sides along it stay long. If no place is narrow, rectilinear faces are submapped.
     bool counts_across = false;
 };
 
 /// The shortest sides that one rule requests.
 struct SizeCause {
-    double size = 0;             ///< requested [model length]
-    FaceId face;                 ///< face of the source
-    std::optional<EdgeId> edge;  ///< edge of its rim, one side of a narrow place; unset: curvature
-    std::optional<EdgeId> other; ///< the edge opposite
+    double size = 0; ///< requested [model length]
+    FaceId face;     ///< face of the source
+    /// One of the two edges of a narrow place, on the face's rim; empty: curvature is the cause.
+    std::optional<EdgeId> edge;
+    std::optional<EdgeId> other; ///< the other edge of the narrow place
     double width = 0;            ///< distance between the two edges [model length]
 };
 
@@ -36,18 +37,20 @@ struct ShapeSize {
 /// Reduce the requested size where the source faces are curved or narrow, or so thin that straight sides of
 /// one rim would come close to the opposite rim.
 ///
-/// - Curvature: the larger principal curvature k at the facets' vertices gives 2π / (k · curvature), as
-///   Gmsh's MeshSizeFromCurvature. It is the facets' curvature tensor (@cite cohensteiner_2003_tensor), over
-///   the facets at a vertex. Facets without an exact surface give no less than half their own size, and no
-///   bend less than half the requested size: rims have their own count of sides.
-/// - Width: the ball that touches a rim from inside is shrunk until it contains no rim (@cite ma_2012_ball).
-///   If the opposite point faces back, the distance w gives w / gap and, where the rim has the curvature k, a
-///   side with a sag of at most a quarter of w: √(2 w / k). Edges that share one corner form a wedge, which
-///   has no minimum width. Two that share both corners, as on a lens, count as no closer than the mean width
-///   of the face, twice its area over its rim.
+/// - Curvature: the larger principal curvature k at the facets' vertices gives the size 2π / (k · curvature),
+///   as Gmsh's MeshSizeFromCurvature does. It is computed from the curvature tensor (@cite
+///   cohensteiner_2003_tensor) of the facets around a vertex. On faces without an exact surface, the size is
+///   at least half of the facets' size. Nowhere is it less than half of the requested size; rims have their
+///   own numbers of sides.
+/// - Width: a ball that touches a rim from inside is shrunk until it contains no rim (@cite ma_2012_ball). If
+///   the opposite point faces back at a distance w, the size is w / gap. Where the rim has the curvature k,
+///   sides have a sag of at most a quarter of w, so their length is at most √(2 w / k). Edges that share one
+///   corner form a wedge, which has no minimum width. Two edges that share both corners, as on a lens, count
+///   as no closer than the mean width of the face: twice its area divided by the length of its rim.
 ///
-/// The influence of a place fades with distance. The curvature of edges is not in the field: `seed_source()`
-/// counts it along each edge.
+/// The influence of a place fades with distance. The field does not contain the curvature of edges, because
+/// `seed_source()` counts it along each edge.
+/// @return  `asked` itself, without causes, if no place requires a smaller size.
 /// @return  `asked` itself, and no cause, if nothing is finer.
 /// @note    O(n log n) in the facets and rim points of the source; a size is found in O(log n).
 ShapeSize shape_size(const topology::OpenVolume& volume, const SizeField& asked, const ShapeSizing& sizing);

@@ -24,27 +24,28 @@ struct SkinMesh {
     std::vector<FaceId> triangle_face, quad_face;
 };
 
-/// Mesh the closed skin of a model with triangles; faces with fixed or given meshes keep these.
+/// Mesh the closed skin of a model with triangles. Faces with fixed or given meshes keep these.
 ///
 /// Algorithm: isotropic remeshing of the facets (@cite botsch_2004_remeshing), all faces at once. Long sides
-/// are split, the longest first, and short ones collapsed; flips increase the smaller angle of two triangles;
-/// nodes move to the centres of their triangles and back to the face. Nodes on edges stay on their edge,
-/// vertices stay. At the end nodes lie on exact curves and surfaces where there are any. No step reverses a
-/// triangle against the normal of the facets. Departures: the remaining small angles are then improved one
-/// by one (@cite hu_2017_remeshing).
+/// are split, the longest first, and short sides are collapsed. Flips increase the smaller angle of two
+/// triangles. Nodes move to the centres of their triangles and back to the face. Nodes on edges stay on their
+/// edge, and vertices do not move. At the end nodes are moved onto exact curves and surfaces where there are
+/// any. No step reverses a triangle against the normal of the facets. Departure from the paper: the remaining
+/// small angles are then improved one by one (@cite hu_2017_remeshing).
 ///
-/// Sides are shorter than requested where faces are curved, so that the volume within the skin differs from
-/// that of the model by about half a percent at most, and where faces are narrow, down to a tenth of the
-/// requested size. Sizes grow by `kGrading` away from these places and from the nodes of fixed faces.
+/// Sides are shorter than requested where faces are narrow, down to a tenth of the requested size, and where
+/// they are curved, so that the volume within the skin differs from that of the model by at most about half a
+/// percent. Sizes grow by `kGrading` away from these places and from the nodes of fixed faces.
 ///
-/// Facets of a face that turn by more than `kCreaseAngle` keep the crease between them.
+/// Where facets of a face meet at an angle of more than `kCreaseAngle`, the crease between them is kept.
 /// @param size  target length of the triangles' sides [model length]
 /// @pre   the faces of the model are oriented outward.
 /// @post  vertices and given nodes are kept bit for bit.
-/// @throw InvalidInput "surface.skin_open"  an edge is not used twice; names it. "sweep.size"  a size is not
-///        a positive length. Those of `topology::give_mesh()` for the fixed faces. NotSweepable
-///        "surface.skin_count"  more than 1e7 triangles are needed. "surface.skin_folds",
-///        "surface.skin_crosses"  triangles fold or cross at this size; names the faces. Cancelled
+/// @throw InvalidInput "surface.skin_open"  an edge is not used twice; names it; "sweep.size"  a size is not
+///         a positive length; or as `topology::give_mesh()` for the fixed faces.
+/// @throw NotSweepable "surface.skin_count"  more than 1e7 triangles are needed; "surface.skin_folds",
+///         "surface.skin_crosses"  triangles fold or cross at this size; names the faces.
+/// @throw Cancelled
 /// @note  Deterministic for any number of threads. O(n log n) in facets and triangles.
 SkinMesh triangulate_skin(const topology::Model& model, const SizeField& size,
                           std::span<const FixedFace> fixed = {}, const RunContext& context = {});

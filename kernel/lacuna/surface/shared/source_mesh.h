@@ -15,25 +15,27 @@ namespace lacuna::surface {
 
 /// Quads on all source faces together, followed by kept or generated triangles.
 struct SourceMesh {
-    /// Normals into the volume. The rim nodes come first, one linking surface after the other. `face` is the
-    /// FaceId's index.
+    /// Quads with normals into the volume. The rim nodes come first, one linking surface after the other.
+    /// `face` holds indices of `FaceId`.
     mesh::QuadMesh quads;
     /// Rim nodes of each linking surface: node i of surface b is quad node first[b] + i.
     std::vector<LinkingNodes> links;
     std::vector<Index> first;                     ///< first quad node of each linking surface
     std::map<EdgeId, std::vector<Index>> on_edge; ///< quad nodes of each source edge, in its direction
-    /// Positions of nodes of `on_edge` that differ from the seeds, as fractions of the edge's length.
+    /// For nodes of `on_edge` that are not at the positions of the seeds: their positions, as fractions of
+    /// the edge.
     std::map<EdgeId, std::vector<double>> moved_on_edge;
-    std::vector<std::string> notes; ///< a line per face: its method
+    std::vector<std::string> notes; ///< for each face, a line that states the method
 };
 
-/// Mesh the source faces with quads by their seeds.
+/// Mesh the source faces with quads, with the numbers of sides of the seeds.
 ///
 /// Kept faces have their own quads, every node bit for bit. Mapped faces are meshed transfinitely in arc
-/// length and projected onto the face. Free faces are flattened, filled by `mesher` and lifted back to the
-/// exact surface. Nodes of edges and vertices are shared between faces. Finally poor quads are improved as
-/// one mesh in space; nodes on edges between source faces may slide there, unless they are given.
-/// @throw NotSweepable  a face that needs `mesher` if there is none, or that cannot be flattened; names it.
+/// length and projected onto the face. Free faces are flattened, filled by `mesher`, and mapped back to the
+/// exact surface. Faces share nodes on common edges and vertices. Finally poor quads of all faces are
+/// improved together in space; nodes on edges between source faces may slide along these edges, unless they
+/// are given.
+/// @throw NotSweepable  a face needs `mesher` but there is none, or a face cannot be flattened; names it.
 SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                        const Seeds& seeds, const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
                        const RunContext& context = {});

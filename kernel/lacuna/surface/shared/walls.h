@@ -11,42 +11,43 @@
 
 namespace lacuna::surface {
 
-/// Nodes around a linking surface, in walking order from its start; the first is not repeated.
+/// Nodes around a linking surface, in walking order from its start. The first node is not repeated.
 struct LinkingNodes {
     std::vector<double> source_at; ///< running length on the source chain
     std::vector<double> target_at; ///< running length on the target chain
-    std::vector<std::size_t> line; ///< node at the source end of each side line
+    std::vector<std::size_t> line; ///< for each side line, the index of the node at its source end
 };
 
-/// Nodes at given shares of each segment, in [0, 1), increasing: as many on the target as on the source.
+/// Place nodes at given shares of each segment, in [0, 1), increasing; there are as many on the target as on
+/// the source.
 LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> source,
                            std::span<const std::vector<double>> target);
 
 /// A structured quad mesh on the walls of a linking surface.
 struct WallMesh {
     std::vector<Vec3> points; ///< (layers + 1) × nodes, layer-major from the source
-    std::vector<FaceId> face; ///< wall of each quad: layer · nodes + i, the quad from node i to node i + 1
+    std::vector<FaceId> face; ///< wall of each quad; quad layer · nodes + i lies between nodes i and i + 1
     std::vector<std::string> notes;
 };
 
-/// Mesh the walls of all linking surfaces: one row of quads per layer.
+/// Mesh the walls of all linking surfaces, with one row of quads per layer.
 ///
-/// A part between two side lines that is one face is meshed transfinitely in arc length and projected onto
-/// the face (paper sect. 7; for void faces Algorithms 5 and 6). Other parts (several faces stacked or side by
-/// side, or no side line at all) are meshed by the harmonic map of the linking surface, where edges between
-/// faces are followed: edges around the walls by layers, edges up the walls by columns, and a node lies where
-/// they meet, turn or end. The other nodes move by a harmonic field over the grid, so that layers and columns
-/// bend towards the edges.
+/// If the part between two side lines is a single face, it is meshed transfinitely in arc length and
+/// projected onto the face (section 7 of the paper; for void faces its Algorithms 5 and 6). Other parts have
+/// several faces, stacked or side by side, or no side lines. They are meshed by the harmonic map of the
+/// linking surface: layers follow edges around the walls, columns follow edges up the walls, and a node lies
+/// wherever such edges meet, turn or end. The other nodes move by a harmonic field over the grid, so that
+/// layers and columns bend towards the edges.
 ///
-/// Columns of given nodes are used unchanged, including the quads between them.
-/// @param nodes    of each linking surface.
-/// @param columns  of each linking surface; empty: none.
+/// Columns of given nodes and the quads between them are used unchanged.
+/// @param nodes    nodes around each linking surface.
+/// @param columns  given columns of each linking surface; empty: none.
 /// @param heights  layers + 1 numbers from 0 to 1.
-/// @param exact    false: nodes on the facets of given walls and near void ones: faster, and accurate enough
-///                 to find the directions of columns.
-/// @throw NotSweepable "surface.too_few_layers"  more edges around the walls than layers; names one, and a
-///        sufficient number of layers. "surface.wall_edge": an edge between two walls that neither a layer
-///        nor a column can follow.
+/// @param exact    false: nodes lie on the facets of given walls, and only near void ones. This is faster,
+///         and accurate enough to find the directions of columns.
+/// @throw NotSweepable "surface.too_few_layers"  there are more edges around the walls than layers can
+///         follow; names one, and a sufficient number of layers; "surface.wall_edge"  neither a layer nor a
+///         column can follow an edge between two walls.
 /// @post  nodes on given faces and edges lie on the exact geometry; the first and last rows are points of the
 ///        rims.
 std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
@@ -55,10 +56,10 @@ std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<c
                                  bool exact = true);
 
 /// Check that layers and columns can follow all edges between the walls of a sealed volume.
-/// @throw NotSweepable "surface.wall_edge"; as `linking_surfaces()`. Cancelled
+/// @throw NotSweepable "surface.wall_edge"; or as `linking_surfaces()`. Cancelled
 void check_wall_edges(const topology::OpenVolume& volume, const RunContext& context = {});
 
-/// Points of the nodes on the target's rim.
+/// Positions of the nodes on the target's rim.
 std::vector<Vec3> target_points(const LinkingSurface& link, const LinkingNodes& nodes);
 
 } // namespace lacuna::surface

@@ -12,26 +12,27 @@ namespace lacuna::sweep {
 
 /// What `imprint_faces()` did.
 struct FaceImprint {
-    std::vector<std::string> report;          ///< a line for each pair
-    std::vector<std::vector<FaceId>> parents; ///< for each volume: of each new face, the face it is part of
+    std::vector<std::string> report; ///< a line for each pair
+    /// For each volume: for each new face, the face it is a part of.
+    std::vector<std::vector<FaceId>> parents;
 };
 
 /// Split both faces of each pair along the other's rim, so that the common part is one face of both.
 ///
-/// Where rims cross, or a corner of one lies on the other, both rims get a vertex. The parts of one rim that
-/// run across the other face are projected onto its facets, which are cut along them, chord by chord; new
-/// points lie on the exact surface if there is one. The face is split along the chains by
-/// `topology::imprint_walks()`. Parts have the tag, name and role of the whole; new edges have no exact
-/// curve, but the coincident edge of the other volume keeps its own.
-/// @param volumes  copies of the members' volumes, changed; face ids of pairs are those before the call.
-/// @throw InvalidInput "assembly.part_of_face"  a face that keeps its quads, or onto whose facets the rim
-///        cannot be projected; names both.
+/// Where rims cross, or a corner of one rim lies on the other, both rims get a vertex. Parts of one rim that
+/// run across the other face are projected onto the facets of that face, which are cut along them, chord by
+/// chord. If the face has an exact surface, the new points lie on it. `topology::imprint_walks()` then splits
+/// the face along these chains. Parts have the tag, name and role of the whole face. New edges have no exact
+/// curve; the edge of the other volume in the same position keeps its curve.
+/// @param volumes  copies of the members' volumes, changed. The face ids of pairs are those before the call.
+/// @throw InvalidInput "assembly.part_of_face"  a face keeps its quads, or the rim cannot be projected onto
+///         its facets; names both faces.
 /// @note  O(pairs × (facets of both × points of both rims)).
 FaceImprint imprint_faces(std::span<topology::OpenVolume> volumes, std::span<const AssemblyMember> members,
                           std::span<const PartlyShared> pairs, const RunContext& context);
 
-/// The sag of all faces after an imprint. Parts get the sag of the whole face, because their own facets no
-/// longer show it.
+/// The sag of all faces after an imprint. Parts of a face get the sag of the whole face, because their own
+/// facets are too few to estimate it.
 /// @param sag  for each member: sag of each of its faces before the imprint.
 std::vector<std::vector<double>> with_sag_of_parts(std::vector<std::vector<double>> sag,
                                                    const FaceImprint& imprint);

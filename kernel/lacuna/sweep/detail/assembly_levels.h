@@ -15,10 +15,10 @@ namespace lacuna::sweep {
 
 /// Levels of an assembly: heights at which a layer must end, because an edge runs around the walls there.
 ///
-/// Examples are a pin that stands out of a plate, or a band around the middle of a pin. Both members must
-/// have the same rows on the wall that they share. So the levels of one member within a shared wall become
-/// levels of the other, the parts between levels are paired, and paired parts get equal numbers of layers. A
-/// member without such levels is not constrained.
+/// Examples are a pin that stands out of a plate, or a band around the middle of a pin. On a shared wall both
+/// members must have the same rows. Therefore the levels of one member within the wall become levels of the
+/// other one too, the intervals between levels are paired, and paired intervals get equal numbers of layers.
+/// If no member of a connected group has such levels, the group is not constrained.
 class AssemblyLevels {
 public:
     AssemblyLevels(std::span<const AssemblyMember> members, std::span<const SharedFace> shared);
@@ -26,13 +26,14 @@ public:
     /// Read the levels of a member.
     void read(std::size_t member, std::span<const surface::LinkingSurface> links, const RunContext& context);
 
-    /// Layers of each member, as shares of its height, the last one 1; empty: not constrained.
-    /// @param layers  number of layers that a member of a height [model length] needs.
+    /// For each member, the tops of its layers as shares of its height, the last one 1; empty: not
+    /// constrained.
+    /// @param layers  returns the number of layers that a member needs over a height [model length].
     [[nodiscard]] std::vector<std::vector<double>> heights(
         const std::function<double(std::size_t member, double height)>& layers);
 
 private:
-    /// A shared wall: the same part of the heights of two members, which may run against each other.
+    /// A shared wall: a range of heights in each of two members. The ranges may have opposite directions.
     struct Contact {
         std::size_t a = 0, b = 0;
         double from_a = 0, to_a = 1, from_b = 0, to_b = 1;
@@ -48,7 +49,7 @@ private:
                                                    ///< walls, in [0, 1]
     std::vector<double> length_;                   ///< length of each member's walls along the sweep [model
                                                    ///< length]
-    std::vector<std::vector<double>> levels_;      ///< for each member, rising, from 0 to 1
+    std::vector<std::vector<double>> levels_;      ///< for each member, increasing from 0 to 1
 };
 
 } // namespace lacuna::sweep

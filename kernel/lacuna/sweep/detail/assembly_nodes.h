@@ -17,8 +17,8 @@ namespace lacuna::sweep {
 /// @note  O(nodes + skin nodes log).
 void number_nodes(SweptAssembly& assembly);
 
-/// Check nodes on the edges of a part's faces against sides of the other parts: volumes that touch only along
-/// an edge have no shared face to match.
+/// Check that no node on the borders of a part's faces lies inside a side of another part. Volumes that touch
+/// only along an edge share no face whose meshes would have to match.
 /// @throw NotSweepable "assembly.hanging_node"
 void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const AssemblyMember> members);
 

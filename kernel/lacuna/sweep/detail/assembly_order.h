@@ -15,14 +15,23 @@ namespace lacuna::sweep {
 bool came_with_mesh(const AssemblyMember& member);
 
 /// For each member, the members that must come before it: a given face is meshed before its void counterpart.
-/// @throw NotSweepable "assembly.round"  volumes in a cycle, each of which lacks a face that the next one has
+/// @throw NotSweepable "assembly.round"  in a cycle of volumes, each lacks a face that another one has.
 std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember> members,
                                                   std::span<const SharedFace> shared);
 
-/// Sort members topologically. Among those without open dependencies, the order is: fixed ones, then `first`
-/// as listed, those with given meshes, those with boundary layers, those whose ends both have several faces,
-/// those that share an end with a member already placed, those whose walls are not ends of waiting members,
-/// and by number.
+/// Sort members topologically. Of the members that may come next, the first one in this order is taken:
+/// 1. fixed members;
+/// 2. the members of `first`, as listed;
+/// 3. members with given meshes;
+/// 4. members with boundary layers;
+/// 5. members whose ends both have several faces, or that must precede such a member, if they share no end
+///    with a placed member;
+/// 6. members that share an end with a placed member, and none with a wall of a member still to come;
+/// 7. members that share no end with a wall of a member still to come;
+/// 8. the others by number.
+///
+/// In steps 5 to 7 a member waits for one that shares a wall with it which lies in the middle of that other
+/// member's walls.
 /// @param before  result of `members_before()`
 /// @note  O(members² × shared faces) at most.
 std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,

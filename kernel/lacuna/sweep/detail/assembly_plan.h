@@ -15,26 +15,28 @@ namespace lacuna::sweep {
 /// Decisions over a whole assembly before meshing.
 struct AssemblyPlan {
     std::vector<std::vector<topology::EdgeNodes>> nodes; ///< for each member's shared edges
-    std::vector<int> layers; ///< for each member with others beside it; 0: not constrained
+    std::vector<int> layers; ///< for each member that shares faces; 0: not constrained
     /// For each member, heights of its layers from the source: see `AssemblyLevels::heights()`.
     std::vector<std::vector<double>> heights;
 };
 
 /// Numbers of sides for all edges of an assembly (interval assignment), and the nodes of shared edges.
 ///
-/// Edges that need equal numbers form one class: the same edge in two members; an edge of a source's rim and
-/// its image on the target's; the side lines of a member; opposite edges of a four-sided wall. A class gets
-/// the requested number, otherwise the largest number that one of its edges needs by the size. If an end with
-/// only shared edges has an odd total of sides, its longest class gets one more. Nodes are evenly spaced;
-/// those of side lines follow the layers, and where rows of boundary layers end on an edge, nodes lie at the
-/// rows' heights. Edges of faces that a member shares with one that is not swept get their nodes as shared
-/// edges do, and side lines on such faces have a node at each of their vertices.
-/// @param beside  the faces that a member shares with a volume that is not swept: index of the member, and
-///        the face in it.
-/// @throw NotSweepable "assembly.layers"  different numbers of layers requested in members whose side lines
-///        are in one class; "assembly.layers_differ"  different rows of two members that end on one edge;
-///        "assembly.layers_rows"  more rows on an edge than it has sides. Names them.
-/// @throw InvalidInput "sweep.periodic_given"  given nodes of an edge that differ from those of its image.
+/// Edges that need equal numbers of sides form one class: an edge that several members have; an edge of a
+/// source's rim and its image on the target's rim; the side lines of a member; opposite edges of a four-sided
+/// wall. A class gets the requested number of sides; without a request, the largest number that one of its
+/// edges needs by the size. If an end with only shared edges has an odd total, its longest class gets one
+/// more side.
+///
+/// Nodes are evenly spaced, except on side lines, where they follow the layers, and where rows of boundary
+/// layers end on an edge, which needs nodes at the rows' heights. Edges of faces shared with an unswept
+/// volume are treated as shared edges; side lines on such faces have a node at each vertex.
+/// @param beside  the faces shared with volumes that are not swept: index of the member, and its face.
+/// @throw NotSweepable "assembly.layers"  members whose side lines are in one class request different numbers
+///         of layers; "assembly.layers_differ"  rows of two members end on one edge with different heights;
+///         "assembly.layers_rows"  an edge has too few sides for the rows that end on it. The message names
+///         the members and faces.
+/// @throw InvalidInput "sweep.periodic_given"  the given nodes of an edge and of its image differ.
 AssemblyPlan plan_assembly(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
                            std::span<const std::pair<std::size_t, FaceId>> beside = {},
                            std::span<const PeriodicFaces> periodic = {}, const RunContext& context = {});

@@ -13,14 +13,14 @@ namespace lacuna::sweep {
 /// Split the ends of members, and of their neighbours, along the lines inside the opposite ends. A line is an
 /// edge between two faces of one end.
 ///
-/// If such a line is swept to faces that another volume shares, that volume's mesh must contain the line, and
-/// so on through all following volumes. This happens, for instance, with branches in a row that leave to
-/// different sides, or with a branch on a branch. Each end gets the lines of the opposite end by
-/// `surface::imprint_target()`, and each neighbour gets the parts of the shared faces, until nothing changes.
+/// If the sweep maps such a line to faces that another volume shares, the mesh of that volume must contain
+/// the line, and so on through all following volumes. Examples are branches in a row that leave to different
+/// sides, and a branch on a branch. `surface::imprint_target()` copies the lines of one end to the opposite
+/// end, and the parts of shared faces are copied to the neighbours, until nothing changes.
 /// @param volumes  the members' volumes, to which their `volume` points; changed.
 /// @return  a line of the report for each member whose ends were split.
-/// @throw NotSweepable "surface.not_imprinted"  as `surface::imprint_target()`, and if the rims of one face
-///     have different points in two volumes. "sweep.lines_go_round"  lines that keep adding others.
+/// @throw NotSweepable "surface.not_imprinted"  as `surface::imprint_target()`, or the rims of a shared face
+///         have different points in its two volumes; "sweep.lines_go_round"  lines keep adding others.
 std::vector<std::string> carry_lines(std::span<const AssemblyMember> members,
                                      std::span<topology::OpenVolume> volumes, const RunContext& context);
 

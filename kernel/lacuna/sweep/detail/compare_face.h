@@ -13,19 +13,20 @@
 
 namespace lacuna::sweep {
 
-/// The quads of the skin on one face. At order 2 each quad or triangle of the mesh counts as four, divided at
-/// its middle nodes.
+/// The quads of the skin on one face. At order 2, each quad or triangle is divided into four at its middle
+/// nodes.
 struct SkinOfFace {
     FaceId face;
-    std::vector<Quad> quads;       ///< as points of the skin
-    std::vector<std::size_t> item; ///< for each, its quad in the mesh's skin
-    std::vector<double> side;      ///< the longest of each quad [model length]
-    double mean_side = 0;          ///< mean of `side` [model length]
+    std::vector<Quad> quads; ///< by indices of `Skin::points`
+    /// For each quad, the index of the quad or triangle of the mesh's skin that it is part of.
+    std::vector<std::size_t> item;
+    std::vector<double> side; ///< the longest side of each quad [model length]
+    double mean_side = 0;     ///< mean of `side` [model length]
 };
 
 /// The nodes on a mesh's skin, renumbered, with the quads of every face.
 struct Skin {
-    std::vector<Vec3> points;      ///< in the mesh's order, so those of the source first [model length]
+    std::vector<Vec3> points;      ///< in the mesh's order: nodes of the source come first [model length]
     std::vector<SkinOfFace> faces; ///< by their numbers in the model
 };
 
@@ -34,22 +35,22 @@ struct Skin {
 Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std::size_t face_count,
              const RunContext& context = {});
 
-/// Allowed distance between a face and its quads [model length], or as a share of a quad's side.
+/// Allowed distance between a face and its quads: a length, or a share of a quad's side.
 struct DeviationLimit {
-    double length = 0; ///< the same for all quads; 0: a share of the side
+    double length = 0; ///< the same for all quads [model length]; 0: a share of the side
     double share = 0;  ///< allowed distance as a share of the side of a quad
-    double at_tip = 0; ///< that share within two sides of a tip, where at most four quads meet
+    double at_tip = 0; ///< `share` within two sides of a tip, where at most four quads meet
     double least = 0;  ///< lower bound of the allowed distance, for short sides [model length]
-    /// Whether inverted quads are reported as folds. False for sharply twisted void walls, where neither skin
-    /// is given: the facet nearest to a quad may then have any orientation.
+    /// Whether inverted quads are reported as folds. False for sharply twisted void walls next to which
+    /// neither skin is given: the facet nearest to a quad may then have any orientation.
     bool folds = true;
 };
 
-/// The same for tetrahedra and pyramids, whose skin has triangles too.
+/// As above, for tetrahedra and pyramids, whose skin has triangles too.
 Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::size_t face_count);
 
 /// Compare a face with its quads.
-/// @param mesh  tells whether a deviating side runs from layer to layer; null: there are no layers.
+/// @param mesh  shows whether a deviating side runs from layer to layer; null: there are no layers.
 /// @param sign  -1 if the faces of the model look inward, else 1.
 /// @throw Cancelled
 /// @note  Deterministic for any thread count. Near linear in quads and facets if they are close to each

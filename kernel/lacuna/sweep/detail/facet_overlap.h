@@ -15,33 +15,35 @@ namespace lacuna::sweep {
 /// Areas of the part of a face that another face covers [model length²].
 struct OverlapAreas {
     double on = 0;       ///< within the tolerance
-    double same_way = 0; ///< part of it where both have the same orientation
-    double within = 0;   ///< within the window
-    double around = 0;   ///< within `kAround` times the window
+    double same_way = 0; ///< the part of `on` where both faces have the same orientation
+    double within = 0;   ///< at a distance of at most `window`
+    double around = 0;   ///< at a distance of at most `kAround` times `window`
 };
 
 /// Overlap of two faces of two volumes.
 struct FaceOverlap {
-    OverlapAreas a, b;        ///< as seen from each face
-    double least = kInfinity; ///< distance within the window [model length]
-    double gap = 0;           ///< maximum distance where they are apart
-    double depth = 0;         ///< maximum depth where they overlap
+    OverlapAreas a, b;        ///< areas on the first face and on the second one
+    double least = kInfinity; ///< smallest distance [model length]
+    double gap = 0;           ///< largest distance where the volumes do not overlap
+    double depth = 0;         ///< largest depth where the volumes overlap
     Eigen::AlignedBox3d box;  ///< bounding box of the part within the window
 };
 
 using FaceOverlaps = std::map<std::pair<FaceId, FaceId>, FaceOverlap>;
 
-/// Faces are nearly parallel if most of the area within this many windows is also within one window.
+/// Two faces are compared up to this multiple of the window, to tell whether they stay near each other or
+/// diverge.
 inline constexpr double kAround = 4;
 
 /// Compute the overlap of faces of two volumes.
 ///
-/// Facets are paired by their boxes. The overlap of a pair is the common polygon in projection along the
-/// first's normal; the distance is linear over it, so it is clipped exactly at each bound.
-/// @param sag_a,sag_b  of each face, the maximum distance of its facets from the true surface; the limit of a
-///        pair is the tolerance plus both.
-/// @param window  [model length], no less than the tolerance.
-/// @note  O(facets log + pairs of facets that come near).
+/// Facets are paired by their bounding boxes. The overlap of a pair is the common polygon in the projection
+/// along the normal of the first facet. Over this polygon the distance is linear, so the polygon is clipped
+/// exactly at each distance limit.
+/// @param sag_a,sag_b  for each face, the maximum distance of its facets from the true surface. The limit for
+///         `on` is the tolerance plus both values.
+/// @param window  largest distance that is of interest, at least the tolerance [model length].
+/// @note  O(facets log + pairs of facets that are near each other).
 FaceOverlaps face_overlaps(const topology::OpenVolume& a, std::span<const double> sag_a,
                            const topology::OpenVolume& b, std::span<const double> sag_b, double tolerance,
                            double window, const RunContext& context = {});

@@ -10,8 +10,9 @@
 
 namespace lacuna::sweep {
 
-/// Closest points on facets by walking from a nearby facet: a few operations per query if consecutive queries
-/// are close together. Answers that may be wrong are marked (`Foot::nearest`); a tree answers those.
+/// Closest points on facets, found by walking from a nearby facet: a few operations per query if consecutive
+/// queries are close together. Answers that may be wrong are marked (`Foot::nearest`) and must be checked
+/// with a tree.
 class FacetWalk {
 public:
     /// @param triangles  consistently oriented. O(triangles).
@@ -23,19 +24,18 @@ public:
         Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, 0 to 1 to rounding, sum 1
         double height = 0;               ///< over the facet, along its normal [model length]
         /// Whether it is certain that no other facet is closer: the foot point is so far from the facet's
-        /// sides that the adjacent facets, at their angles, do not reach the point. This assumes that no
-        /// facet farther away, within that height, has a sharper angle. If false, the distance is still an
-        /// upper bound.
+        /// sides that the adjacent facets, at their angles, cannot be closer. This assumes that no other
+        /// facet within that height has a sharper angle. If false, the distance is still an upper bound.
         bool nearest = false;
     };
     /// The facet below a point.
-    /// @return nothing if none is found, as beside a convex edge.
+    /// @return  empty if no facet is found, as beside a convex edge.
     [[nodiscard]] std::optional<Foot> over(const Vec3& point, Index start) const;
 
     /// Unit normal; zero if the facet has no area.
     [[nodiscard]] const Vec3& normal(Index facet) const { return frame_[index(facet)].normal; }
-    /// The neighbour across each side of a facet, with the opposite direction of the side; side k runs from
-    /// corner k to the next; -1 at the border.
+    /// The neighbour across each side of a facet; -1 at the border. Side k runs from corner k to the next
+    /// corner, and in the opposite direction in the neighbour.
     [[nodiscard]] const std::array<Index, 3>& across(Index facet) const { return across_[index(facet)]; }
     [[nodiscard]] std::size_t size() const { return frame_.size(); }
 
@@ -43,9 +43,11 @@ private:
     struct Frame {
         Vec3 corner = Vec3::Zero(), normal = Vec3::Zero();
         Vec3 to_first = Vec3::Zero(), to_second = Vec3::Zero(); ///< gradients of the second and third weight
-        Vec3 altitude = Vec3::Zero(); ///< for each corner over the opposite side; zero: too thin
-        double rounding = 0;          ///< tolerance of distances [model length]
-        double fold = 1;              ///< tangent of half the sharpest angle to a facet at one of its corners
+        /// Altitude of each corner over the opposite side; zero: the facet is too thin.
+        Vec3 altitude = Vec3::Zero();
+        double rounding = 0; ///< tolerance of distances [model length]
+        /// Tangent of half the largest angle between its normal and that of a facet at one of its corners.
+        double fold = 1;
     };
     void set_frame(std::size_t facet, const std::array<Vec3, 3>& corners);
 

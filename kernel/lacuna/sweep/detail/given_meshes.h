@@ -20,17 +20,17 @@ struct GivenMeshes {
 /// Read the meshes of walls and rims, and split the segments of `links` at given nodes.
 /// @param asked  heights from the options; empty: none.
 /// @param size   size of the layers above walls that cover only a part of the height.
-/// @throw NotSweepable "sweep.given_rows"  rows of quads on walls whose number differs from the requested
-///     layers; as `surface::given_columns()`.
+/// @throw NotSweepable "sweep.given_rows"  the number of rows of quads on walls differs from the requested
+///         number of layers; or as `surface::given_columns()`.
 GivenMeshes given_meshes(const topology::OpenVolume& volume, std::vector<surface::LinkingSurface>& links,
                          const std::vector<double>& asked, const surface::SizeField& size,
                          const SweepOptions& options);
 
-/// `faces`, and the walls and targets with quads of their own: improvement does not move their nodes.
+/// `faces`, plus the walls and targets with quads of their own: the nodes of all these are not improved.
 std::set<FaceId> given_faces(const topology::OpenVolume& volume, std::set<FaceId> faces, bool wedges);
 
 /// A line of the report for each face that keeps its nodes, with the number of nodes that the mesh contains.
-/// @param wedges  triangles of the ends are kept as well.
+/// @param wedges  whether triangles of the ends are kept as well.
 void report_given(const topology::OpenVolume& volume, Swept& swept, bool wedges);
 
 } // namespace lacuna::sweep

@@ -13,10 +13,10 @@
 
 namespace lacuna::sweep {
 
-/// The nodes that share a quad side with each node, increasing.
+/// For each node, the nodes that it shares a quad side with, in increasing order.
 using NodeGraph = mesh::Incidence;
 
-/// O(quads).
+/// Cost: O(quads).
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes);
 
 /// Weight of each side, in the order of the graph's neighbours: the length of the dual side, which joins the
@@ -25,17 +25,17 @@ NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes);
 std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> quads,
                                  std::span<const Vec3> nodes);
 
-/// Spreads values given at fixed nodes over the rest, each the weighted mean of its neighbours.
+/// Spreads values given at fixed nodes over the other nodes: each gets the weighted mean of its neighbours.
 ///
-/// Uses the graph Laplacian, factored once. The weights are positive, so a value never leaves the range of
-/// the given ones. Parts of the mesh without a fixed node get zero.
+/// Uses the graph Laplacian, factored once. The weights are positive, so values never leave the range of the
+/// given ones. Parts of the mesh without a fixed node get zero.
 class HarmonicSpread {
 public:
-    /// Number of fields solved together, so that each entry of the factor is read once for 12 numbers.
+    /// Number of fields solved together: each entry of the factor is then read once for 12 numbers.
     static constexpr int kFields = 4;
 
-    /// @param weights  of the graph's sides, equal in both directions, above 0.
-    /// @param fixed    nodes whose values are given, without duplicates.
+    /// @param weights  for each side of the graph, equal in both directions, above 0.
+    /// @param fixed    the nodes at which values are given, without duplicates.
     /// @throw Cancelled
     HarmonicSpread(const NodeGraph& graph, std::span<const double> weights, std::span<const Index> fixed,
                    const RunContext& context = {});
@@ -43,8 +43,9 @@ public:
     /// Fields after spreading.
     class Fields {
     public:
-        /// The values at a node: x, y and z of the first field, of the second and so on, followed by one
-        /// unused number that may be read. Null if the node is fixed or connected to no fixed node.
+        /// The values at a node: x, y and z of the first field, then of the second and so on, followed by one
+        /// number that may be read but is not used. Null if the node is fixed, or not connected to any fixed
+        /// node.
         [[nodiscard]] const double* of(std::size_t node) const
         {
             return place_[node] < 0 ? nullptr : &rows_[static_cast<std::size_t>(place_[node]) * 3 * kFields];
@@ -61,24 +62,24 @@ public:
     /// @return  the fields; refers to this object
     [[nodiscard]] Fields spread(std::span<const Vec3> values) const;
 
-    /// Add fields, spread from the fixed nodes, to the nodes that are not fixed: out[f · stride + node] +=
-    /// value.
+    /// Spread fields from the fixed nodes, and add them at the other nodes: out[f · stride + node] += value.
+    /// The result of a field does not depend on other fields in the call, or on the number of threads.
     /// @param values  fields × fixed.size(), field-major.
-    /// The result of a field does not depend on the other fields of the call, or on the number of threads.
     void add(std::span<const Vec3> values, std::size_t fields, Vec3* out, std::size_t stride,
              const RunContext& context = {}) const;
 
-    /// Solve for a given load at every free node, with fixed nodes held at zero. In place: one Vec3 per node
-    /// of the mesh; values of fixed nodes are ignored and set to zero.
+    /// Solve for a load at every free node, with fixed nodes held at zero. Works in place, with one Vec3 per
+    /// node of the mesh; values at fixed nodes are ignored and set to zero.
     void solve(std::span<Vec3> load) const;
 
 private:
     struct RimSide {
-        Index row, fixed; ///< row of the free node in the factor; index of the fixed node in `fixed`
+        Index row, fixed; ///< row of the free node in the factor; index of the fixed node in the list `fixed`
         double weight;
     };
     std::size_t fixed_count_ = 0;
-    std::vector<Index> place_;       ///< for each node in the factor's order; -1: fixed or not connected
+    /// For each node of the mesh, its row in the factor; -1: fixed or not connected.
+    std::vector<Index> place_;
     std::vector<RimSide> rim_sides_; ///< sides between a free node and a fixed one
     Eigen::SparseMatrix<double> lower_;
     Eigen::VectorXd diagonal_;

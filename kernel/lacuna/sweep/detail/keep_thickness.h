@@ -11,25 +11,27 @@ namespace lacuna::sweep {
 
 /// The nodes of boundary layers, and the accuracy reached.
 struct KeptThickness {
-    /// Of each node of the mesh: whether it belongs to rows or layers of given thickness. Empty: none does.
+    /// For each node of the mesh, whether it belongs to a row or layer of given thickness. Empty: no node
+    /// does.
     std::vector<char> held;
     std::vector<std::string> report; ///< a line for each table
 };
 
 /// Relative tolerance of a row's thickness after all moves. The remaining error comes from walls and ends
-/// that bend within a cell. Heuristic.
+/// that bend within one cell. Heuristic.
 inline constexpr double kThicknessOff = 0.02;
 
-/// Move nodes so that rows along walls, in every layer, and layers along ends have the requested thickness,
-/// normal to the faces of the mesh at their base.
+/// Move nodes so that boundary layers have the requested thickness, measured normal to the faces of the mesh
+/// at their base: rows along walls in every layer, and layers along ends.
 ///
-/// The nodes of a row are found by walking over opposite sides of quads from the rim. Nodes on other walls
-/// slide along the layer's rim, together with the rest of the rim; inner nodes move within their layer. The
-/// moves are spread harmonically over the layer, and nodes of the ends are projected back onto their faces.
-/// Layers along an end move along their columns. Both steps alternate until the thickness is met.
+/// The nodes of a row are found by walking from the rim over opposite sides of quads. Row nodes on other
+/// walls slide along the layer's rim, together with the rest of the rim; inner row nodes move within their
+/// layer. These moves are spread harmonically over the layer, and nodes of the ends are projected back onto
+/// their faces. Layers along an end move along their columns. Both steps alternate until the thickness is
+/// reached.
 /// @param nodes  (layers + 1) × source nodes, layer-major; moved.
-/// @throw NotSweepable "sweep.layers_thickness"  rows that cannot have their thickness; names the wall, the
-///        requested and the actual thickness, and the place.
+/// @throw NotSweepable "sweep.layers_thickness"  rows cannot have their thickness; names the wall, the
+///         requested and the actual thickness, and the place.
 KeptThickness keep_thickness(const SweptParts& parts, const surface::LayerTables& tables,
                              std::vector<Vec3>& nodes, const RunContext& context);
 

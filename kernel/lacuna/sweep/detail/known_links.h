@@ -15,8 +15,9 @@
 
 namespace lacuna::sweep {
 
-/// Data shared by the plans of one volume, computed when first needed: the volume with its ends exchanged,
-/// the linking surfaces, the sizes, and the numbers of sides and layers that keep its volume.
+/// Data that the plans of one volume share, each computed when it is first needed: the volume with its ends
+/// exchanged, the linking surfaces, the sizes, and the numbers of sides and layers that keep the volume of
+/// the mesh within its bound.
 class KnownLinks {
 public:
     /// @param volume  must outlive this and must not move or change: linking surfaces refer to its model.

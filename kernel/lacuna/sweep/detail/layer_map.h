@@ -10,7 +10,8 @@
 
 namespace lacuna::sweep {
 
-/// An inner layer before its residual: from_source · source node + from_target · target node + shift.
+/// The map of an inner layer without its residual: from_source · source node + from_target · target node +
+/// shift.
 struct LayerMap {
     Eigen::Matrix3d from_source, from_target;
     Vec3 shift;
@@ -18,7 +19,7 @@ struct LayerMap {
 
 /// Compute nodes [begin, end) of some layers, with their residuals.
 ///
-/// A layer's result is bit-identical for any vector width, whatever other layers are in the call.
+/// A layer's result is bit-identical for any vector width, and independent of the other layers of the call.
 /// @param maps       maps of up to `HarmonicSpread::kFields` layers
 /// @param residuals  null: none
 /// @param out        the first node of the first layer; each next layer begins `stride` nodes later

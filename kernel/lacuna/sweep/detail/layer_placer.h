@@ -15,17 +15,17 @@
 namespace lacuna::sweep {
 
 /// `place_layers()` for a few layers at a time: the fits and the factorisation are done once, then any layer
-/// can be placed on its own. Refers to the source, the target and the columns, which must outlive it.
+/// can be placed separately. The source, the target and the columns must outlive it.
 class LayerPlacer {
 public:
-    /// @param room  memory for all layers: its pages are cleared during the factorisation, which uses one
-    ///              thread.
+    /// @param room  memory for all layers. A second thread clears its pages during the factorisation, which
+    ///         uses only one thread.
     LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
                 const PlacementOptions& options = {}, const RunContext& context = {},
                 std::span<Vec3> room = {});
 
-    /// Nodes of layers [first, last), 0 the source and `columns.layers` the target: those of
-    /// `place_layers()`, bit for bit.
+    /// Place the nodes of layers [first, last); layer 0 is the source and layer `columns.layers` the target.
+    /// They are bit-identical to those of `place_layers()`.
     /// @param out  (last - first) × source.nodes, layer-major.
     void place(int first, int last, std::span<Vec3> out, const RunContext& context = {}) const;
 

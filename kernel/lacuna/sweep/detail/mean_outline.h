@@ -16,14 +16,14 @@ enum class Outline {
 
 /// Lay out the source's quads in the mean outline of both rims, and map them onto the source.
 ///
-/// If the source has a right angle in its own outline, one quad lies there; that quad degenerates if the
-/// target's rim is straight at this node. The mean outline is the mean of the source's rim and the target's
-/// after the best rotation, scaling and translation. If the larger angle of both ends is too large for the
-/// number of quads that fit into the mean angle, the node is moved inward until one more fits. The quads are
-/// mapped to the source by `morph()`.
-/// @param source  of a volume with one face on either end; rim nodes are kept, all others are new.
-/// @throw NotSweepable "sweep.mean_outline"  ends of several faces; a mean outline that intersects itself; as
-///     `mesher`.
+/// If the source's outline has a right angle at a node, a single quad lies in that corner. This quad
+/// degenerates if the target's rim is straight at the same node. The mean outline averages the source's rim
+/// and the target's rim after the best rotation, scaling and translation. At each node, the larger of the
+/// angles on both ends determines how many quads are needed there. If the mean angle is too small for this
+/// number, the node is moved inward until they fit. The quads are mapped to the source by `morph()`.
+/// @param source  of a volume with one face at either end. Rim nodes are kept, all others are new.
+/// @throw NotSweepable "sweep.mean_outline"  an end has several faces, or the mean outline intersects itself;
+///         or as `mesher`.
 surface::SourceMesh laid_between(const topology::OpenVolume& volume, surface::SourceMesh source,
                                  const RimColumns& columns, const surface::SizeField& size,
                                  const quads::PlanarQuadMesher& mesher, const RunContext& context);

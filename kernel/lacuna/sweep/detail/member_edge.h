@@ -10,8 +10,8 @@
 /// Edges of members of an assembly. Internal to this folder.
 namespace lacuna::sweep {
 
-/// Edges of two members with matching ends are the same if their midpoints differ by no more than this share
-/// of their length: facets of different fineness have slightly different midpoints.
+/// Two edges with matching ends are the same if their midpoints differ by at most this share of their length,
+/// because facets of different fineness have slightly different midpoints.
 inline constexpr double kSameMiddle = 1e-2;
 
 /// An edge of a member.
@@ -24,7 +24,7 @@ struct MemberEdge {
     double sag = 0;             ///< maximum distance of the curve from its chain of points
     Eigen::AlignedBox3d box;
     bool closed = false;
-    /// Moves the edge onto the one that represents it and its images on periodic faces.
+    /// Moves the edge onto the edge that represents it and its images on periodic faces.
     Eigen::Isometry3d home = Eigen::Isometry3d::Identity();
 };
 

@@ -11,15 +11,17 @@
 
 namespace lacuna::sweep {
 
-/// Places the middle nodes of a mesh from those of its skin, some layers at a time, for stored or generated
-/// corner nodes. The bends of the walls are computed once; then any layer can be placed on its own.
+/// Places the middle nodes of a mesh from the middle nodes of its skin, a few layers at a time. Corner nodes
+/// may be stored or generated. The bends of the walls are computed once; then any layer can be placed
+/// separately.
 class MiddlePlacer {
 public:
-    /// @param corners  of a mesh with numbers of its sides; must outlive this.
-    /// @param skin     as `SkinPlaces` has it; must outlive this.
+    /// @param corners  corner nodes of a mesh whose sides are numbered; must outlive this object.
+    /// @param skin     middle nodes of the skin in the order of `SkinPlaces`; must outlive this object.
     MiddlePlacer(const mesh::SkinNodes& corners, std::span<const Vec3> skin, const RunContext& context = {});
 
-    /// As `mesh::LayeredNodes::place_middles`. Bit-identical for any range and number of threads.
+    /// As `mesh::LayeredNodes::place_middles`. The result is bit-identical for any range and number of
+    /// threads.
     void place(int first, int last, std::span<Vec3> out, const RunContext& context = {}) const;
 
     /// A middle node of the skin, by its index.
@@ -44,13 +46,13 @@ private:
     LevelBlend blend_{mesh_};
     std::vector<std::uint8_t> rim_side_; ///< for each side of the source, whether it is on the rim
     std::vector<std::uint8_t> rim_node_; ///< for each node of the source, whether it is on the rim
-    /// The bends of both ends that blending from the rim does not explain, and the relative height of each
-    /// level; empty: no such bends.
+    /// The bends of both ends minus those blended from the rim, and the relative height of each level; empty:
+    /// the difference is zero.
     std::vector<Vec3> first_, last_;
     std::vector<double> share_;
     bool columns_bend_ = false;
-    std::optional<HarmonicSpread> spread_; ///< spreads the walls' bends beyond the columns' cubics
-    std::vector<Vec3> beyond_;             ///< for each layer: those bends at the nodes of the rim
+    std::optional<HarmonicSpread> spread_; ///< spreads the bends of the walls minus the columns' cubics
+    std::vector<Vec3> beyond_;             ///< for each layer: these bends at the rim nodes
 };
 
 } // namespace lacuna::sweep

@@ -28,7 +28,7 @@ class SkinPlaces {
 public:
     static constexpr std::size_t kInside = std::numeric_limits<std::size_t>::max();
 
-    /// @param mesh  with numbers of its sides
+    /// @param mesh  a mesh whose sides are numbered
     explicit SkinPlaces(const mesh::HexMesh& mesh);
     /// Compact index of a middle node, from its index among all; `kInside`: not on the skin.
     [[nodiscard]] std::size_t of(std::size_t place) const
@@ -43,7 +43,7 @@ public:
 private:
     std::size_t period_, on_level_, layers_;
     std::size_t ring_ = 0;    ///< number of places on a level and the layer over it
-    std::vector<Index> rank_; ///< compact index of each place on a level and the layer above it; -1: inside
+    std::vector<Index> rank_; ///< compact index of each place on a level and the layer above; -1: inside
 };
 
 /// The middle nodes of a mesh's skin, by their index among all middle nodes.
@@ -62,7 +62,7 @@ public:
         const std::size_t at = places_.of(place);
         return at == SkinPlaces::kInside ? Middle::inside : states_[at];
     }
-    /// The nodes by the compact indices of `SkinPlaces`.
+    /// The nodes in the order of the compact indices of `SkinPlaces`.
     [[nodiscard]] const std::vector<Vec3>& nodes() const { return nodes_; }
 
 private:
@@ -71,7 +71,8 @@ private:
     std::vector<Middle> states_;
 };
 
-/// A local frame of a side: bends are stored in it, relative to the side's length, to transfer them.
+/// A local frame of a side. Bends are stored in this frame, relative to the side's length, so that they can
+/// be transferred to other sides.
 struct SideFrame {
     Vec3 along, across, normal;
     double length = 0;
@@ -82,19 +83,18 @@ struct SideFrame {
     [[nodiscard]] Vec3 world(const Vec3& local) const;
 };
 
-/// Blends the bends of a level's sides along chords.
+/// Blends the bends of a level's sides along chords of quads, which run from side to opposite side.
 class LevelBlend {
 public:
     explicit LevelBlend(const mesh::HexMesh& mesh);
 
-    /// Compute the bends of the sides on a level that are not `known` from the bends of the known ones.
+    /// Compute the bends of the sides on a level that are not `known`, from the bends of those that are.
     /// @param nodes  nodes of the level.
-    /// @param bend   bend of each side, input and output [model length].
+    /// @param bend   bend of each side [model length]; known ones are read, the others are written.
     /// @param extra  added to the blended bend of each side, in local coordinates; empty: none.
     void blend(const Vec3* nodes, const std::vector<std::uint8_t>& known, std::vector<Vec3>& bend,
                const std::vector<Vec3>& extra = {}) const;
-    /// The difference between the bends of a level's sides and their blend from the `known` ones, in local
-    /// coordinates.
+    /// The bends of a level's sides minus their blend from the `known` ones, in local coordinates.
     [[nodiscard]] std::vector<Vec3> beyond(const Vec3* nodes, const std::vector<std::uint8_t>& known,
                                            const std::vector<Vec3>& bend) const;
 
@@ -114,7 +114,7 @@ private:
     std::vector<Chord> chords_;
 };
 
-/// The levels that determine how a column passes the middle of a layer.
+/// The levels whose nodes determine the bend of a column in the middle of a layer.
 struct ColumnWindow {
     static constexpr int kMost = 4; ///< four nodes define a cubic
 
@@ -123,23 +123,23 @@ struct ColumnWindow {
 ColumnWindow column_window(int layers, int layer);
 
 /// Bend of a column of nodes at the middle of a side between two layers: a cubic through four nodes (or
-/// through all, if there are fewer), over running lengths, minus the straight side. At most a fifth of the
+/// through all, if there are fewer) over running lengths, minus the straight side. Limited to a fifth of the
 /// side.
-/// @param column  its nodes on the levels of a `column_window()`. @param low  index of the node below the
-///          side
+/// @param column  its nodes on the levels of a `column_window()`.
+/// @param low     index of the node below the side.
 Vec3 column_bend(std::span<const Vec3> column, std::size_t low);
 
-/// The same for a column of the rim.
+/// As `column_bend()`, for a column of the rim.
 Vec3 rim_bend(const mesh::SkinNodes& corners, Index node, int layer);
 
-/// The middle of a quad from its corners and the middles of its sides: transfinite.
+/// The middle of a quad, by transfinite interpolation of its corners and the middles of its sides.
 inline Vec3 middle_of_quad(const std::array<Vec3, 4>& sides, const std::array<Vec3, 4>& corners)
 {
     return (sides[0] + sides[1] + sides[2] + sides[3]) / 2 -
            (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
 }
 
-/// The middle of a cell from its corners and the middles of its faces and sides: transfinite.
+/// The middle of a cell, by transfinite interpolation of its corners and the middles of its faces and sides.
 inline Vec3 middle_of_cell(const std::array<Vec3, 6>& faces, const std::array<Vec3, 12>& sides,
                            const std::array<Vec3, 8>& corners)
 {
@@ -156,14 +156,15 @@ struct PlacedSkin {
     SkinMiddles middles;
     SkinCounts counts;
 };
-/// Place the middle nodes of the skin, including those of its quads if the mesh has them.
-/// @param corners  of a mesh with numbers of its sides
+/// Place the middle nodes of the skin. If the mesh has nodes in its quads (hex27), they are included.
+/// @param corners  corner nodes of a mesh whose sides are numbered
 PlacedSkin place_skin(const topology::OpenVolume& volume, const mesh::SkinNodes& corners,
                       const std::vector<FaceId>& faces, const SecondOrderOptions& options,
                       const RunContext& context);
 
-/// Move middle nodes until every cell is valid. @return  number of cells that were invalid. @throw as
-/// `elevate()`
+/// Move middle nodes until every cell is valid.
+/// @return  number of cells that were invalid.
+/// @throw  as `elevate()`.
 std::size_t repair_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
                            const std::vector<FaceId>& faces, const SkinMiddles& skin,
                            const RunContext& context);

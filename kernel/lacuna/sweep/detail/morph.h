@@ -18,15 +18,15 @@ using SurfaceProjector = std::function<void(std::span<Vec3>)>;
 /// The source mesh on the target.
 struct Morphed {
     std::vector<Vec3> nodes; ///< target position of each source node [model length]
-    /// Minimum scaled Jacobian of the source's quads, along the surface's normal [-1, 1]
+    /// Minimum scaled Jacobian of the source's quads, measured along the surface normal [-1, 1].
     double worst_source = 1;
     double worst = 1;   ///< the same for the quads on the target
     std::string report; ///< one line for a person
 };
 
 /// Morph the source mesh onto the target. Rim nodes go to the last row of the columns. The other nodes follow
-/// the affine fit of the rims plus the residual, spread harmonically. They are then projected onto the
-/// surface, and smoothed there if this improves the worst quad.
+/// the affine fit of the rims, plus the rims' residual spread harmonically. They are then projected onto the
+/// surface, and smoothed on it if this improves the worst quad.
 ///
 /// @param project  empty: nodes are not projected.
 /// @post  rim nodes are those of the columns, bit for bit.

@@ -25,14 +25,14 @@ EndFaces end_faces(const topology::OpenVolume& volume, const surface::SourceMesh
 Morphed morph_onto(const topology::OpenVolume& volume, const surface::SourceMesh& source,
                    const RimColumns& columns, const RunContext& context);
 
-/// Morph the source mesh onto the target, one face at a time. Nodes of imprinted edges are placed first: on
-/// the target's edges exactly, with the spacing on the source. They then bound the inner nodes.
+/// Morph the source mesh onto the target, one face at a time. Nodes of imprinted edges are placed first:
+/// exactly on the target's edges, spaced as on the source. They then bound the inner nodes of each face.
 /// @param face  target face of each quad.
 Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& columns,
                          const surface::Seeds& seeds, const surface::Imprint& imprint,
                          const std::vector<FaceId>& face, const RunContext& context);
 
-/// The source moved by the motion that made the walls, with the target's rim.
+/// The source moved by the motion that made the walls. The rim nodes are those of the columns on the target.
 Morphed moved_by(const geometry::Motion& motion, const surface::SourceMesh& source,
                  const RimColumns& columns);
 

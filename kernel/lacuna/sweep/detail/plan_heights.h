@@ -10,11 +10,11 @@
 
 namespace lacuna::sweep {
 
-/// Reverse the heights, which run from 0 to 1 or cover a part of this range, so that they count from the
-/// other end.
+/// Reverse heights, so that they count from the other end. They run from 0 to 1, or cover a part of this
+/// range.
 void reverse_heights(std::vector<double>& heights);
 
-/// Heights of layers, and whether only bends of the columns determined their number.
+/// Heights of layers, and whether their number is determined by bends of the columns alone.
 struct PlannedHeights {
     std::vector<double> heights;
     bool by_bends = false;
@@ -22,17 +22,17 @@ struct PlannedHeights {
 
 /// Heights of the layers between source and target, as fractions of the columns' length.
 ///
-/// Layers with a count are spread as in `LayerSpec`. Otherwise they are about as high as the quads are wide,
-/// measured along the walls (`surface::wall_columns()`), and no fewer than the columns' bends require at
-/// `curvature` per full turn. If the size varies along the sweep, their number and heights divide the
-/// cumulative number of sides evenly, averaged over the columns. Boundary layers of the ends come first and
-/// last, and the others share the remaining length.
+/// If the number of layers is given, heights are distributed as in `LayerSpec`. Otherwise layers are about as
+/// high as the quads are wide, measured along the walls (`surface::wall_columns()`), and there are at least
+/// as many as the columns' bends require at `curvature` per full turn. If the size varies along the sweep,
+/// the layers divide the cumulative number of sides evenly, averaged over the columns. Boundary layers of the
+/// ends come first and last; the other layers share the remaining length.
 /// @param asked  result of `LayerSpec` for a count or heights, from the source; empty: not requested.
-/// @param sizes  of the source's quads, and layers for the walls' bends.
+/// @param sizes  sizes of the source's quads, and the number of layers that bends of the walls require.
 /// @param least  minimum number of layers for the walls.
-/// @throw InvalidInput  too many layers to number; boundary layers of ends together with heights, or
-///                      with fewer layers than they have.
-/// @throw NotSweepable "sweep.layers_room"  ends closer to each other than their boundary layers are high.
+/// @throw InvalidInput  there are too many layers to number, or boundary layers of ends are combined with
+///         heights, or with fewer layers than they have.
+/// @throw NotSweepable "sweep.layers_room"  the ends are too close to each other for their boundary layers.
 PlannedHeights plan_heights(const topology::OpenVolume& volume,
                             const std::vector<surface::LinkingSurface>& links,
                             const surface::LayerTables& tables, const std::vector<double>& asked,

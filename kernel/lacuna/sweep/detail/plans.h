@@ -13,30 +13,31 @@
 
 namespace lacuna::sweep {
 
-/// One way to mesh a sealed volume, with all choices of a sweep as numbers.
+/// One way to mesh a sealed volume: the choices that a sweep leaves open.
 struct Plan {
     bool turned = false;    ///< swept from the target to the source
-    bool keeps_end = false; ///< the end where it starts has given quads, which are kept
+    bool keeps_end = false; ///< the quads given on the end where the sweep starts are kept
     Outline outline = Outline::source;
     surface::Turning turning = surface::Turning::each;
     std::optional<DrawnLayers> drawn{}; ///< layers that are thinner in bends; empty: as the options ask
     int per_turn = 12;                  ///< sides for a full turn
-    bool wedges = false;      ///< see `SweepOptions::wedges`; as a fallback, tried only if no plan without
-                              ///< wedges gave a mesh
-    double below = kPoorCell; ///< tried only if no mesh has reached this least scaled Jacobian yet
-    std::string why{};        ///< for the report: why it comes first; may be empty
+    /// See `SweepOptions::wedges`; as a fallback, tried only if no plan without wedges gave a mesh.
+    bool wedges = false;
+    double below = kPoorCell; ///< tried only if no mesh has reached this minimum scaled Jacobian yet
+    std::string why{};        ///< for the report: why this plan is the first; may be empty
 };
 
 /// The ways to mesh a volume, best first.
 ///
-/// The first plan uses the given source and target, unless one end has given quads or, failing that, one end
-/// has several faces (whose inner edges become mesh edges): that end becomes the source. Then follow: all
-/// loops rotated together, if the walls of some loop do not determine its rotation; the other end as source;
+/// If the source keeps given quads, all plans sweep from it in the same layout. Otherwise the first plan
+/// sweeps from the given source to the target. If only the target has given quads or, failing that, several
+/// faces (whose inner edges become mesh edges), it sweeps from the target. The next plans are: all loops
+/// rotated together, if the walls of some loop do not determine its rotation; the sweep from the other end;
 /// and quads laid out between the outlines of both ends. If layers that are thinner in bends reduce the
-/// volume error, all of these plans come first with such layers. At order 2 the whole list is repeated with
-/// more sides, because a quad with two sides on a round rim needs them. Plans with wedges, if the fallback
-/// allows them, are last.
-/// @param options  checked; `curvature` as planned for the volume.
+/// volume error, the same plans with such layers precede all of these. At order 2 the whole list is repeated
+/// with more sides, because a quad with two sides on a round rim needs them. Plans with wedges come last, if
+/// the fallback allows them.
+/// @param options  checked options, with `curvature` as planned for the volume.
 /// @throw Cancelled
 std::vector<Plan> plans(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                         const RunContext& context);

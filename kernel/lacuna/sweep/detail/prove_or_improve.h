@@ -9,11 +9,11 @@
 
 namespace lacuna::sweep {
 
-/// Prove the mesh; if cells are folded or poor, move nodes and prove it again. The attempts are added to the
-/// report, and to the finding if cells stay bad.
+/// Prove the mesh. If cells are folded or poor, move nodes and prove it again. The attempts are added to the
+/// report and, if cells stay bad, to the finding.
 ///
 /// @param faces  face of each patch of the skin.
-/// @param kept   faces that keep their own quads: their nodes are fixed.
+/// @param kept   faces whose own quads are kept: their nodes are fixed.
 /// @param held   for each node, whether it is fixed; empty: none is.
 quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::set<FaceId>& kept, std::vector<char> held,

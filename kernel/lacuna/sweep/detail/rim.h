@@ -10,9 +10,9 @@
 
 namespace lacuna::sweep {
 
-/// @throw InvalidInput  columns that do not fit the source: sizes, node numbers, boundary nodes without a
-///                      column, a number that is not finite, a first row away from the source's nodes, a last
-///                      one away from the target's.
+/// @throw InvalidInput  the columns do not fit the source: sizes or node numbers are wrong, a boundary node
+///         has no column, a number is not finite, the first row is not at the source's nodes, or the last row
+///         is not at the target's nodes.
 void check_columns(const mesh::QuadMesh& source, const RimColumns& columns,
                    std::span<const Vec3> target = {});
 
@@ -22,8 +22,8 @@ std::vector<Segment> rim_sides(const mesh::QuadMesh& source, const RimColumns& c
 /// Newell area vector enclosed by the rim's sides, all loops summed.
 Vec3 rim_area(std::span<const Vec3> rim, std::span<const Segment> sides);
 
-/// Rim residuals below this share of the mesh's shortest side are invisible: angles of cells change by less
-/// than a hundredth of a degree.
+/// Rim residuals below this share of the mesh's shortest side are ignored: they change angles of cells by
+/// less than a hundredth of a degree.
 inline constexpr double kNegligible = 1e-4;
 
 /// Length of the shortest side of a quad [model length]; 0 for no quads.
@@ -31,16 +31,17 @@ double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
 /// One end of the sweep with the data to map it onto other rims.
 ///
-/// The rim's points alone determine the map if they span its interior and the map is exact and right-handed,
-/// as for a skin between two circles. Otherwise, for planar and nearly planar rims, the pseudo-normals are
-/// added: without them small waves of the rim would tilt the map far off the rim's plane.
+/// If the rim's points span the interior of the end, and the map fitted to them is exact and right-handed,
+/// they alone determine the map; an example is a skin between two circles. Otherwise, as for planar and
+/// nearly planar rims, the pseudo-normals are added: without them, small waves of the rim would tilt the map
+/// far off the rim's plane.
 class RimFitter {
 public:
     /// @param rim    the end's rim, in the order of the columns; must outlive the fitter.
     /// @param nodes  all nodes of the end's mesh.
     RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, std::span<const Vec3> nodes);
 
-    /// @param negligible  residual below which a map counts as exact [model length].
+    /// @param negligible  a map counts as exact if its residual is below this [model length].
     [[nodiscard]] geometry::AffineFit fit(std::span<const Vec3> to, const Vec3& to_area,
                                           double negligible) const;
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-/// Edges of a face's rim, and the arcs behind their chords. Internal to this folder.
+/// Edges of a face's rim, and the arcs that their chords approximate. Internal to this folder.
 namespace lacuna::sweep {
 
 /// The edges of a face's loops, without seams.
@@ -24,11 +24,11 @@ OnLine closest_on(std::span<const Vec3> line, const Vec3& p);
 /// A chord of a rim and the arc over it.
 struct RimChord {
     Vec3 from, to;
-    Vec3 bulge = Vec3::Zero(); ///< from the chord's middle to the arc's [model length]
+    Vec3 bulge = Vec3::Zero(); ///< from the middle of the chord to the middle of the arc [model length]
 };
 
-/// The chords of a face's loops, each with the arc defined by its neighbours: its height is the length
-/// squared times the curvature, over eight. O(chords).
+/// The chords of a face's loops, each with the arc that its neighbours define. The height of an arc is the
+/// squared length of the chord times the curvature, divided by eight. O(chords).
 std::vector<RimChord> rim_chords(const topology::Model& model, FaceId face);
 
 /// Distance of a position from the arcs of a rim, reduced by the uncertainty of the arcs [model length].
@@ -38,8 +38,8 @@ double off_arcs(const Vec3& p, std::span<const RimChord> rim);
 /// Maximum distance of the corners of two rims from each other's arcs [model length]. O(chords²).
 double arcs_apart(std::span<const RimChord> one, std::span<const RimChord> other);
 
-/// The area between chords and arcs, if two rims approximate one curve. Two faces on both sides of such a
-/// curve, with different chords, overlap by at most this area [model length²]. O(chords²).
+/// The area between the chords and arcs of two rims that approximate one curve. Two faces on opposite sides
+/// of such a curve, with different chords, overlap by at most this area [model length²]. O(chords²).
 double area_under_arcs(std::span<const RimChord> one, std::span<const RimChord> other, double tolerance);
 
 } // namespace lacuna::sweep

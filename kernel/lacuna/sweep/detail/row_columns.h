@@ -14,7 +14,7 @@
 
 namespace lacuna::sweep {
 
-/// The inputs of the layers of a sweep.
+/// Inputs for placing the layers of a sweep.
 struct SweptParts {
     const topology::OpenVolume& volume;
     std::span<const surface::LinkingSurface> links;
@@ -22,12 +22,13 @@ struct SweptParts {
     std::span<const surface::WallMesh> walls;
     const EndFaces& ends;
     int layers = 1;
-    /// For edges inside the source, the target edge that each is swept to.
+    /// For each edge inside the source, the target edge that it is swept to.
     std::map<EdgeId, EdgeId> target_edges{};
-    bool source_stays = false, target_stays = false; ///< whether their nodes are given and must not move
+    /// Whether the nodes of the end are given and must not move.
+    bool source_stays = false, target_stays = false;
 
     [[nodiscard]] std::size_t size_of(std::size_t link) const { return source.links[link].source_at.size(); }
-    /// Source node of a node of a linking surface, cyclic.
+    /// Source node for node `i` of a linking surface, cyclic.
     [[nodiscard]] std::size_t rim_node(std::size_t link, std::size_t i) const
     {
         return index(source.first[link]) + i % size_of(link);
@@ -39,7 +40,7 @@ struct SweptParts {
     }
 };
 
-/// A column of row nodes of the source, over a node of the source's rim.
+/// The nodes of all rows over one rim node, on the source.
 struct RowColumn {
     std::size_t link, node;
     bool before = false, after = false; ///< whether the sides before and after the node have rows
@@ -48,7 +49,7 @@ struct RowColumn {
     std::vector<double> lean; ///< tangential offset of each node from the base node, on the source [model
                               ///< length]
 
-    /// Unit directions along the rim at the base, from the positions of nodes.
+    /// Unit direction along the rim at the base. @param at  returns the position of a node
     template <class At>
     [[nodiscard]] Vec3 tangent(const SweptParts& parts, const At& at) const
     {
@@ -61,25 +62,26 @@ struct RowColumn {
     }
 };
 
-/// The rows over the rim sides of a wall with a table, found by walking over opposite sides of quads. The
-/// table of a side is that of the wall at its source or target end.
-/// @throw NotSweepable "sweep.layers_rows"  fewer rows than the table has; names the wall.
+/// The rows over the rim sides of walls with boundary layers, found by walking over opposite sides of quads.
+/// A side uses the table of the wall that it lies on at the source or, without one, at the target.
+/// @throw NotSweepable "sweep.layers_rows"  the quads have fewer rows than the table; names the wall.
 std::vector<RowColumn> row_columns(const SweptParts& parts, const surface::LayerTables& tables);
 
 // --- positions along a line of nodes, in units of its sides -----------------------------------------
 
-/// The first position at which a line reaches a height above its start, along a normal; nothing if it does
-/// not.
+/// The first position at which a line reaches a height above its start, measured along a normal; empty if it
+/// does not reach it.
 std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal, double height);
 
-/// The point at a place.
+/// The point at a position.
 Vec3 point_at(const std::vector<Vec3>& line, double place);
 
-/// The point of a chain closest to another: on its polyline, then by iteration on the exact curve.
+/// The point of a chain closest to `p`: first on the chain's polyline, then by iteration on its exact curve.
 Vec3 nearest_on(const topology::Model& model, const surface::Chain& chain, const Vec3& p);
 
-/// New positions of all nodes of a line: the given ones, and the others in proportion between them.
-/// @pre  positions of both ends.
+/// New positions of all nodes of a line: given nodes have the given positions, the others lie in proportion
+/// between them.
+/// @pre  the positions of both ends are given.
 std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>& line,
                                                          const std::map<std::size_t, double>& place);
 

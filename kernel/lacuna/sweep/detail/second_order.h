@@ -23,29 +23,33 @@ struct Elevated {
     std::optional<PlacedLayers> layers;
 };
 
-/// Add middle nodes to a proved mesh of order 1, which makes it one of order 2.
+/// Add middle nodes to a proved mesh of order 1, which becomes a mesh of order 2.
 ///
-/// On the skin, given middle nodes are kept bit for bit. Others lie on the geometry of their side: between
-/// two faces on the exact curve, otherwise on the face's exact surface, inside its trimming; on facets if
-/// both ends lie on facets, and at the straight midpoint between nodes of a kept mesh. Sides without such
-/// geometry, as on most void walls, are blended between rows that have one.
+/// On the skin, given middle nodes are kept bit for bit. Sides between two faces get nodes on the exact curve
+/// of the edge. Other sides get nodes on the exact surface of their face, inside its trimming, or on its
+/// facets if both ends lie on facets. Sides between nodes of a kept mesh stay straight. Sides without such
+/// geometry, as on most void walls, are blended between rows that have it.
 ///
-/// Inside, a level's sides bend like the skin: across the quads, from side to opposite side, every side
-/// belongs to one chord, and its bend is interpolated between the chord's ends on the rim, in a frame that
-/// rotates with the sides; on a grid this is the transfinite map. The remaining bend of the two ends is
-/// blended from layer to layer. Sides up the layers follow their column of nodes by cubics, and the remaining
-/// bend of the walls is spread harmonically. Midpoints of faces and cells are transfinite.
+/// Inside, the sides of a level bend like the skin. Every side belongs to one chord, which runs across the
+/// quads from side to opposite side. Its bend is interpolated between the chord's ends on the rim, in a frame
+/// that rotates with the sides; on a grid, this is the transfinite map. The remaining bend of the two ends is
+/// blended from layer to layer. Sides between layers follow their column of nodes by cubics, and the
+/// remaining bend of the walls is spread harmonically. Midpoints of faces and cells are transfinite.
 ///
+/// If a cell is not valid by its Bézier bounds (`quality::judge()`), inner middle nodes of the cell are
+/// moved.
+/// @param faces   face of each patch of the mesh.
 /// If a cell is not valid by its Bézier bounds (`quality::judge()`), its inner middle nodes are moved.
 /// @param faces   of each patch of the mesh.
-/// @param layers  generator of the nodes that the mesh does not hold: middle nodes are then generated on
-///                demand too, if all cells are valid without moves; null: the mesh holds its nodes.
+/// @param layers  generator of the nodes that the mesh does not hold; null: the mesh holds its nodes. If all
+///         cells are valid without moves, middle nodes are generated on demand too.
 /// @param crew    processes that share the proof of such layers; null: this process only.
-/// @throw NotSweepable "sweep.second_order"  a cell is not valid for any position of its inner nodes: names
-///        the face whose middle node causes it, and a sufficient size. InvalidInput "sweep.too_many": more
-///        nodes than numbers. Cancelled.
+/// @throw NotSweepable "sweep.second_order"  a cell is not valid for any position of its inner nodes; names
+///         the face whose middle node causes it, and a sufficient size.
+/// @throw InvalidInput "sweep.too_many"  there are more nodes than node numbers.
+/// @throw Cancelled
 /// @note  Deterministic for any number of threads. O(cells), plus the harmonic spread, which is needed only
-///        if columns of walls bend unlike any cubic.
+///         if columns of walls bend in a way that cubics do not represent.
 Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
                  const SecondOrderOptions& options = {}, const RunContext& context = {},
                  const PlacedLayers* layers = nullptr, const Crew* crew = nullptr);

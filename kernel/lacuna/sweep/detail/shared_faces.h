@@ -11,11 +11,11 @@
 /// Faces shared by members of an assembly. Internal to this folder.
 namespace lacuna::sweep {
 
-/// A pair of faces of which one covers part of the other.
+/// A pair of faces that share only a part of their area.
 struct PartlyShared {
     SharedFace faces;
-    double limit = 0; ///< maximum distance of the facets [model length]
-    Message refusal;  ///< names the covered share of each
+    double limit = 0; ///< maximum distance of the facets of both faces [model length]
+    Message refusal;  ///< error for this pair; names the covered share of each face
 };
 
 /// Faces shared by members, completely or in part.
@@ -23,23 +23,23 @@ struct FacesInCommon {
     std::vector<SharedFace> whole;
     std::vector<PartlyShared> partly;
     std::vector<NearMiss> near;           ///< near misses of faces that are not shared completely
-    std::vector<std::vector<double>> sag; ///< for each member: of each face, as `facet_sag()`
-    /// Members that share faces and lie on the same side of one of them: one is inside the other.
+    std::vector<std::vector<double>> sag; ///< for each member: `facet_sag()` of each of its faces
+    /// Pairs of members that lie on the same side of a face that they share: one is inside the other.
     std::set<std::pair<std::size_t, std::size_t>> same_side;
 };
 
-/// Whether a member may lie inside another one, as the parts of one skin do. Near misses are then not
+/// Whether a member may lie inside another one, as the parts of one skin do. If so, near misses are not
 /// searched.
 enum class MayOverlap : bool { no, yes };
 
-/// @param sag  for each member, sag of its first faces, as from `facet_sag()`; given where the faces were
-///          divided, because their facets no longer show it.
+/// @param sag  for each member, the sag of its first faces; for others `facet_sag()` is computed. It must be
+///         given for faces that were divided, because their facets no longer show it.
 /// @throw InvalidInput "assembly.overlap", "assembly.rims_apart", "assembly.crack"  as `shared_faces()`
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
                               std::vector<std::vector<double>> sag = {},
                               MayOverlap may_overlap = MayOverlap::no);
 
-/// @throw InvalidInput "assembly.part_of_face"  where faces are shared in part.
+/// @throw InvalidInput "assembly.part_of_face"  some faces are shared only in part.
 void refuse_partly_shared(const FacesInCommon& found);
 
 /// Maximum distance of a face's facets from the true surface, estimated from their angles [model length].

@@ -11,11 +11,11 @@
 /// Matching of two swept meshes on a shared face. Internal to this folder.
 namespace lacuna::sweep {
 
-/// The quads of a face in the skin of a mesh, by the mesh's nodes.
-/// @param faces  of each patch. O(skin).
+/// The quads of the mesh's skin on one face, with node numbers of the mesh.
+/// @param faces  face of each patch. O(skin).
 std::vector<Quad> quads_on(const mesh::HexMesh& mesh, std::span<const FaceId> faces, FaceId face);
 
-/// A node of one mesh and the node of another in the same place.
+/// A node of one mesh and the node of another mesh in the same position.
 struct NodePair {
     Index own = -1, other = -1;
 };
@@ -27,27 +27,27 @@ struct QuadsAlone {
 };
 QuadsAlone quads_alone(std::vector<Quad> quads);
 
-/// The same with the place of each node.
+/// `QuadsAlone` with the position of each node.
 struct FaceMesh : QuadsAlone {
     std::vector<Vec3> places;
 };
 FaceMesh face_mesh(const mesh::SkinNodes& skin, std::span<const Quad> quads);
 
-/// For each place of `a`, one place of `b` within a distance, each used once; empty if some place has none.
-/// Places are sorted along an oblique line, so that few have similar keys.
+/// For each position of `a`, a position of `b` within a distance, each used once. Empty if a position has
+/// none. Positions are sorted along an oblique line, so that few of them have similar keys.
 /// @param within  >= 0; 0: bit-identical [model length].
-/// @note  O(n log n) for n places.
+/// @note  O(n log n) for n positions.
 std::vector<Index> same_places(std::span<const Vec3> a, std::span<const Vec3> b, double within);
 
-/// The pairs of nodes of two meshes on one face, if their quads are equal: each node has a counterpart within
-/// a distance, as in `same_places()`, and the quads correspond one to one. Nothing if they differ.
+/// The pairs of coincident nodes of two meshes on one face, if the meshes are equal: each node has a
+/// counterpart as in `same_places()`, and the quads correspond one to one. Empty if they differ.
 std::optional<std::vector<NodePair>> same_quads(FaceMesh own, const FaceMesh& other, double within);
 std::optional<std::vector<NodePair>> same_quads(const mesh::SkinNodes& own, std::span<const Quad> own_quads,
                                                 const mesh::SkinNodes& other,
                                                 std::span<const Quad> other_quads, double within);
 
-/// Sides of the skin's quads between two patches, the lower node first, including those of the source's and
-/// the target's rim. O(skin).
+/// Sides of the skin's quads between two patches, including the rims of source and target. The lower node of
+/// each side comes first. O(skin).
 std::vector<Segment> patch_borders(const mesh::HexMesh& mesh);
 
 } // namespace lacuna::sweep

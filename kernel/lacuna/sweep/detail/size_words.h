@@ -16,7 +16,7 @@ namespace lacuna::sweep {
 /// Estimated number of cells of a sweep.
 struct ExpectedCells {
     double all = 0;
-    double unasked = 0; ///< number of cells in sweeps for which size or layers are not given
+    double unasked = 0; ///< number of cells in sweeps without a given size, or without given layers
 };
 
 /// The sizes of a sweep's quads, and their origin.
@@ -25,11 +25,11 @@ struct SourceSize {
     std::optional<surface::DefaultSize> by_default; ///< if no size is given
     surface::ShapeSizing sizing;
     surface::ShapeSize shape; ///< the requested size, reduced by the shape
-    surface::SizeField along; ///< size of the layers: not reduced by the default in narrow places
-    /// A place too narrow for `kDefaultGap` quads across, the default, which would give too many quads in
-    /// total.
+    surface::SizeField along; ///< size of the layers; narrow places of the source do not reduce it by default
+    /// A place that is too narrow to get the default of `kDefaultGap` quads across: there would be too many
+    /// quads in total.
     std::optional<surface::SizeCause> too_narrow;
-    std::function<int(int least)> layers{}; ///< layers as in `VolumePlan`
+    std::function<int(int least)> layers{}; ///< number of layers as in `VolumePlan`
     bool narrow = false;                    ///< there are, or may be, narrow places
     ExpectedCells expected{};
 };
@@ -41,9 +41,10 @@ struct LayersTaken {
     bool by_bends = false;
 };
 
-/// Lines of the report on a default size, on a given size that the shape reduces, and on a default number of
-/// layers, with their origin.
-/// @param volume  the faces in `sizes` are its faces. @param split  the edges in `seeds` are its edges.
+/// Lines of the report that explain the origin of a default size, of a given size that the shape reduces, and
+/// of a default number of layers.
+/// @param volume  the volume to which faces in `sizes` belong. @param split  the volume to which edges in
+///         `seeds` belong.
 std::vector<std::string> sizes_in_words(const topology::OpenVolume& volume, const topology::OpenVolume& split,
                                         const SourceSize& sizes, const surface::Seeds& seeds,
                                         const SweepOptions& options, const LayersTaken& layers);

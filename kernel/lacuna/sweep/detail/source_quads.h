@@ -14,21 +14,23 @@ namespace lacuna::sweep {
 
 surface::QuadStyle style_of(const SweepOptions& options, bool rows_along_walls);
 
-/// The mesher of source faces that are not mapped: the kernel's paver, or the given one.
-/// @param narrow  some narrow places may need a minimum number of quads across.
+/// The mesher for source faces that are not mapped: the kernel's paver, or the given mesher.
+/// @param narrow  whether some narrow places may need a minimum number of quads across.
 quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
 
-/// The same for regions that may have an odd number of sides.
+/// As `mesher_of()`, for regions that may have an odd number of sides.
 quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
 
-/// The requested or default size, reduced by the shape, and reduced everywhere if the volume plan requires
-/// it.
-/// @throw InvalidInput  a size that is not a positive length; too many cells to number. @throw Cancelled
+/// The requested or default size, reduced by the shape of the volume. It is reduced everywhere if the volume
+/// plan requires that.
+/// @throw InvalidInput  a size is not a positive length, or there are too many cells to number. @throw
+///         Cancelled
 SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context);
 
 /// Log the estimated number of cells of volumes that are swept together, before meshing.
-/// @throw InvalidInput "sweep.many_cells"  more than 50 million without both size and layers.
+/// @throw InvalidInput "sweep.many_cells"  more than 50 million cells are expected in sweeps without a given
+///         size or without given layers.
 void check_cells(const ExpectedCells& expected, const RunContext& context);
 
 /// The size, and the height of rows if requested.

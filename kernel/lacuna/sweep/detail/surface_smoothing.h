@@ -14,12 +14,12 @@ namespace lacuna::sweep {
 /// Area vector around each node: the sum of the area vectors of its quads.
 std::vector<Vec3> node_normals(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
-/// Minimum scaled Jacobian at the corners of a quad, measured along the quad's normal, which is oriented like
-/// the normals of its nodes: 1 for a rectangle or an equilateral triangle, 0 for a degenerate corner,
-/// negative if folded.
+/// Minimum scaled Jacobian at the corners of a quad, measured along the quad's normal. This normal is
+/// oriented like the normals of the quad's nodes. The value is 1 for a rectangle or an equilateral triangle,
+/// 0 for a degenerate corner, and negative for a folded quad.
 double quad_quality(const Quad& quad, std::span<const Vec3> nodes, std::span<const Vec3> normals);
 
-/// The worst of all quads; 1 for none.
+/// The smallest `quad_quality()` of all quads; 1 if there are none.
 double worst_quad(std::span<const Quad> quads, std::span<const Vec3> nodes, const RunContext& context = {});
 
 /// Project some nodes onto the surface in one call.
@@ -28,11 +28,11 @@ void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const
 /// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a reference
 /// mesh.
 ///
-/// Two methods are used, each kept only as far as it improves the worst quad. Relaxation moves every node to
-/// the weighted mean of its neighbours. The weights reproduce the reference mesh, so its grading is kept; all
-/// nodes are solved for at once, with the graph Laplacian as preconditioner. Then the nodes of quads that are
-/// still poor try the neighbours' mean and steps along the surface, and keep moves that improve the worst of
-/// their own quads.
+/// Two methods are used; the result of each is kept only as far as it improves the worst quad. Relaxation
+/// moves every node to the weighted mean of its neighbours. The weights reproduce the reference mesh, so that
+/// its grading is kept. All nodes are solved for at once, with the graph Laplacian as preconditioner. Then
+/// the nodes of quads that are still poor try the mean of their neighbours and steps along the surface. They
+/// keep moves that improve the worst of their own quads.
 class SurfaceSmoother {
 public:
     /// All arguments must outlive the smoother. @param spread  with the fixed nodes of the smoothing.
@@ -61,7 +61,7 @@ private:
     const HarmonicSpread& spread_;
     std::span<const Index> free_nodes_;
     const SurfaceProjector& project_;
-    /// weights of the neighbours, in the graph's order, with the same sum as the sides' own weights
+    /// Weights of each node's neighbours, in the graph's order. Their sum is that of the sides' own weights.
     std::vector<double> weights_;
     mesh::Incidence quads_at_ = mesh::quads_at_nodes(model_.quads, model_.nodes.size());
     std::vector<char> is_free_ = std::vector<char>(model_.nodes.size(), 0);

@@ -19,13 +19,14 @@ struct ProvedSweep {
     Swept swept;
     quality::Proof proof;
     std::vector<FaceId> faces; ///< for each patch of the skin
-    std::set<FaceId> kept;     ///< source faces whose own quads are the mesh
+    std::set<FaceId> kept;     ///< source faces whose own quads were kept
 };
 
 /// The shape that the mesh must have: in an assembly, the volume without the nodes and meshes of neighbours.
 const topology::OpenVolume& shape_of(const topology::OpenVolume& volume, const SweepOptions& options);
 
-/// Seeds, quads, walls, target, layers and proof for linking surfaces with known correspondence.
+/// Sweep between linking surfaces whose correspondence is known: make seeds, quads, walls, target and layers,
+/// and prove the mesh.
 /// @param asked  heights of the layers from 0 to 1, from the source; empty: not requested.
 /// @throw  as `sweep()`; findings of the proof are returned in the result, not thrown.
 ProvedSweep sweep_between(const topology::OpenVolume& volume,

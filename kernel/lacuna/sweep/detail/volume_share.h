@@ -8,35 +8,37 @@
 #include <functional>
 #include <span>
 
-/// Volume lost because sides of the mesh are straight on curved geometry, computed before meshing. Internal
-/// to this folder.
+/// Volume that a mesh loses because its sides are straight on curved geometry, computed before meshing.
+/// Internal to this folder.
 ///
-/// For walls, a model of the mesh's skin gives the volume enclosed by its quads; at order 2 the sides are
-/// parabolas through the mid-side nodes. For ends there is a closed form: a side h on a curvature k has the
-/// sag k h²/8, and an end loses the integral of (k₁ h₁² + k₂ h₂²)/12 over its area. Facets count as the
-/// surface that they approximate. Concave curvature adds volume by the same formula.
+/// For walls, a model of the mesh's skin gives the volume enclosed by its quads. At order 2 its sides are
+/// parabolas through the mid-side nodes. For ends there is a closed form: a side of length h along a
+/// curvature k has the sag k h²/8, and an end loses the integral of (k₁ h₁² + k₂ h₂²)/12 over its area.
+/// Facets stand for the smooth surface that they approximate. Where the surface is concave, the same formula
+/// gives volume that is added.
 namespace lacuna::sweep {
 
-/// Whether size, layers and curvature are all defaults: then the required volume determines them.
+/// Whether size, layers and curvature all have default values. The numbers of sides then follow from the
+/// required volume.
 bool sizes_by_default(const SweepOptions& options);
 
-/// Whether sides between given rim nodes may be split: all numbers are defaults, no face has given quads, and
-/// no neighbour has nodes on the rims.
+/// Whether sides between given rim nodes may be split: all numbers of sides are defaults, no face has given
+/// quads, and no neighbour has nodes on the rims.
 bool may_divide_rims(const topology::OpenVolume& volume, const SweepOptions& options);
 
-/// The relative volume that a mesh loses against the sealed volume.
+/// The relative difference between the volume of a mesh and the sealed volume.
 double volume_lost(const Fidelity& fidelity);
 
 /// Numbers of sides and layers that keep the volume error within its bound.
 struct VolumePlan {
-    int per_turn = 12;                      ///< sides for a full turn: the requested number, or more
-    double part = 1;                        ///< factor on the default size for curved ends, in (0, 1]
+    int per_turn = 12; ///< sides for a full turn: the requested number, or more
+    double part = 1;   ///< factor on the default size, in (0, 1]; less than 1 for curved ends
     std::function<int(int least)> layers{}; ///< for curved walls; null: unchanged
 };
 
-/// Choose the numbers of sides and layers. With default numbers the volume must be within 1 %. With given
-/// numbers, rims and layers are refined if they lose more than `SweepOptions::volume_share`.
-/// @param size  size field of the quads of the source. @throw Cancelled
+/// Choose the numbers of sides and layers. With default numbers the volume must be within 1 %. If given
+/// numbers lose more than `SweepOptions::volume_share`, rims and layers are refined.
+/// @param size  size field of the source's quads. @throw Cancelled
 VolumePlan plan_volume(const topology::OpenVolume& volume, std::span<const surface::LinkingSurface> links,
                        const SweepOptions& options, const surface::SizeField& size,
                        const RunContext& context);

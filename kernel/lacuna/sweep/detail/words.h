@@ -8,7 +8,7 @@
 /// Positions in messages. Internal to this folder.
 namespace lacuna::sweep {
 
-/// A place in numbers of two significant digits: "(1.2, 0, 3)".
+/// A position as text, in numbers of two significant digits: "(1.2, 0, 3)".
 std::string place_in_short(const Vec3& p);
 
 } // namespace lacuna::sweep

@@ -10,7 +10,7 @@
 
 namespace lacuna::sweep {
 
-/// Makes a patch of the skin for each face that has cells, with the user's groups.
+/// Makes one patch of the skin, with the user's groups, for each face that has cells.
 class FacePatches {
 public:
     FacePatches(const topology::OpenVolume& volume, std::vector<mesh::SkinPatch>& patches);

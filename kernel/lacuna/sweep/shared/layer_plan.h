@@ -18,13 +18,13 @@
 
 namespace lacuna::sweep {
 
-/// The data that determine the middle nodes of layers, besides the corners.
+/// The data that, besides the corners, determine the middle nodes of layers.
 struct MiddlePlan {
     bool full = false;      ///< hex27; else hex20
-    std::vector<Vec3> skin; ///< those of the skin, in an internal order
+    std::vector<Vec3> skin; ///< middle nodes of the skin, in an internal order
 };
 
-/// The data that determine the layers of a mesh: as large as the source and the rims of the walls.
+/// The data that determine the layers of a mesh. Their size is that of the source and the rims of the walls.
 struct LayerPlan {
     mesh::QuadMesh source; ///< without labels of its quads
     std::vector<Vec3> target;
@@ -35,11 +35,11 @@ struct LayerPlan {
     std::optional<MiddlePlan> middles{}; ///< middle nodes, if the mesh is of order 2
 };
 
-/// The cells over a source, without nodes and patches.
+/// The cells of layers over a source, without nodes and patches.
 mesh::HexMesh cells_over(const mesh::QuadMesh& source, int layers);
 
-/// The numbers of a plan's middle nodes; their positions are not stored. Empty if the plan is of order 1.
-/// @param cells  quads, rim and layers of the plan's mesh
+/// The numbering of a plan's middle nodes, without their positions. Empty if the plan is of order 1.
+/// @param cells  provides the quads, the rim and the layers of the plan's mesh.
 mesh::MiddleNodes middles_of(const LayerPlan& plan, const mesh::HexMesh& cells);
 
 /// The layers of `place_layers()`, generated on demand, and its report.
@@ -52,32 +52,32 @@ struct PlacedLayers {
 /// @throw  as `place_layers()`
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
 
-/// The same layers with some nodes of the skin moved. @param laid  sorted by node
-/// @pre  the layers have no middle nodes yet, because these would have to move too.
+/// The same layers with some nodes of the skin moved. @param laid  new positions, sorted by node
+/// @pre  the layers have no middle nodes yet: these would have to move too.
 PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid);
 
 /// The same layers with middle nodes.
 PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunContext& context = {});
 
-/// Serialise a complete plan as a part of a message to other processes.
+/// Serialise a complete plan into a message to other processes.
 void put(Writer& writer, const LayerPlan& plan);
 void put(Reader& reader, LayerPlan& plan);
 
-/// Quality of the cells of placed layers, and if it is sufficient, whether a node is misplaced.
+/// Quality of the cells of placed layers, and, if the quality is sufficient, whether some node is misplaced.
 struct LayersFound {
     quality::Quality quality;
     bool good_enough = false;
     std::optional<quality::Finding> misplaced;
 };
 
-/// Measure all cells of a plan and look for misplaced nodes; with a crew, all its processes share the work.
-/// @param least  sufficient scaled Jacobian
+/// Measure all cells of a plan and look for misplaced nodes. With a crew, all its processes share the work.
+/// @param least  scaled Jacobian that is sufficient
 /// @param crew   null: this process only
 /// @throw Cancelled; TeamFailed
 LayersFound find_in_layers(const PlacedLayers& layers, double least, const Crew* crew,
                            const RunContext& context);
 
-/// Name of the crew's part of this work in `do_together()`.
+/// Name of this task in `do_together()`.
 inline constexpr std::string_view kLayersTask = "layers";
 void help_find_in_layers(const std::string& bytes, const Team& team, const RunContext& context);
 

@@ -15,9 +15,10 @@ namespace lacuna::sweep {
 enum class Placement { straight, affine, fitted, normals };
 
 struct PlacementOptions {
-    bool straight_lines = false; ///< Class I: nodes on the straight line between their ends
+    bool straight_lines = false; ///< Class I of the paper: nodes lie on straight lines from source to target
     std::vector<double> heights; ///< layers + 1 numbers from 0 to 1; empty: from the columns' lengths [-]
-    bool spread_residual = true; ///< false: the affine fit alone, for comparison
+    /// Whether the residual of the rims is spread; false: the affine fit alone, for comparison.
+    bool spread_residual = true;
 };
 
 /// Node coordinates of all layers.
@@ -29,15 +30,17 @@ struct LayerNodes {
 
 /// Place the nodes of every layer between the source and the target mesh.
 ///
-/// Tier 1: rims related by an affine motion exactly. Tier 2: two-sided least-squares affine fit with
-/// pseudo-normals (Roca and Sarrate 2010). Tier 3: the rim residual spread harmonically over the source mesh
-/// (factored once), both ends blended by height. Layers are placed in parallel. The Laplacian has
-/// finite-volume weights: equal ones folded every graded mesh tried, and were no better on even ones.
+/// - Tier 1: if affine motions relate the rims exactly, these place the layers.
+/// - Tier 2: otherwise, a two-sided least-squares affine fit with pseudo-normals (Roca and Sarrate 2010).
+/// - Tier 3: the remaining distance of the rim is spread harmonically over the source mesh (factored once).
+///
+/// The placements from both ends are blended by height. Layers are placed in parallel. The Laplacian has
+/// finite-volume weights: equal weights folded every graded mesh tried, and were no better on uniform ones.
 ///
 /// @param target  position of each source node on the target.
-/// @post  rim nodes are those of the columns and end layers those given, bit for bit; same result for any
-///        thread count.
-/// @throw InvalidInput  columns that do not fit the source or the target; names the node.
+/// @post  rim nodes are those of the columns, and the first and last layer are the given ends, bit for bit.
+///         The result is the same for any thread count.
+/// @throw InvalidInput  the columns do not fit the source or the target; names the node.
 LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,
                         const PlacementOptions& options = {}, const RunContext& context = {});
 

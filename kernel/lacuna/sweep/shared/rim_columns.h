@@ -9,10 +9,11 @@
 
 namespace lacuna::sweep {
 
-/// The walls' node columns over the source rim.
+/// The columns of wall nodes over the source's rim.
 struct RimColumns {
     int layers = 0;
-    std::vector<Index> rim;   ///< source node of each column; every node of the source's boundary, once
+    /// For each column, its source node; every boundary node of the source occurs once.
+    std::vector<Index> rim;
     std::vector<Vec3> points; ///< (layers + 1) × rim.size(), layer-major; row 0 is the source rim itself
 
     /// Points of one layer's rim, in the order of `rim`.

@@ -15,13 +15,14 @@ namespace lacuna::sweep {
 class SharedMiddles {
 public:
     /// Add the nodes of a mesh. O(skin log).
-    /// @param wanted  whether quads of a patch are shared; of others only the middles of their borders are
-    ///                included.
-    /// @return  false if a side or quad that is known has another middle here.
+    /// @param wanted  whether the quads of a patch are shared; of other patches only the middles of their
+    ///         borders are added.
+    /// @return  false if a known side or quad has another middle node in this mesh.
     [[nodiscard]] bool add(const mesh::HexMesh& mesh, const std::function<bool(Index patch)>& wanted);
     [[nodiscard]] bool add(const mesh::TetPart& mesh); ///< as above, the whole skin
 
-    /// The middle node between two places, or in the middle of a quad by two opposite corners.
+    /// The middle node of a side, by the positions of its ends, or of a quad, by those of two opposite
+    /// corners.
     [[nodiscard]] std::optional<Vec3> side(const Vec3& a, const Vec3& b) const
     {
         return find(sides_, key_of(a, b));
