@@ -168,6 +168,26 @@ do
   check.that(note and note:find("foam is called foam_2", 1, true) and note:find("void_1_2", 1, true), err)
 end
 
+-- In MSH, where an element is in one group, each name that the note gives is in the file.
+do
+  local cube = box { "z0", "z1", "y0", "x1", "y1", "x0" }
+  cube:open_volume({ source = "z0", target = "z1", walls = "auto" }):sweep({ size = 0.5 })
+    :write(params.scratch .. "/cube.msh")
+  check.write(params.scratch .. "/beside.lua", [[
+    local lacuna = require "lacuna"
+    local cube = lacuna.load "cube.msh"
+    cube:open_volume { source = "x0", along = { vector = { -0.5, 0, 0 } }, name = "top" }:sweep {}
+      :write("beside.msh", { with = cube, version = 2.2, binary = false })]])
+  local code, _, err = check.run(params.lacuna, params.scratch, { "beside.lua" })
+  check.equal(code, 0, err)
+  local text, count = read(params.scratch .. "/beside.msh"), 0
+  for name in err:gmatch " is called ([^%s,]+)" do
+    check.that(text:find('"' .. name .. '"', 1, true), name)
+    count = count + 1
+  end
+  check.that(count > 0, err)
+end
+
 -- An assembly whose members share names of faces and volumes.
 do
   local lower = box { "b", "joint", "A", "side", "x", "y" }
