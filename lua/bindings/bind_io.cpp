@@ -374,8 +374,8 @@ int write(lua_State* L)
     return 0;
 }
 
-/// The deck of an assembly's mesh, joined with the decks whose voids it fills. Periodic pairs of `arguments` are of
-/// the deck's points.
+/// The deck of an assembly's mesh, joined with the decks whose voids it fills. Periodic pairs of `arguments`
+/// are of the deck's points.
 io::Deck joined_deck(const fill::FilledParts& state, WriteArguments& arguments, const RunContext& context)
 {
     for (const Box<ModelState>& model : arguments.with) refresh(*model, context);

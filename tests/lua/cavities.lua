@@ -301,11 +301,13 @@ do
     local model = lacuna.model()
     return model:add_face { points = points, cells = cells }, model
   end
-  local cube, whole = of_one_face({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 },
-    { 1, 1, 1 }, { 0, 1, 1 } }, { { 1, 4, 3, 2 }, { 5, 6, 7, 8 }, { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 4, 8, 7 },
-    { 4, 1, 5, 8 } })
+  local corners = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 },
+    { 0, 1, 1 } }
+  local cube, whole = of_one_face(corners, { { 1, 4, 3, 2 }, { 5, 6, 7, 8 }, { 1, 2, 6, 5 }, { 2, 3, 7, 6 },
+    { 3, 4, 8, 7 }, { 4, 1, 5, 8 } })
   check.equal(cube.radius, nil)
-  check.fails(function() whole:open_volume():sweep { size = 0.25 } end, "topology.no_roles", "one add_face for each")
+  check.fails(function() whole:open_volume():sweep { size = 0.25 } end, "topology.no_roles",
+    "one add_face for each")
   for sides = 3, 12 do
     local points, cells = {}, {}
     for k = 1, sides do

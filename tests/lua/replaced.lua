@@ -182,11 +182,12 @@ do
   local function notes(name, options)
     return said(([[local part = lacuna.load("reduced.inp", { without = "plug" })
 part:open_volume({ source = { near = { 0.5, 0.5, 1 / 3 } }, walls = "auto", name = %q })
-  :sweep { layers = 4, size = 1 / %d }:write("reduced_out.inp", { with = part%s })]]):format(name, N, options))
+  :sweep { layers = 4, size = 1 / %d }:write("reduced_out.inp", { with = part%s })]])
+      :format(name, N, options))
   end
-  local element = "note: %s has elements C3D8, while some that were left out are C3D8R; element = \"C3D8R\" writes"
-  local material = "note: filler: its material is steel, that of body beside it, while elements that were left " ..
-    "out have foam"
+  local element = "note: %s has elements C3D8, while some that were left out are C3D8R; element = \"C3D8R\""
+  local material = "note: filler: its material is steel, that of body beside it, while elements that were " ..
+    "left out have foam"
   for _, name in ipairs { "plug", "filler" } do
     local text = notes(name, "")
     check.that(text:find(element:format(name), 1, true), text)

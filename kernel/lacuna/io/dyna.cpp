@@ -728,9 +728,8 @@ private:
         if (!text.empty()) file_.add(head_of(set, "*SET_SEGMENT_TITLE") + text);
     }
 
-    /// Add pairs of segment sets: the slave's is surface A, the master's is B. A tie with an offset moves no node.
-    /// LS-DYNA ties nodes up to 0.6 times the sum of both thicknesses, and up to no other distance if these are
-    /// negative.
+    /// Add pairs of segment sets: the slave's is surface A, the master's is B. A tie with an offset moves no
+    /// node. If both thicknesses are negative, nodes are tied up to 0.6 times their sum, and no further.
     void add_contacts()
     {
         int number = 0;
