@@ -296,6 +296,9 @@ private:
             }
         }
         if (has_sides() || !options_.contacts.empty()) std::tie(cells_, sides_) = parts_.behind_skin();
+        for (std::size_t i = 0; joins() && added_.skin_cells && i < mesh_.skin_count(); ++i)
+            if (const auto own = added_.skin_tags->find(key_of(i)); own != added_.skin_tags->end())
+                skin_of_.emplace(i, own->second);
     }
 
     [[nodiscard]] bool is_emptied(const std::string& name) const
@@ -497,13 +500,21 @@ private:
         }
     }
 
-    /// Whether a mesh that was added before has the same quad of the skin. If not, the quad is recorded.
+    /// A quad of the skin by the deck's points.
+    [[nodiscard]] Quad key_of(std::size_t i) const
+    {
+        Quad quad = parts_.skin_quad(i);
+        for (Index& node : quad) node = point(node);
+        return face_key(quad);
+    }
+
+    /// Whether the deck, or a mesh that was added before, has the same quad of the skin. If not, the quad is
+    /// recorded.
     bool is_there(std::size_t i)
     {
         if (added_.skin_tags == nullptr) return false;
-        Quad quad = parts_.skin_quad(i);
-        for (Index& node : quad) node = point(node);
-        const auto [found, fresh] = added_.skin_tags->try_emplace(face_key(quad), skin_tag(i));
+        if (joins()) return skin_of_.contains(i);
+        const auto [found, fresh] = added_.skin_tags->try_emplace(key_of(i), skin_tag(i));
         if (!fresh) skin_of_.emplace(i, found->second);
         return !fresh;
     }
@@ -556,6 +567,10 @@ private:
     {
         DeckSet set;
         if (added_.skin_cells) {
+            // Elements of the deck stay in its group of that name.
+            if (joins() && is_taken(set.kind, name) &&
+                std::ranges::all_of(quads, [&](std::uint32_t i) { return skin_of_.contains(i); }))
+                return;
             for (const std::uint32_t i : quads) set.members.push_back(skin_tag(i));
             const std::string& own = add_set(set, unv() ? name + kSkin : name, name).name;
             // The group is written under one name, also where an element is in one group alone.
