@@ -20,6 +20,7 @@
 #include <lacuna/team/shared/tasks.h>
 
 #include <algorithm>
+#include <map>
 #include <variant>
 
 namespace lacuna::lua {
@@ -234,8 +235,9 @@ struct JoinedMesh {
 };
 
 /// The decks of `with` without the parts of `without`, joined with the meshes that fill their voids.
+/// @param before  gets where the meshes are in it
 io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& arguments,
-                     const RunContext& context)
+                     io::JoinedBefore& before, const RunContext& context)
 {
     io::MeshDeckOptions options = arguments.deck;
     io::Deck merged;
@@ -249,7 +251,6 @@ io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& a
     }
     const ModelState& model = *arguments.with.front();
     io::Deck joined;
-    io::JoinedBefore before;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         options.material = meshes[m].material;
         const io::Deck& with = m > 0 ? joined : without ? split.kept : deck;
@@ -272,7 +273,8 @@ void write_mesh(const io::Format& format, const mesh::HexMesh& mesh, const io::O
     WriteArguments all = arguments;
     all.deck.format = format.deck;
     const JoinedMesh one{&mesh, arguments.deck.material};
-    io::write_deck(joined_deck({&one, 1}, all, context), format, path, context, arguments.msh);
+    io::JoinedBefore before;
+    io::write_deck(joined_deck({&one, 1}, all, before, context), format, path, context, arguments.msh);
 }
 
 /// An option that was given but that the format does not have; null: none.
@@ -372,9 +374,9 @@ int write(lua_State* L)
     return 0;
 }
 
-/// The deck of an assembly's mesh, joined with the decks whose voids it fills.
-io::Deck joined_deck(const fill::FilledParts& state, const WriteArguments& arguments,
-                     const RunContext& context)
+/// The deck of an assembly's mesh, joined with the decks whose voids it fills. Periodic pairs of `arguments`
+/// are of the deck's points.
+io::Deck joined_deck(const fill::FilledParts& state, WriteArguments& arguments, const RunContext& context)
 {
     for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
     std::vector<JoinedMesh> meshes;
@@ -382,7 +384,23 @@ io::Deck joined_deck(const fill::FilledParts& state, const WriteArguments& argum
         meshes.push_back({&state.swept.parts[p].mesh, state.materials[p]});
     for (std::size_t t = 0; t < state.tets.size(); ++t)
         meshes.push_back({&state.tets[t].mesh, state.materials[state.regions.size() + t]});
-    return joined_deck(meshes, arguments, context);
+    io::JoinedBefore before;
+    io::Deck joined = joined_deck(meshes, arguments, before, context);
+    if (state.swept.periodic.empty()) return joined;
+    std::map<Index, Index> point; // the deck's, for nodes of the mesh
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        for (std::size_t n = 0; n < before.points[m].size(); ++n) {
+            const std::size_t t = m - state.regions.size();
+            point[m < state.regions.size() ? state.swept.numbering[m].of(static_cast<Index>(n))
+                                           : state.tets[t].number[n]] = before.points[m][n];
+        }
+    arguments.msh.periodic = state.swept.periodic;
+    for (mesh::PeriodicNodes& periodic : arguments.msh.periodic) {
+        periodic.onto.translation() /= arguments.with.front()->scale;
+        for (auto& pair : periodic.pairs)
+            for (Index& node : pair) node = point.at(node);
+    }
+    return joined;
 }
 
 /// Write a mesh that has tetrahedra. Its parts become one deck.
@@ -695,12 +713,8 @@ void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, Wr
     if (arguments.with.empty()) {
         arguments.msh.periodic = state.swept.periodic;
         for (const fill::Contact& contact : state.contacts) arguments.deck.contacts.push_back(contact.pair);
-    } else if (!state.swept.periodic.empty() || !state.contacts.empty()) {
-        log_line(context,
-                 formatted("note: write: pairs of {} are not written with a model",
-                           state.contacts.empty()         ? "periodic nodes"
-                           : state.swept.periodic.empty() ? "faces in contact"
-                                                          : "periodic nodes and of faces in contact"));
+    } else if (!state.contacts.empty()) {
+        log_line(context, "note: write: pairs of faces in contact are not written with a model");
     }
     for (const sweep::LeftOut& out : state.left_out)
         log_line(context, formatted("note: {} has a hole, because a volume was left out: {}", path.text(),

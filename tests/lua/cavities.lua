@@ -295,6 +295,30 @@ end)
 check.fails(function() ball:open_volume():sweep() end, "topology.sphere",
   ":cut{ plane = { {0, 0, 0}, {0, 0, 1} } }")
 
+-- Facets with corners over their edges are no sphere and no cylinder, though their corners lie on one.
+do
+  local function of_one_face(points, cells)
+    local model = lacuna.model()
+    return model:add_face { points = points, cells = cells }, model
+  end
+  local corners = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 },
+    { 0, 1, 1 } }
+  local cube, whole = of_one_face(corners, { { 1, 4, 3, 2 }, { 5, 6, 7, 8 }, { 1, 2, 6, 5 }, { 2, 3, 7, 6 },
+    { 3, 4, 8, 7 }, { 4, 1, 5, 8 } })
+  check.equal(cube.radius, nil)
+  check.fails(function() whole:open_volume():sweep { size = 0.25 } end, "topology.no_roles",
+    "one add_face for each")
+  for sides = 3, 12 do
+    local points, cells = {}, {}
+    for k = 1, sides do
+      local x, y = math.cos(2 * math.pi * k / sides), math.sin(2 * math.pi * k / sides)
+      points[k], points[k + sides] = { x, y, 0 }, { x, y, 1 }
+      cells[k] = { k, k % sides + 1, k % sides + 1 + sides, k + sides }
+    end
+    check.equal(of_one_face(points, cells).radius ~= nil, sides > 4, sides)
+  end
+end
+
 -- What a message says of a fault of Lacuna is told by test_bindings; what `info` says is no promise.
 check.that(pocketed:open_volume({ faces = { "p1_end", "p1_wall_1_1", "p1_wall_1_2", "p1_wall_1_3",
     "p1_wall_1_4" } }):describe():find("likely roles:", 1, true))

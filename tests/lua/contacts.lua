@@ -221,8 +221,63 @@ do
     end
   end
 end
+-- LS-DYNA: segment sets of both sides by number, of as many segments as the groups have faces.
+local names = { "base_lid", "open" }
+mesh:write(at "three.k")
+do
+  local cards, sets = {}, {}
+  for keyword, body in (read(at "three.k") .. "*"):gmatch "%*([%u_]+)[^\n]*\n([^*]*)" do
+    local lines = {}
+    for line in body:gmatch "[^\n]+" do lines[#lines + 1] = line end
+    if keyword == "SET_SEGMENT_TITLE" then
+      sets[tonumber(lines[2])] = { name = lines[1], count = #lines - 2 }
+    end
+    if keyword:find "^CONTACT" then cards[#cards + 1] = { keyword, lines } end
+  end
+  check.equal(#cards, 2)
+  for _, card in ipairs(cards) do
+    local keyword, lines = card[1], card[2]
+    check.equal(#lines, 4, "identification, surfaces, friction, thicknesses")
+    local name = lines[1]:sub(11)
+    local function field(line, k) return tonumber(lines[line]:sub(10 * k - 9, 10 * k)) end
+    check.that(keyword == (name == "open" and "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_ID"
+      or "CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET_ID"), keyword)
+    for k, side in ipairs { "slave", "master" } do
+      local set = sets[field(2, k)]
+      check.equal(set.name, name .. "_" .. side)
+      check.equal(set.count, cells(mesh, set.name))
+      check.equal(field(2, 2 + k), 0, "a set of segments")
+    end
+    check.that(name == "open" or (field(4, 3) < 0 and field(4, 3) == field(4, 4)), "a distance alone")
+  end
+  local again = lacuna.load(at "three.k")
+  check.that(#again:faces() > 0)
+end
+
+-- FEBio: pairs of named surfaces; tags that open are closed.
+mesh:write(at "three.feb")
+do
+  text = read(at "three.feb")
+  local open = {}
+  for close, word, alone in text:gmatch "<(/?)([%a_]%w*)[^<>]-(/?)>" do
+    if close == "/" then check.equal(table.remove(open), word) end
+    if close .. alone == "" then open[#open + 1] = word end
+  end
+  check.equal(#open, 0)
+  for k, kind in ipairs { "tied", "sliding" } do
+    local first, second = text:match('<SurfacePair name="' .. names[k] .. '">%s*<primary>(.-)</primary>%s*' ..
+      '<secondary>(.-)</secondary>%s*</SurfacePair>.*</Mesh>')
+    check.that(text:find('<Surface name="' .. first .. '">', 1, true) and first:find "_slave")
+    check.that(text:find('<Surface name="' .. second .. '">', 1, true) and second:find "_master")
+    local body = text:match('<Contact>.*<contact type="' .. kind .. '%-elastic" name="' .. names[k] ..
+      '" surface_pair="' .. names[k] .. '">(.-)</contact>.*</Contact>')
+    check.equal(body:find "<search_radius>%d" ~= nil, kind == "tied", body)
+  end
+  check.that(text:find "</MeshDomains>%s*<Contact>")
+end
+
 -- Other formats hold the groups, and a note says that there are no pairs.
-for _, ending in ipairs { ".vtu", ".msh", ".k", ".unv", ".exo" } do
+for _, ending in ipairs { ".vtu", ".msh", ".unv", ".exo" } do
   check.write(at "note.lua", ([[
 local lacuna = require "lacuna"
 local bars = {}

@@ -139,6 +139,9 @@ check.write(path "nset_part.inp", "*PART, NAME=P\n" .. deck(1, 2, 0, "N", "E") .
 ]])
 lacuna.convert(path "nset_part.inp", path "nset_back.inp")
 check.equal(#members(read(path "nset_back.inp"), "ALL"), 12)
+local _, out, err = check.run(params.lacuna, params.scratch, { "convert", "nset_part.inp", "nset_back.inp" })
+check.that((out .. err):find("note: nset_back.inp: the instance I becomes one mesh without *PART and " ..
+  "*INSTANCE; names in cards lose \"I.\"", 1, true), out .. err)
 
 -- --- sets of all of one of several decks get what joins them
 

@@ -347,6 +347,44 @@ do
   lacuna.load(base .. ".msh") -- and it is read again
 end
 
+-- With a deck: pairs are of the deck's nodes, whatever its scale; beside it stand cells that have no pairs.
+do
+  local base = params.scratch .. "/gap"
+  local prism = lacuna.synthetic.prism { sides = 4, height = 3 }
+  local rest = prism:open_volume { source = "source", target = "target", walls = "auto" }
+  local low, high = table.unpack(rest:cut { plane = { { 0, 0, 1 }, { 0, 0, 1 } } })
+  local middle, top = table.unpack(high:cut { plane = { { 0, 0, 2 }, { 0, 0, 1 } } })
+  local blocks = lacuna.assembly({ low, middle, top }):sweep { size = 0.5, layers = 2 }
+  blocks:write(base .. ".inp")
+  for _, scale in ipairs { 1, 1000 } do
+    local deck = lacuna.load(base .. ".inp", { without = blocks.regions[2], scale = scale })
+    local mesh = deck:open_volume { source = "cut_1", target = "cut_2", name = "filler" }
+      :sweep { periodic = { { "cut_1", "cut_2" } } }
+    mesh:write(base .. "_joined.inp", { with = deck })
+    mesh:write(base .. "_joined.msh", { with = deck, version = 2.2, binary = false })
+    check.that(read(base .. "_joined.msh"):find "%$Periodic\n[1-9]")
+    local text, at = read(base .. "_joined.inp"), {}
+    for node, x, y, z in text:match("%*NODE\n([^*]*)"):gmatch "(%d+), ([^,]+), ([^,]+), ([^,\n]+)\n" do
+      at[node] = { tonumber(x), tonumber(y), tonumber(z) }
+    end
+    local sides = {}
+    for k, side in ipairs { "a", "b" } do
+      sides[k] = {}
+      for node in text:match("NSET=periodic_1_" .. side .. "\n([^*]*)"):gmatch "%d+" do
+        table.insert(sides[k], at[node])
+      end
+    end
+    check.that(#sides[1] > 4 and #sides[1] == #sides[2])
+    for k, p in ipairs(sides[1]) do
+      local q = sides[2][k]
+      for axis, by in ipairs { 0, 0, 1 } do check.near(q[axis] - p[axis], by, 1e-12) end
+    end
+    check.that(text:find "%*EQUATION\n3\n")
+    local x, y, z = text:match "%*NODE, NSET=periodic_1\n%d+, (%S+), (%S+), (%S+)\n"
+    check.near(math.abs(tonumber(x)) + math.abs(tonumber(y)) + math.abs(tonumber(z) - 1), 0, 1e-12)
+  end
+end
+
 -- Directions of cells, in the files that have them.
 do
   local part = lacuna.synthetic.prism { sides = 6, radius = 1, height = 1 }

@@ -175,6 +175,28 @@ do
   check.that(text:find("SECTION, ELSET=filler, MATERIAL=steel", 1, true))
 end
 
+-- Cells that come back as others are noted with the option that keeps their type; so is another material.
+do
+  local path = params.scratch .. "/reduced.inp"
+  check.write(path, (inp(false):gsub("TYPE=C3D8, ELSET=plug", "TYPE=C3D8R, ELSET=plug")))
+  local function notes(name, options)
+    return said(([[local part = lacuna.load("reduced.inp", { without = "plug" })
+part:open_volume({ source = { near = { 0.5, 0.5, 1 / 3 } }, walls = "auto", name = %q })
+  :sweep { layers = 4, size = 1 / %d }:write("reduced_out.inp", { with = part%s })]])
+      :format(name, N, options))
+  end
+  local element = "note: %s has elements C3D8, while some that were left out are C3D8R; element = \"C3D8R\""
+  local material = "note: filler: its material is steel, that of body beside it, while elements that were " ..
+    "left out have foam"
+  for _, name in ipairs { "plug", "filler" } do
+    local text = notes(name, "")
+    check.that(text:find(element:format(name), 1, true), text)
+    check.equal(text:find(material, 1, true) ~= nil, name == "filler", text)
+    text = notes(name, ', element = "C3D8R"')
+    check.that(not text:find("left out are", 1, true), text)
+  end
+end
+
 -- Nastran: by the property's number; what loads still name is said.
 do
   local path = params.scratch .. "/plug.bdf"

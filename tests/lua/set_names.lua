@@ -168,6 +168,31 @@ do
   check.that(note and note:find("foam is called foam_2", 1, true) and note:find("void_1_2", 1, true), err)
 end
 
+-- In MSH the quads between a deck and a mesh are the deck's, each once, and their group keeps its name.
+do
+  local cube = box { "z0", "z1", "y0", "x1", "y1", "x0" }
+  cube:open_volume({ source = "z0", target = "z1", walls = "auto" }):sweep({ size = 0.5 })
+    :write(params.scratch .. "/cube.msh")
+  check.write(params.scratch .. "/beside.lua", [[
+    local lacuna = require "lacuna"
+    local cube = lacuna.load "cube.msh"
+    cube:open_volume { source = "x0", along = { vector = { -0.5, 0, 0 } }, name = "top" }:sweep {}
+      :write("beside.msh", { with = cube, version = 2.2, binary = false })]])
+  local code, _, err = check.run(params.lacuna, params.scratch, { "beside.lua" })
+  check.equal(code, 0, err)
+  check.that(not err:find "is called", err)
+  local quads = {}
+  for nodes in read(params.scratch .. "/beside.msh"):gmatch "\n%d+ 3 2 %d+ %d+ (%d+ %d+ %d+ %d+)" do
+    local corners = {}
+    for node in nodes:gmatch "%d+" do corners[#corners + 1] = tonumber(node) end
+    table.sort(corners)
+    local key = table.concat(corners, " ")
+    check.that(not quads[key], key)
+    quads[key] = true
+  end
+  check.that(next(quads))
+end
+
 -- An assembly whose members share names of faces and volumes.
 do
   local lower = box { "b", "joint", "A", "side", "x", "y" }

@@ -272,11 +272,12 @@ FilledParts split_interface(FilledParts mesh, const InterfaceFaces& faces, const
                                .remedy("name all faces in one call"));
     if (std::ranges::any_of(mesh.swept.parts,
                             [](const sweep::Swept& part) { return part.layers || part.mesh.order() > 1; }))
-        throw InvalidInput(Message("fill.interface_order",
-                                   "split_interface: {} has eight nodes, and the mesh is of "
-                                   "order 2",
-                                   element)
-                               .remedy("sweep with order = 1"));
+        throw InvalidInput(
+            Message("fill.interface_order",
+                    "split_interface: {} has eight nodes, and the mesh is of "
+                    "order 2",
+                    element)
+                .remedy("sweep with order = 1, or tie the regions: give one of them glued = false"));
     if (faces.groups.empty() && faces.pairs.empty() && !faces.all)
         throw InvalidInput(
             Message("fill.interface_none", "split_interface: no faces are named")

@@ -28,8 +28,8 @@ struct MeshDeckOptions {
     /// Material of the hexahedra: a name or number in the deck that they join, in any case. Empty: the
     /// material of the elements next to the void, if the deck gives it.
     std::string material{};
-    /// Of meshes with shared nodes: written as *TIE and *CONTACT PAIR in Abaqus, as BSURFS with BGSET and
-    /// BCTSET in Nastran. In other formats only the groups of their faces are written, and a note says so.
+    /// Of meshes with shared nodes: written in formats with `Format::has_contacts`. In others only the groups
+    /// of their faces are written, and a note says so.
     std::vector<mesh::ContactPair> contacts{};
 };
 
@@ -40,6 +40,8 @@ using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
 struct JoinedBefore {
     GroupSets sets{};                       ///< sets of the meshes' groups
     std::map<std::string, Index> regions{}; ///< regions, by the names of the meshes
+    /// For each mesh that joined a deck of a file: the deck's point for each of its nodes.
+    std::vector<std::vector<Index>> points{};
 };
 
 /// Combine a deck with the mesh that fills one of its voids into one conformal mesh. The deck keeps its

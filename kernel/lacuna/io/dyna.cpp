@@ -538,7 +538,9 @@ public:
         for (std::size_t b = 0; b < view_->blocks.size(); ++b) add_elements(b);
         file_.add(kept_->cards);
         for (std::size_t r = 0; r < view_->regions.size(); ++r) add_part(r);
+        numbers_.resize(view_->sets.size());
         for (std::size_t s = 0; s < view_->sets.size(); ++s) add_set(s);
+        add_contacts();
         file_.add(kept_->tail);
         return std::move(file_);
     }
@@ -687,6 +689,7 @@ private:
         int tag = set.tag;
         if (tag <= 0 || !ids_[keyword].insert(tag).second)
             tag = highest_set_ = highest_tag(view_->sets, highest_set_) + 1;
+        numbers_[static_cast<std::size_t>(&set - view_->sets.data())] = tag;
         return keyword + end_ + title(set.name) + "\n" + formatted("{:>10}\n", tag);
     }
 
@@ -725,6 +728,22 @@ private:
         if (!text.empty()) file_.add(head_of(set, "*SET_SEGMENT_TITLE") + text);
     }
 
+    /// Add pairs of segment sets: the slave's is surface A, the master's is B. A tie with an offset moves no
+    /// node. If both thicknesses are negative, nodes are tied up to 0.6 times their sum, and no further.
+    void add_contacts()
+    {
+        int number = 0;
+        for (const mesh::ContactPair& pair : view_->contacts) {
+            file_.add(
+                formatted("*CONTACT_{}_SURFACE_TO_SURFACE{}_ID{}{:>10}{}\n{:>10}{:>10}{:>10}{:>10}\n{:>10}\n",
+                          pair.tied ? "TIED" : "AUTOMATIC", pair.tied ? "_OFFSET" : "", end_, ++number,
+                          title(pair.name), numbers_[pair.sets[0]], numbers_[pair.sets[1]], 0, 0, 0));
+            file_.add(pair.tied ? formatted("{:>10}{:>10}{:>10.3g}{:>10.3g}\n", 1, 1, -pair.tolerance,
+                                            -pair.tolerance)
+                                : formatted("{:>10}\n", 0));
+        }
+    }
+
     View view_;
     SideNodes sides_;
     MeshView::KeptText own_;
@@ -737,6 +756,7 @@ private:
     int highest_section_ = 0, highest_set_ = 0;  ///< highest numbers in the kept text
     std::map<std::string, std::set<int>> ids_;   ///< numbers of the sets of each keyword
     std::vector<DeckTag> shells_;
+    std::vector<int> numbers_; ///< of the sets as written
 };
 
 } // namespace

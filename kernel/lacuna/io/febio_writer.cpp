@@ -73,11 +73,26 @@ public:
         file_.add("    </Nodes>\n");
         for (std::size_t b = 0; b < view_->blocks.size(); ++b) add_elements(b);
         for (std::size_t s = 0; s < view_->sets.size(); ++s) add_set(s);
+        for (const mesh::ContactPair& pair : view_->contacts)
+            file_.add(formatted("    <SurfacePair name=\"{}\">\n      <primary>{}</primary>\n"
+                                "      <secondary>{}</secondary>\n    </SurfacePair>\n",
+                                escaped(pair.name), escaped(surface_names_[pair.sets[0]]),
+                                escaped(surface_names_[pair.sets[1]])));
         file_.add("  </Mesh>\n  <MeshDomains>\n" + domains_ + "  </MeshDomains>\n");
         if (!axes_.empty()) {
             file_.add("  <MeshData>\n");
             std::ranges::move(axes_, std::back_inserter(file_.sections));
             file_.add("    </ElementData>\n  </MeshData>\n");
+        }
+        if (!view_->contacts.empty()) {
+            file_.add("  <Contact>\n");
+            for (const mesh::ContactPair& pair : view_->contacts)
+                file_.add(formatted(
+                    "    <contact type=\"{}-elastic\" name=\"{}\" surface_pair=\"{}\">\n"
+                    "      <auto_penalty>1</auto_penalty>\n{}    </contact>\n",
+                    pair.tied ? "tied" : "sliding", escaped(pair.name), escaped(pair.name),
+                    pair.tied ? formatted("      <search_radius>{}</search_radius>\n", pair.tolerance) : ""));
+            file_.add("  </Contact>\n");
         }
         file_.add("</febio_spec>\n");
         return std::move(file_);
@@ -184,7 +199,7 @@ private:
     void add_set(std::size_t s)
     {
         const MeshView::Set& set = view_->sets[s];
-        if (set.kind == SetKind::sides) return add_surface(set);
+        if (set.kind == SetKind::sides) return add_surface(s);
         // FEBio makes a set of the elements of each part, so none is written for such a set.
         const auto whole = wholes_.find(set.name);
         const bool is_part = set.kind == SetKind::elements && whole != wholes_.end() &&
@@ -203,8 +218,9 @@ private:
         file_.add(formatted("</{}>\n", word));
     }
 
-    void add_surface(const MeshView::Set& set)
+    void add_surface(std::size_t s)
     {
+        const MeshView::Set& set = view_->sets[s];
         std::string text;
         std::size_t edges = 0, number = 0;
         for (const DeckSide& side : set.sides) {
@@ -224,7 +240,7 @@ private:
             file_.notes.push_back(
                 formatted("{} edges of shells in the set {} are not written", edges, set.name));
         if (number == 0) return;
-        const std::string name = free(set.name, set.name + "_surface", surfaces_);
+        const std::string name = surface_names_[s] = free(set.name, set.name + "_surface", surfaces_);
         file_.add(formatted("    <Surface name=\"{}\">\n{}    </Surface>\n", escaped(name), text));
     }
 
@@ -236,6 +252,7 @@ private:
     std::map<std::string, std::pair<int, std::size_t>> wholes_; ///< number of parts and of elements of each
                                                                 ///< region
     std::set<std::string> parts_, node_sets_, surfaces_;        ///< names in use
+    std::map<std::size_t, std::string> surface_names_;          ///< of sets of sides
 };
 
 } // namespace

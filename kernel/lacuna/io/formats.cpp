@@ -102,11 +102,12 @@ std::vector<FormatRow> make_table()
     for (const char* ending : {".k", ".key", ".dyn"}) {
         row = deck_format(ending, "an LS-DYNA deck", "LS-DYNA", dyna, Format::Skin::nodes_and_sides,
                           dyna_file, read_dyna);
+        row.has_contacts = true;
         table.push_back(row);
     }
     row = deck_format(".feb", "a FEBio file", "FEBio", febio, Format::Skin::nodes_and_sides, febio_file,
                       nullptr);
-    row.is_read = false, row.has_hex27 = true, row.options = kOrientedDeckOptions;
+    row.is_read = false, row.has_hex27 = row.has_contacts = true, row.options = kOrientedDeckOptions;
     table.push_back(row);
     row = view_format(".med", "a MED file", "MED", med,
                       "with without renumber first_node first_cell interfaces", med_file);

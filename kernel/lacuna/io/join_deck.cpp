@@ -4,6 +4,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/run_context.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/same_corners.h>
 #include <lacuna/io/detail/deck_writer.h>
 #include <lacuna/io/detail/join_sets.h>
 #include <lacuna/io/detail/texts.h>
@@ -282,6 +283,18 @@ Deck joined(const Deck& deck, const topology::Model& model, double scale, const 
     joiner.note_inside(context);
     AddedMesh added{.points = points, .scale = scale};
     added.skin_cells = !format_of(options.format).is_numbered;
+    std::map<Quad, DeckTag> skin_tags;
+    for (const DeckBlock& block : deck.blocks) {
+        const auto [dimension, corners, nodes] = shape_info(block.shape);
+        for (std::size_t e = 0; added.skin_cells && dimension == 2 && e < block.count(); ++e) {
+            // Skins of meshes that joined before are not of the deck: their regions have no number yet.
+            const Index region = block.regions[e];
+            if (region >= 0 && deck.regions[index(region)].tag == 0) continue;
+            const std::span<const Index> own = block.element(e);
+            skin_tags.emplace(face_key({own[0], own[1], own[2], own[corners == 3 ? 2 : 3]}), block.tags[e]);
+        }
+    }
+    added.skin_tags = &skin_tags;
     if (const DeckRegion* neighbour = joiner.neighbour()) {
         added.neighbour_material = neighbour->material;
         added.neighbour = neighbour->name;

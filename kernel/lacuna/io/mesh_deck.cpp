@@ -18,6 +18,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <type_traits>
 #include <unordered_map>
@@ -177,6 +178,7 @@ public:
         first_set_ = deck_.sets.size();
         find_place();
         choose_material();
+        if (abaqus) tell_lost_elements();
         const std::vector<std::size_t> of_all = joins() ? sets_of_all(deck_) : std::vector<std::size_t>();
         add_points();
         add_cells();
@@ -191,6 +193,7 @@ public:
         tell_kept_sets();
         if (added_.before != nullptr && (joins() || !name().empty()))
             added_.before->regions.try_emplace(name(), region_);
+        if (added_.before != nullptr && joins()) added_.before->points.push_back(std::move(point_));
     }
 
 private:
@@ -293,6 +296,9 @@ private:
             }
         }
         if (has_sides() || !options_.contacts.empty()) std::tie(cells_, sides_) = parts_.behind_skin();
+        for (std::size_t i = 0; joins() && added_.skin_cells && i < mesh_.skin_count(); ++i)
+            if (const auto own = added_.skin_tags->find(key_of(i)); own != added_.skin_tags->end())
+                skin_of_.emplace(i, own->second);
     }
 
     [[nodiscard]] bool is_emptied(const std::string& name) const
@@ -458,21 +464,21 @@ private:
     {
         std::vector<std::string> names;
         for (const auto& [wanted, name] : renamed_)
-            names.push_back(formatted("{} is called {}", wanted, name));
+            names.push_back(formatted("its group {} is called {}", wanted, name));
         if (!names.empty())
-            log_line(context_, formatted("note: names that other sets have: {}", listed(names)));
+            log_line(context_,
+                     formatted("note: {}: names that other sets have: {}", volume(), listed(names)));
     }
 
     void add_skin_cells()
     {
         // In UNV each skin element needs a property, in MSH one group. In other formats the skin has groups
         // only.
-        std::map<std::string, Index> regions;
         const auto region_of = [&](std::size_t i) {
             if (options_.format != DeckFormat::msh) return unv() ? region_ : -1;
             const auto& groups = mesh_.patches[index(parts_.patch(i))].groups;
             if (groups.empty()) return Index(-1);
-            const auto [found, fresh] = regions.try_emplace(groups.front(), -1);
+            const auto [found, fresh] = skin_regions_.try_emplace(groups.front(), -1);
             if (!fresh) return found->second;
             const auto same = std::ranges::find_if(deck_.regions, [&](const DeckRegion& of) {
                 return of.tag == 0 && of.name == groups.front(); // a region that an earlier mesh has created
@@ -494,13 +500,21 @@ private:
         }
     }
 
-    /// Whether a mesh that was added before has the same quad of the skin. If not, the quad is recorded.
+    /// A quad of the skin by the deck's points.
+    [[nodiscard]] Quad key_of(std::size_t i) const
+    {
+        Quad quad = parts_.skin_quad(i);
+        for (Index& node : quad) node = point(node);
+        return face_key(quad);
+    }
+
+    /// Whether the deck, or a mesh that was added before, has the same quad of the skin. If not, the quad is
+    /// recorded.
     bool is_there(std::size_t i)
     {
         if (added_.skin_tags == nullptr) return false;
-        Quad quad = parts_.skin_quad(i);
-        for (Index& node : quad) node = point(node);
-        const auto [found, fresh] = added_.skin_tags->try_emplace(face_key(quad), skin_tag(i));
+        if (joins()) return skin_of_.contains(i);
+        const auto [found, fresh] = added_.skin_tags->try_emplace(key_of(i), skin_tag(i));
         if (!fresh) skin_of_.emplace(i, found->second);
         return !fresh;
     }
@@ -553,8 +567,15 @@ private:
     {
         DeckSet set;
         if (added_.skin_cells) {
+            // Elements of the deck stay in its group of that name.
+            if (joins() && is_taken(set.kind, name) &&
+                std::ranges::all_of(quads, [&](std::uint32_t i) { return skin_of_.contains(i); }))
+                return;
             for (const std::uint32_t i : quads) set.members.push_back(skin_tag(i));
-            add_set(set, unv() ? name + kSkin : name, name);
+            const std::string& own = add_set(set, unv() ? name + kSkin : name, name).name;
+            // The group is written under one name, also where an element is in one group alone.
+            if (const auto of = skin_regions_.find(name); of != skin_regions_.end())
+                deck_.regions[index(of->second)].name = own;
             return;
         }
         set.kind = DeckSet::Kind::nodes;
@@ -591,10 +612,23 @@ private:
         if (material_.empty()) {
             if (find_word(known, added_.neighbour_material) == known.end()) return;
             material_ = added_.neighbour_material;
+            std::vector<std::string> lost; // materials of elements that were left out
+            for (const auto& gone : deck_.gap.gone) {
+                const std::vector<char> used = used_regions(*gone);
+                for (std::size_t r = 0; r < used.size(); ++r)
+                    if (const std::string& own = gone->regions[r].material;
+                        used[r] != 0 && !own.empty() && !same_word(own, material_) &&
+                        find_word(lost, own) == lost.end())
+                        lost.push_back(own);
+            }
             log_line(
                 context_,
-                formatted("{}: its material is {}, that of {} beside it; open_volume's material says another",
-                          volume(), material_, added_.neighbour));
+                formatted("{}{}: its material is {}, that of {} beside it{}; open_volume's material says "
+                          "another",
+                          lost.empty() ? "" : "note: ", volume(), material_, added_.neighbour,
+                          lost.empty() ? ""
+                                       : formatted(", while elements that were left out have {}",
+                                                   full_list(lost, std::identity()))));
             return;
         }
         if (const auto found = find_word(known, material_); found != known.end()) {
@@ -604,6 +638,21 @@ private:
         throw InvalidInput("io.no_material", "material = {}: {} has {}", material_, deck_.path,
                            known.empty() ? "no materials"
                                          : formatted("the materials {}", short_list(known, std::identity())));
+    }
+    /// Report hexahedra that were left out if the new ones are of another type.
+    void tell_lost_elements() const
+    {
+        if (!options_.element.empty() || element_.empty() || extended_ >= 0) return;
+        std::set<std::string> types;
+        for (const auto& gone : deck_.gap.gone)
+            for (const DeckBlock& block : gone->blocks)
+                if (!same_word(block.type, element_) &&
+                    is_abaqus_element(block.type, parts_.cells()[0].shape))
+                    types.insert(block.type);
+        for (const std::string& type : types)
+            log_line(context_, formatted("note: {} has elements {}, while some that were left out are {}; "
+                                         "element = \"{}\" writes these",
+                                         volume(), element_, type, type));
     }
     // Separates the keys of skin groups from those of cell groups, because it occurs in no name.
     static constexpr const char* kSkin = "\n";
@@ -646,6 +695,7 @@ private:
     std::string volume_, element_;
     std::string section_set_;                    ///< set of the deck whose section applies to the cells
     std::map<std::string, std::string> renamed_; ///< groups whose names were in use, with their new names
+    std::map<std::string, Index> skin_regions_;  ///< for MSH: regions of the skin, by the groups' names
     Index place_ = -1, region_ = -1;             ///< region that the volume replaces, and region of the cells
     Index extended_ = -1;                        ///< region of an earlier mesh that the cells extend
     DeckTag first_cell_ = 1;

@@ -201,12 +201,21 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
     for (std::size_t b = 0; b < deck.blocks.size(); ++b)
         if (!row.omits_middles && std::ranges::find(deck.blocks[b].nodes, -1) != deck.blocks[b].nodes.end())
             refuse_element(view->blocks[b], format.word, "some lack middle nodes");
-    if (deck.format == DeckFormat::abaqus && deck.instances.size() > 1 && !deck.texts.empty() &&
-        format.deck == DeckFormat::abaqus)
-        tell({formatted("the {} instances become one mesh, sets are named instance_set, and cards are not "
-                        "copied: they refer to nodes by instance",
-                        deck.instances.size())},
+    if (deck.format == DeckFormat::abaqus && !deck.instances.empty() && format.deck == DeckFormat::abaqus) {
+        const std::string& only = deck.instances.front().name;
+        const bool several = deck.instances.size() > 1;
+        tell({several
+                  ? formatted("the {} instances become one mesh without *PART and *INSTANCE, sets are named "
+                              "instance_set{}",
+                              deck.instances.size(),
+                              deck.texts.empty()
+                                  ? ""
+                                  : ", and cards are not copied: they refer to nodes by instance")
+                  : formatted("the instance {} becomes one mesh without *PART and *INSTANCE; names in cards "
+                              "lose \"{}.\"",
+                              only, only)},
              path, context);
+    }
     std::vector<std::string> notes;
     note_sets(format, deck, notes);
     const bool texts = std::ranges::any_of(

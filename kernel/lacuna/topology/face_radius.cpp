@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/topology/shared/face_radius.h>
 
+#include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/dense_solve.h>
 #include <lacuna/geometry/shared/spread.h>
 #include <lacuna/topology/shared/cone_shape.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace lacuna::topology {
 namespace {
@@ -32,6 +34,21 @@ std::optional<Round> fitted(const Eigen::MatrixXd& points)
     const Eigen::VectorXd distance = (at.rowwise() - centre.transpose()).rowwise().norm();
     if ((distance.array() - radius).abs().maxCoeff() > kOffShape * radius) return {};
     return Round{radius, centre + mean.transpose()};
+}
+
+/// Whether facets are too few for the shape, such as those of a cube, whose corners lie on a sphere: two
+/// that meet turn by a corner.
+bool is_angular(const Model& model, const Face& face, const RoundShape& shape)
+{
+    const double least = std::cos(kBendBelow / 2 * std::numbers::pi / 180);
+    return std::ranges::any_of(face.triangles, [&](const Triangle& t) {
+        const Vec3 n = (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+        return std::ranges::any_of(t, [&](Index corner) {
+            Vec3 out = model.at(corner) - shape.centre;
+            if (shape.axis) out -= out.dot(*shape.axis) * *shape.axis;
+            return std::abs(n.dot(out)) < least * n.norm() * out.norm();
+        });
+    });
 }
 
 } // namespace
@@ -60,7 +77,8 @@ std::optional<RoundShape> round_shape(const Model& model, FaceId id)
         const auto sphere = fitted(points);
         // The corners of one row of facets round a cone lie on a sphere too.
         if (!sphere || cone_shape(model, id)) return {};
-        return RoundShape{sphere->radius, sphere->centre, {}};
+        const RoundShape shape{sphere->radius, sphere->centre, {}};
+        return is_angular(model, face, shape) ? std::nullopt : std::optional(shape);
     }
     const Eigen::Matrix<double, 3, 2> across = looks.axis.rightCols<2>();
     const auto circle = fitted(points * across);
@@ -68,7 +86,8 @@ std::optional<RoundShape> round_shape(const Model& model, FaceId id)
     const Vec3 axis = looks.axis.col(0);
     const Eigen::VectorXd along = points * axis;
     const Vec3 centre = across * circle->centre + axis * (along.minCoeff() + along.maxCoeff()) / 2;
-    return RoundShape{circle->radius, centre, axis};
+    const RoundShape shape{circle->radius, centre, axis};
+    return is_angular(model, face, shape) ? std::nullopt : std::optional(shape);
 }
 
 } // namespace lacuna::topology
