@@ -82,10 +82,10 @@ std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember
             names += (names.empty() ? "" : ", ") + members[m].region;
     }
     throw NotSweepable(Message("assembly.round",
-                               "in a cycle of volumes, each of {} lacks a face that the next one has, so "
-                               "none can be meshed first",
+                               "{}: each of these volumes lacks a face that another of them has, in a "
+                               "cycle, so none can be meshed first",
                                names)
-                           .remedy("give one of them that face too"));
+                           .remedy("add its missing face to one of them"));
 }
 
 std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,

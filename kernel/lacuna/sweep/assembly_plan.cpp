@@ -613,11 +613,11 @@ private:
         const AssemblyMember& own = members_[m];
         const AssemblyMember& other = members_[there.member];
         throw NotSweepable(Message("assembly.layers_differ",
-                                   "boundary layers of {} of {} and of {} of {} differ, and both end on {} "
-                                   "of {}, an edge of both",
+                                   "the boundary layers of {} of {} and of {} of {} end on the same edge, "
+                                   "{} of {}, but differ",
                                    entity_in(other, there.face), other.region, entity_in(own, face),
                                    own.region, entity_in(own, edges_[e].edge), own.region)
-                               .remedy("give both faces the same table"));
+                               .remedy("give both faces the same boundary_layers table"));
     }
 
     /// Number of sides that rows take of an edge, and the remaining length [model length].
@@ -642,12 +642,13 @@ private:
             if (taken < count) continue;
             const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
             const AssemblyMember &own = members_[end.member], &other = members_[edges_[e].member];
-            throw NotSweepable(Message("assembly.layers_rows",
-                                       "boundary layers of {} of {} take {} sides of {} of {}, but only {} "
-                                       "sides are given or requested there",
-                                       entity_in(own, end.face), own.region, needed(taken),
-                                       entity_in(other, edges_[e].edge), other.region, found(count))
-                                   .remedy("ask for fewer rows or more layers"));
+            throw NotSweepable(
+                Message("assembly.layers_rows",
+                        "the boundary layers of {} of {} need at least {} sides on {} of {}, one "
+                        "more than rows end there, but {} are given or requested",
+                        entity_in(own, end.face), own.region, needed(taken + 1),
+                        entity_in(other, edges_[e].edge), other.region, found(count))
+                    .remedy("use a smaller 'count' of rows, or more layers or intervals there"));
         }
     }
 
