@@ -205,7 +205,9 @@ std::vector<geometry::PathPart> parts_of(const Along::Path& path, const Model& m
 Vec3 unit(const Vec3& direction, const char* name)
 {
     if (!(direction.stableNorm() > 0))
-        throw InvalidInput("closure.along_direction", "along: the direction of '{}' has no length", name);
+        throw InvalidInput(
+            Message("closure.along_direction", "along: the direction of '{}' has no length", name)
+                .remedy("give a vector other than zero"));
     return direction.stableNormalized();
 }
 

@@ -223,7 +223,9 @@ private:
 
     void check_members() const
     {
-        if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs at least one volume");
+        if (members_.empty())
+            throw InvalidInput(
+                Message("assembly.empty", "an assembly needs at least one volume").remedy("add a volume"));
         check_alike(members_);
     }
 
