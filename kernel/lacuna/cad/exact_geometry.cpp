@@ -67,9 +67,9 @@ std::uint64_t CadSource::handle_in(const std::shared_ptr<Worker>& worker, const 
     const std::lock_guard lock(mutex_);
     if (held_.worker == worker) return held_.handle;
     const Held before = held_;
-    held_ = load_again(worker,
-                       Message("cad.file_changed", "{} must be loaded again for its exact geometry", path_),
-                       context);
+    held_ = load_again(
+        worker, Message("cad.file_changed", "{}: its exact geometry is needed in another CAD process", path_),
+        context);
     before.worker->release(before.handle);
     return held_.handle;
 }
@@ -100,8 +100,9 @@ CadSource::Held CadSource::load_again(std::shared_ptr<Worker> worker, const Mess
     } catch (const Error& error) {
         trouble = error.message();
     }
-    throw BackendError(Message("cad.file_changed", "{}, and that failed: {}", why.parts(), trouble.parts())
-                           .remedy("restore the file, or load the model from it again"));
+    throw BackendError(
+        Message("cad.file_changed", "{}, and loading the file again failed: {}", why.parts(), trouble.parts())
+            .remedy("restore the file, or load the model from it again"));
 }
 
 // --- points ---------------------------------------------------------------------------------------------

@@ -168,8 +168,9 @@ pid_t spawn(const std::string& program, int socket, int words)
     ::posix_spawn_file_actions_destroy(&files);
     ::posix_spawnattr_destroy(&attributes);
     if (error != 0)
-        throw BackendError("cad.no_worker", "the CAD process {} could not be started: {}", program,
-                           std::strerror(error));
+        throw BackendError(Message("cad.no_worker", "the CAD process {} could not be started: {}", program,
+                                   std::strerror(error))
+                               .remedy("check the installation of lacuna-cad"));
     return pid;
 }
 
@@ -282,12 +283,15 @@ Worker::Worker(const RunContext* context) : owner_(::getpid())
                 .remedy("check the installation of lacuna-cad"));
     } catch (const ChannelClosed&) {
         end();
-        throw BackendError("cad.no_worker", "{} ended during start-up ({}{})", program, how_it_ended(),
-                           last_words());
+        throw BackendError(
+            Message("cad.no_worker", "{} ended during start-up ({}{})", program, how_it_ended(), last_words())
+                .remedy("check the installation of lacuna-cad"));
     } catch (const ProtocolError& error) {
         end();
-        throw BackendError("cad.no_worker", "{} does not belong to this version of Lacuna: {} ({}{})",
-                           program, error.what(), how_it_ended(), last_words());
+        throw BackendError(
+            Message("cad.no_worker", "{} is of another version of Lacuna: {} ({}{})", program, error.what(),
+                    how_it_ended(), last_words())
+                .remedy("install the lacuna-cad of this version, or set LACUNA_CAD to its path"));
     } catch (...) {
         end();
         throw;

@@ -40,7 +40,9 @@ std::string find_worker_program()
 {
     if (const char* named = std::getenv("LACUNA_CAD"); named != nullptr && *named != '\0') {
         if (::access(named, X_OK) == 0) return named;
-        throw BackendError("cad.no_worker", "LACUNA_CAD names {}, which is not an executable file", named);
+        throw BackendError(
+            Message("cad.no_worker", "LACUNA_CAD names {}, which is not an executable file", named)
+                .remedy("set LACUNA_CAD to the path of lacuna-cad, or unset it"));
     }
     std::vector<fs::path> places;
     add_around("/proc/self/exe", places);

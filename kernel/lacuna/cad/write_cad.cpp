@@ -77,7 +77,12 @@ void state_unit(std::string& bytes, const std::string& unit)
     const auto metric = std::ranges::find(kPrefixes, unit,
                                           &std::pair<std::string_view, std::string_view>::first);
     const std::size_t at = bytes.find(milli);
-    if (at == bytes.npos) throw BackendError("cad.step_unit", "the STEP file does not state its unit");
+    if (at == bytes.npos)
+        throw BackendError(Message("cad.step_unit",
+                                   "Open CASCADE wrote a STEP file that does not declare millimetres, so "
+                                   "unit = \"{}\" cannot be set",
+                                   unit)
+                               .remedy("write it as .brep, or with unit = \"mm\""));
     if (metric != std::end(kPrefixes)) {
         bytes.replace(at, milli.size(), formatted("SI_UNIT({},.METRE.)", metric->second));
         return;

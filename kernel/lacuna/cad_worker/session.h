@@ -37,7 +37,7 @@ public:
     /// Set an option until the session ends. Options that this version of Gmsh does not have are ignored.
     void set(const std::string& option, double value);
     void set(const std::string& option, const std::string& value);
-    /// Make Gmsh mesh with cells of order 1, with sizes taken from the given boundary.
+    /// Set Gmsh's options so that it makes elements of order 1, sized by the given boundary mesh alone.
     void set_sizes_from_boundary();
 
     /// Run calls of Gmsh and translate their different kinds of failure.

@@ -98,7 +98,7 @@ std::pair<int, double> sew(Session& session, const std::vector<int>& faces, cons
         gmsh::model::occ::remove(out);
     }
     session.refuse(Message("cad.not_sewn",
-                           "the {} faces could not be sewn into one solid, with gaps up to {:.6g} closed",
+                           "the {} faces do not form one solid, even if gaps of up to {:.6g} are closed",
                            faces.size(), needed(last))
                        .remedy("write the facets with write_facets"));
 }

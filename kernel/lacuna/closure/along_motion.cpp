@@ -205,7 +205,9 @@ std::vector<geometry::PathPart> parts_of(const Along::Path& path, const Model& m
 Vec3 unit(const Vec3& direction, const char* name)
 {
     if (!(direction.stableNorm() > 0))
-        throw InvalidInput("closure.along_direction", "along: the direction of '{}' has no length", name);
+        throw InvalidInput(
+            Message("closure.along_direction", "along: the direction of '{}' has no length", name)
+                .remedy("give a vector other than zero"));
     return direction.stableNormalized();
 }
 
@@ -239,11 +241,11 @@ void check_axis(const Model& model, const Vec3& point, const Vec3& axis, bool we
                     wedges ? "sweep the volume by itself with wedges = true, or " : ""));
     for (std::size_t v = 0; v < model.vertices.size(); ++v) {
         if (!is_on(model, model.vertices[v].point, point, axis)) continue;
-        throw InvalidInput(
-            Message("closure.along_axis", "{} lies on the axis, where a cell would have no width",
-                    entity_of(model, VertexId(v)))
-                .remedy("leave the place next to the axis out of the source, and fill the core "
-                        "with a volume of its own"));
+        throw InvalidInput(Message("closure.along_axis",
+                                   "{} lies on the axis, and cells there would have no width",
+                                   entity_of(model, VertexId(v)))
+                               .remedy("leave a strip along the axis out of the source, and fill the core "
+                                       "with a volume of its own"));
     }
 }
 
@@ -265,10 +267,10 @@ bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
         if (!on(at) || ends[index(at)] != 0) continue;
         throw InvalidInput(
             Message("closure.along_axis",
-                    "{} lies on the axis apart from the edges there, where a cell would have no "
-                    "width",
+                    "{} touches the axis away from the edges that lie on it, and cells there would "
+                    "have no width",
                     entity_of(model, VertexId(v)))
-                .remedy("leave it out of the source"));
+                .remedy("cut the region around it out of the source"));
     }
     return true;
 }
@@ -542,11 +544,12 @@ struct MotionMaker {
     void refuse_distortion(const char* name) const
     {
         if (by.twist || by.scale)
-            throw InvalidInput(Message("closure.along_distorted",
-                                       "along: '{}' moves each point of the source by itself, without a "
-                                       "section to twist or scale",
-                                       name)
-                                   .remedy("leave out 'twist' and 'scale'"));
+            throw InvalidInput(
+                Message("closure.along_distorted",
+                        "along: '{}' moves each point of the source separately, so 'twist' and "
+                        "'scale' do not apply",
+                        name)
+                    .remedy("leave out 'twist' and 'scale'"));
     }
 };
 

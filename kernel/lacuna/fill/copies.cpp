@@ -263,8 +263,10 @@ FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const Pattern
                     const RunContext& context)
 {
     if (options.count < 1)
-        throw InvalidInput("fill.pattern_count", "a pattern needs at least {} copy, but {} are requested",
-                           needed(1), found(options.count));
+        throw InvalidInput(Message("fill.pattern_count",
+                                   "a pattern needs at least {} copy, but {} are requested", needed(1),
+                                   found(options.count))
+                               .remedy("use count = 1 or more"));
     hold_nodes(mesh, context);
     const std::size_t parts = mesh.regions.size();
     const auto count = static_cast<std::size_t>(options.count);

@@ -235,9 +235,9 @@ private:
         }
         if (made.cells.empty())
             throw InvalidInput(Message("fill.interface_none",
-                                       "split_interface: every node of the named faces is "
-                                       "at the end of the interface, and stays one")
-                                   .remedy("name a larger face, or mesh it finer"));
+                                       "split_interface: the named faces have only nodes at the end of the "
+                                       "interface, which are not duplicated")
+                                   .remedy("name a larger face, or use a smaller 'size' on it"));
         if (closed > 0)
             log_line(context,
                      formatted("note: split_interface: {} faces have no cell, as all their nodes are at "

@@ -218,7 +218,8 @@ private:
 
 Deck merge_decks(std::span<const DeckInScale> decks, const MergeOptions& options, const RunContext& context)
 {
-    if (decks.empty()) throw InvalidInput("io.no_file", "no deck was given");
+    if (decks.empty())
+        throw InvalidInput(Message("io.no_file", "no deck was given").remedy("name at least one"));
     Deck all = *decks.front().deck;
     for (const std::size_t s : sets_of_all(all)) all.sets[s].of_one_deck = decks.size() > 1;
     for (const DeckInScale& more : decks.subspan(1))

@@ -306,8 +306,8 @@ private:
         return find_word(deck_.gap.names, name) != deck_.gap.names.end();
     }
 
-    /// Whether the volume has the name of a region that lost its elements. The mesh then replaces that
-    /// region.
+    /// Whether the cells go into an existing region with the volume's name: one that lost its elements, or
+    /// that of a mesh added before.
     [[nodiscard]] bool takes_place() const { return place_ >= 0; }
 
     void find_place()
@@ -409,8 +409,8 @@ private:
             return std::ranges::find_if(deck_.sets, [&](const DeckSet& other) {
                 if (other.kind != set.kind || !same_word(other.name, name)) return false;
                 const bool none = other.members.empty() && other.sides.empty();
-                // If cells are not stored, a set of all cells is recognised by this: this mesh created it,
-                // and it is empty.
+                // If the deck does not store cells, the set of all cells of a mesh is empty. It is recognised
+                // by being empty and created by this mesh.
                 if (none && !stores()) return set.members.empty() && &other >= deck_.sets.data() + first_set_;
                 return none ? is_emptied(name) : other.members == set.members && other.sides == set.sides;
             });

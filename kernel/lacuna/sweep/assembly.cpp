@@ -169,8 +169,9 @@ void check_alike(std::span<const AssemblyMember> members)
                     .remedy("give both the same"));
         for (std::size_t n = 0; n < m; ++n)
             if (members[m].region == members[n].region)
-                throw InvalidInput("assembly.same_name", "two volumes of the assembly are named \"{}\"",
-                                   members[m].region);
+                throw InvalidInput(Message("assembly.same_name",
+                                           "two volumes of the assembly are named \"{}\"", members[m].region)
+                                       .remedy("give one of them another name"));
     }
 }
 
@@ -223,7 +224,9 @@ private:
 
     void check_members() const
     {
-        if (members_.empty()) throw InvalidInput("assembly.empty", "an assembly needs at least one volume");
+        if (members_.empty())
+            throw InvalidInput(
+                Message("assembly.empty", "an assembly needs at least one volume").remedy("add a volume"));
         check_alike(members_);
     }
 
@@ -728,9 +731,11 @@ private:
         const Swept& part = result_.parts[m];
         const std::set<FaceId> shared = shared_faces_of(m);
         if (!middles_.add(part.mesh, [&](Index patch) { return shared.contains(part.faces[index(patch)]); }))
-            throw NotSweepable("assembly.not_shared",
-                               "middle nodes of {} on shared faces differ from those of its neighbours",
-                               members_[m].region);
+            throw NotSweepable(
+                Message("assembly.not_shared",
+                        "middle nodes of {} on shared faces differ from those of its neighbours",
+                        members_[m].region)
+                    .remedy("use order = 1"));
     }
 
     /// Whether a member will make the same grid on a shared face as its neighbour did: the face is flat, has
@@ -769,10 +774,11 @@ private:
             const auto pairs = same_quads(skin, quads_on(skin.mesh, faces, n.own), theirs,
                                           quads_of(n.other, n.there), within);
             if (!pairs)
-                throw UnlikeNeighbour("assembly.unlike",
-                                      "the mesh of {} of {} differs from its neighbour's mesh of that face; "
-                                      "the neighbour's mesh is copied",
-                                      entity_in(members_[m], n.own), members_[m].region);
+                throw UnlikeNeighbour(
+                    "assembly.unlike",
+                    "the mesh of {} of {} differs from its neighbour's mesh of that face; the "
+                    "neighbour's mesh is copied",
+                    entity_in(members_[m], n.own), members_[m].region);
             for (const NodePair& pair : *pairs) settled.nodes.emplace_back(pair.own, theirs[pair.other]);
             settled.faces.insert(n.own);
         }
@@ -846,12 +852,13 @@ private:
                 continue;
             }
             throw NotSweepable(
-                "assembly.not_shared",
-                "{} of {} and {} of {} are one face, centred at {}, but were meshed differently: "
-                "{} quads and {}{}",
-                face_a, region_a, face_b, region_b,
-                place_with_digits(face_centroid(members_[m].volume->model, own), 4), found(a.size()),
-                needed(b.size()), part.not_kept.empty() ? "" : "; " + part.not_kept.front());
+                Message("assembly.not_shared",
+                        "{} of {} and {} of {} are one face, centred at {}, but were meshed differently: "
+                        "{} and {} quads{}",
+                        face_a, region_a, face_b, region_b,
+                        place_with_digits(face_centroid(members_[m].volume->model, own), 4), found(a.size()),
+                        needed(b.size()), part.not_kept.empty() ? "" : " (" + part.not_kept.front() + ")")
+                    .remedy("give both volumes the same 'size' and 'layers'"));
         }
     }
 

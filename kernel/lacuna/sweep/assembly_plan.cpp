@@ -617,8 +617,8 @@ private:
         const AssemblyMember& own = members_[m];
         const AssemblyMember& other = members_[there.member];
         throw NotSweepable(Message("assembly.layers_differ",
-                                   "boundary layers of {} of {} and of {} of {} end on the same edge, {} of "
-                                   "{}, but have different heights",
+                                   "the boundary layers of {} of {} and of {} of {} end on the same edge, "
+                                   "{} of {}, but differ",
                                    entity_in(other, there.face), other.region, entity_in(own, face),
                                    own.region, entity_in(own, edges_[e].edge), own.region)
                                .remedy("give both faces the same boundary_layers table"));
@@ -647,12 +647,13 @@ private:
             if (taken < count) continue;
             const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
             const AssemblyMember &own = members_[end.member], &other = members_[edges_[e].member];
-            throw NotSweepable(Message("assembly.layers_rows",
-                                       "boundary layers of {} of {} need more than {} sides on {} of {}, but "
-                                       "{} are given or requested",
-                                       entity_in(own, end.face), own.region, needed(taken),
-                                       entity_in(other, edges_[e].edge), other.region, found(count))
-                                   .remedy("use a smaller 'count' in boundary_layers, or more layers"));
+            throw NotSweepable(
+                Message("assembly.layers_rows",
+                        "the boundary layers of {} of {} need at least {} sides on {} of {}, one "
+                        "more than rows end there, but {} are given or requested",
+                        entity_in(own, end.face), own.region, needed(taken + 1),
+                        entity_in(other, edges_[e].edge), other.region, found(count))
+                    .remedy("use a smaller 'count' of rows, or more layers or intervals there"));
         }
     }
 

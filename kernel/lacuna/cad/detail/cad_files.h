@@ -37,9 +37,9 @@ struct CadFiles {
 /// The first bytes of a file: all, or at most the number `most`.
 std::string text_of(const cad_protocol::Descriptor& file, std::size_t most);
 
-/// Open CAD files and check that their contents agree with their endings. A script is parsed. Files of its
-/// own folder that it includes or merges are copied too. Commands that mesh or write files are removed from
-/// the copy. Any other command that does not belong to Gmsh's geometry is an error.
+/// Open CAD files and check that their contents agree with their file extensions. A script is parsed: files
+/// of its own folder that it includes or merges are copied as well, and commands that mesh or write files are
+/// removed from the copy that Gmsh runs. Any other command that does not make geometry is an error.
 /// @throw InvalidInput  not a regular file, not of the format, or a script with a forbidden command; names
 ///                      file and line.
 /// @throw BackendError  a file cannot be read.

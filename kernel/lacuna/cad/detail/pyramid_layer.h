@@ -23,9 +23,9 @@ struct PyramidLayer {
 
 /// Place a pyramid on each quad of a closed skin.
 ///
-/// Gmsh makes pyramids too, but starts with the apexes in the quads. On 24 distorted blocks of hexahedra it
-/// left inverted pyramids in 19 of them, made 2.6 times as many tetrahedra, and reached a third of the least
-/// scaled Jacobian.
+/// Gmsh's own pyramids start flat, with the apex in the plane of the quad. On 24 distorted blocks of
+/// hexahedra they stayed inverted in 19, needed 2.6 times as many tetrahedra, and gave a minimum scaled
+/// Jacobian that was a third as high.
 ///
 /// An apex stands above the centre of its quad. Its height is half the side of a square of the same area. It
 /// is lower where the pyramid would take more than a third of the angle to a neighbouring face or of the

@@ -30,10 +30,11 @@ struct ScriptContent {
 /// Parse a Gmsh script before it is run. Find the files that it includes or merges, which must be in the
 /// script's own folder, and the commands to remove.
 ///
-/// The sandbox of the CAD process blocks programs, other files and writing anyway. Parsing first gives an
-/// error that names the line. It also lets scripts through that mesh or write files besides making geometry.
-/// @throw InvalidInput  "cad.script": the script runs programs, ends inside a condition, names a file in
-///        another folder or by an expression, or lacks the ';' after a command to remove.
+/// The sandbox of the CAD process already blocks programs, other files and writing. Parsing first gives an
+/// error that names the line. Scripts that also mesh or write files can still be read, because these commands
+/// are removed.
+/// @throw InvalidInput  "cad.script": the script runs programs, ends inside a condition, includes a file of
+///        another folder or one whose name is an expression, or lacks the ';' after a command to remove.
 ScriptContent look_through_script(const std::string& path, std::string_view text);
 
 } // namespace lacuna::cad
