@@ -18,7 +18,7 @@ struct RoundShape {
 /// The cylinder or sphere of a face from its facets: the axis of a cylinder is normal to all facet normals;
 /// its circle, or the sphere, is fitted to the corners by least squares.
 /// @return empty if corners are off by more than a hundredth of the radius, as on a plane, a cone or a free
-///         form, and if the file declares another shape.
+///         form, or if the file declares another shape.
 std::optional<RoundShape> round_shape(const Model& model, FaceId face);
 
 /// Radius of round_shape() [model length].
