@@ -16,7 +16,8 @@ namespace {
 
 using sweep::AssemblyMember;
 
-/// Sides whose areas differ by a smaller share are of one area, in facets of different fineness.
+/// Two sides of a contact count as equal in area if their areas differ by less than this share. Facets of
+/// different fineness cause such differences.
 constexpr double kAlike = 0.01;
 
 const std::string& region_of(const AssemblyMember& member)
