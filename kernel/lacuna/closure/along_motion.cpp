@@ -239,11 +239,11 @@ void check_axis(const Model& model, const Vec3& point, const Vec3& axis, bool we
                     wedges ? "sweep the volume by itself with wedges = true, or " : ""));
     for (std::size_t v = 0; v < model.vertices.size(); ++v) {
         if (!is_on(model, model.vertices[v].point, point, axis)) continue;
-        throw InvalidInput(
-            Message("closure.along_axis", "{} lies on the axis, where a cell would have no width",
-                    entity_of(model, VertexId(v)))
-                .remedy("leave the place next to the axis out of the source, and fill the core "
-                        "with a volume of its own"));
+        throw InvalidInput(Message("closure.along_axis",
+                                   "{} lies on the axis, and cells there would have no width",
+                                   entity_of(model, VertexId(v)))
+                               .remedy("leave a strip along the axis out of the source, and fill the core "
+                                       "with a volume of its own"));
     }
 }
 
@@ -264,11 +264,11 @@ bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
         const Index at = model.vertices[v].point;
         if (!on(at) || ends[index(at)] != 0) continue;
         throw InvalidInput(
-            Message("closure.along_axis",
-                    "{} lies on the axis apart from the edges there, where a cell would have no "
-                    "width",
-                    entity_of(model, VertexId(v)))
-                .remedy("leave it out of the source"));
+            Message(
+                "closure.along_axis",
+                "{} touches the axis away from the edges that lie on it, and cells there would have no width",
+                entity_of(model, VertexId(v)))
+                .remedy("cut the region around it out of the source"));
     }
     return true;
 }
@@ -544,8 +544,8 @@ struct MotionMaker {
     {
         if (by.twist || by.scale)
             throw InvalidInput(Message("closure.along_distorted",
-                                       "along: '{}' moves each point of the source by itself, without a "
-                                       "section to twist or scale",
+                                       "along: '{}' moves each point of the source separately, so 'twist' "
+                                       "and 'scale' do not apply",
                                        name)
                                    .remedy("leave out 'twist' and 'scale'"));
     }

@@ -66,7 +66,7 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
     if (options.holes != Holes::automatic && holes.empty()) {
         throw InvalidInput(
             Message("closure.holes_unused",
-                    "the option holes applies to holes of a given end without walls, and there is none")
+                    "the option holes applies only to holes without walls in a given end, and there are none")
                 .remedy("leave the option out"));
     }
     if (!options.void_edges.empty() && !has_two_ends(value)) {

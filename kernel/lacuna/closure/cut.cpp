@@ -460,13 +460,12 @@ std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model,
     if (!own && partition.fits()) return partition.run(context);
     const std::optional<geometry::Plane> plane = plane_of(model, face);
     if (!plane)
-        throw NotSweepable(
-            Message("closure.cut_face", "{} is curved{}", entity_of(model, face),
-                    own ? " and one of the volume's own"
-                        : formatted(", and its rim leaves the volume's edges at {}",
-                                    place_with_digits(partition.off(), 4)))
-                .remedy("a curved face cuts only if its whole rim is on edges of the volume, a flat one cuts "
-                        "by its plane"));
+        throw NotSweepable(Message("closure.cut_face", "{} is curved{}", entity_of(model, face),
+                                   own ? " and one of the volume's own"
+                                       : formatted(", and its rim leaves the volume's edges at {}",
+                                                   place_with_digits(partition.off(), 4)))
+                               .remedy("use a flat face, which cuts by its plane, or a curved face whose "
+                                       "whole rim is on edges of the volume"));
     if (own) return cut_by_plane(volume, *plane, context);
     const geometry::FacetTree facets(model.points, model[face].triangles);
     const double tolerance = volume.model.tolerance;

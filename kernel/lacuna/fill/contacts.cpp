@@ -175,9 +175,9 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
     for (std::vector<FaceId>& part : topology::connected_parts(model, others))
         bodies[formatted("part_{}", ++number)] = std::move(part);
     if (bodies.size() < 2)
-        throw InvalidInput(Message("fill.contact_bodies", "contacts: the model is one body, and contacts are "
-                                                          "those of two")
-                               .remedy("load the files of both as one model: lacuna.load {{ a, b }}"));
+        throw InvalidInput(
+            Message("fill.contact_bodies", "contacts: the model is one body, but a contact is between two")
+                .remedy("load the files of both as one model: lacuna.load {{ a, b }}"));
     std::vector<topology::OpenVolume> volumes;
     for (const auto& [name, faces] : bodies)
         volumes.push_back(topology::open_volume(model, {{}, {}, faces}, context));

@@ -234,15 +234,14 @@ private:
                 {own[0], own[1], own[2], own[3], across[0], across[1], across[2], across[3]});
         }
         if (made.cells.empty())
-            throw InvalidInput(Message("fill.interface_none",
-                                       "split_interface: every node of the named faces is "
-                                       "at the end of the interface, and stays one")
-                                   .remedy("name a larger face, or mesh it finer"));
+            throw InvalidInput(
+                Message("fill.interface_none", "split_interface: the named faces have only nodes at the end "
+                                               "of the interface, which are not duplicated")
+                    .remedy("name a larger face, or use a smaller 'size' on it"));
         if (closed > 0)
-            log_line(context,
-                     formatted("note: split_interface: {} faces have no cell, as all their nodes are at "
-                               "the end of the interface",
-                               closed));
+            log_line(context, formatted("note: split_interface: {} faces have no cell, because all their "
+                                        "nodes are at the end of the interface",
+                                        closed));
         mesh_.interfaces.push_back(std::move(made));
         mesh_.swept.report.push_back(formatted("split_interface: {} cells of {}",
                                                mesh_.interfaces.back().cells.size(), faces_.element));

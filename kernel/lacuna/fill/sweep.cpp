@@ -306,7 +306,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
             if (!first) first = std::current_exception();
             if (!why) why = error.message();
             if (ways == 0) return;
-            failed.push_back(formatted("roles: swept {} it fails: {} [{}]", ends_in_words(now.volume),
+            failed.push_back(formatted("roles: swept {}, it fails: {} [{}]", ends_in_words(now.volume),
                                        error.what(), error.code()));
             log_line(context, failed.back());
         };
