@@ -51,7 +51,7 @@ struct Request {
 };
 
 /// Mesh the void that the faces of a model bound: open(), match(), close() and sweep().
-/// @throw  what these functions throw; the model is not modified.
+/// @throw  the errors of these functions; the model is not modified.
 Filled fill(const topology::Model& model, const Request& request = {}, const RunContext& context = {});
 
 /// Close a volume if it is still open, and sweep it. A volume with steps or branches, or one that makes a
@@ -59,7 +59,8 @@ Filled fill(const topology::Model& model, const Request& request = {}, const Run
 /// them, the alternative sweeps of the same void are tried in turn; the report names the one used.
 /// @return  `volumes` holds the one volume with the roles of the successful sweep, sealed unless it was cut.
 /// @throw NotSweepable, NotClosed  the reason why the first sweep failed.
-/// @throw InvalidInput  as `sweep::sweep()`. Cancelled.
+/// @throw InvalidInput  the errors of `sweep::sweep()`.
+/// @throw Cancelled
 Filled sweep(const Volume& volume, const SweepRequest& request = {}, const RunContext& context = {});
 
 /// A member of an assembly: a volume with its options, or a finished mesh. Exactly one pointer is set.
@@ -76,7 +77,7 @@ struct Member {
 /// Contact pairs of an assembly: all faces of two regions that touch, or face each other within a gap.
 struct ContactRequest {
     double gap = 0;   ///< of all regions without an entry of their own [model length]
-    bool tied = true; ///< likewise
+    bool tied = true; ///< whether these regions are tied; otherwise they are in contact
     struct Pair {
         std::array<std::string, 2> regions;
         std::string name; ///< empty: "a_b", of the regions
@@ -86,12 +87,13 @@ struct ContactRequest {
     std::vector<Pair> pairs;
 };
 
-/// Find the faces of two regions in contact, as `sweep::faces_in_contact()`, one entry for each two regions.
-/// For the members of an assembly, which are closed first; for the bodies of a model: its regions or, if
-/// faces have none, the parts that no edge connects.
-/// @throw InvalidInput "fill.contact_region"  a pair of a region that is not there; "fill.contact_none"  a
-///        pair whose regions have no faces within the gap; "fill.contact_name"  two pairs of one name;
-///        "fill.contact_bodies"  the model has one body. As `sweep::faces_in_contact()` and `close()`.
+/// Find the faces of two regions in contact by `sweep::faces_in_contact()`, with one entry for each two
+/// regions. The first overload takes the members of an assembly, which are closed first. The second takes a
+/// model, whose bodies are its regions or, if faces have none, the parts that no edge connects.
+/// @throw InvalidInput "fill.contact_region"  a pair names an unknown region; "fill.contact_none"  the
+///         regions of a pair have no faces within the gap; "fill.contact_name"  two pairs have one name;
+///         "fill.contact_bodies"  the model has one body. Or the errors of `sweep::faces_in_contact()` and
+///         `close()`.
 std::vector<Contact> contacts(std::span<const Member> members, const ContactRequest& request,
                               const RunContext& context = {});
 std::vector<Contact> contacts(const topology::Model& model, const ContactRequest& request,
@@ -103,7 +105,7 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
 /// @return  `volumes` holds the member volumes in their order. A volume that was left out or swept in pieces
 ///          is returned unchanged.
 /// @throw InvalidInput "surface.no_such_face"  an option names a face that no volume has.
-/// @throw  as `contacts()`, `sweep::sweep_assembly()` and `closure::close()`.
+/// @throw  the errors of `contacts()`, `sweep::sweep_assembly()` and `closure::close()`.
 Filled sweep(std::span<const Member> members, const RunContext& context = {},
              const ContactRequest& request = {});
 
@@ -128,9 +130,11 @@ struct PatternOptions {
 /// Faces that coincide become one: they share their nodes and leave their groups. Copies of a group form one
 /// group. Only the first mesh is compared with the copies: any two copies are placed like the first mesh and
 /// one of its copies.
-/// @throw InvalidInput "fill.pattern_count"; "fill.copy_mixed"; as `sweep::sweep_assembly()`: copies overlap,
-///        or share part of a face. NotSweepable "assembly.not_shared": faces coincide, but their quads
-///        differ; "assembly.hanging_node". Cancelled
+/// @throw InvalidInput "fill.pattern_count"  the count is below 1; "fill.copy_mixed"  the mesh has
+///         tetrahedra. Or the errors of `sweep::sweep_assembly()`: copies overlap, or share part of a face.
+/// @throw NotSweepable "assembly.not_shared"  faces coincide, but their quads differ; "assembly.hanging_node"
+///         a node of one copy lies on a side of another.
+/// @throw Cancelled
 /// @post  The copies of parts of order 1 do not store their nodes: see `hold_nodes()`.
 /// @note  Memory: the source quads of each copy, and 24 bytes per node once nodes are stored.
 FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const PatternOptions& options = {},
@@ -148,13 +152,15 @@ struct FilledShell {
 
 /// Mesh faces of a model with quads that conform along common edges. Given quads are kept.
 /// @param options  used: size, curvature, gap, quads, order, second_order
-/// @throw InvalidInput  as `sweep::check()`; "fill.no_faces": there are no faces. NotSweepable  as
-///        `surface::mesh_source()`; "sweep.folded_quads": the message names the face and the place. Cancelled
+/// @throw InvalidInput "fill.no_faces"  there are no faces. Or the errors of `sweep::check()`.
+/// @throw NotSweepable "sweep.folded_quads"  names the face and the place. Or the errors of
+///         `surface::mesh_source()`.
+/// @throw Cancelled
 FilledShell quads(const topology::Model& model, const std::vector<FaceId>& faces,
                   const sweep::SweepOptions& options = {}, const RunContext& context = {});
 
-/// The quads and triangles of a deck without solids, measured as those of `quads()`.
-/// @throw  as `io::read_facets()` and `quads()`
+/// The quads and triangles of a deck without solids, measured like the quads of `quads()`.
+/// @throw  the errors of `io::read_facets()` and `quads()`
 FilledShell measured_quads(const io::Deck& deck, const RunContext& context = {});
 
 /// A model of the shell with one face for each region. The faces keep the quads. It can be shown or swept.

@@ -26,7 +26,8 @@ using namespace topology;
 
 namespace {
 
-/// The sets of the source's edges, assigned to the images of these edges halfway along the motion.
+/// For each edge of `moved`, the source halfway along the motion: the names of the sets of the source edge
+/// whose image it is.
 std::map<EdgeId, std::vector<std::string>> sets_above(const SweptSource& swept, const Model& moved)
 {
     std::map<EdgeId, std::vector<std::string>> sets;
@@ -150,8 +151,8 @@ private:
                                     entity_of(given_, face), place_with_digits(at, 4), found(largest_share()))
                                 .remedy("use a smaller thickness"));
         Message message("closure.along_folds",
-                        "{} does not advance at {}, at {:.3g} of the path: the path bends there within the "
-                        "width of the source, or runs along it",
+                        "the layers over {} fold at {}, at {:.3g} of the path: the path bends there within "
+                        "the width of the source, or runs along the source",
                         entity_of(given_, face), place_with_digits(at, 4), found(rows_[row]));
         throw NotClosed(std::move(message).remedy("use a wider bend, or a smaller source"));
     }
@@ -208,7 +209,8 @@ private:
 
     // --- points and edges ----------------------------------------------------------------------------------
 
-    /// Points of the rim have a place in each row, other points only on the target.
+    /// Add the points of all rows. Rim points get one in each row, other points only one in the last row, on
+    /// the target.
     void place_points()
     {
         at_row_.assign(rows_.size(), std::vector<Index>(given_.points.size(), -1));
@@ -363,7 +365,8 @@ private:
     std::vector<Index> used_;                ///< points of the source's facets
     std::vector<std::vector<Index>> at_row_; ///< by row and point of the source: the point there; -1: none
     std::map<std::pair<VertexId, std::size_t>, VertexId> vertices_;
-    std::set<std::pair<VertexId, std::size_t>> paths_; ///< vertices and levels that have their void edge
+    std::set<std::pair<VertexId, std::size_t>> paths_; ///< source vertices and levels whose void edge along
+                                                       ///< the path exists
     std::vector<FaceId> walls_;
     std::vector<Vec3> reach_; ///< by point of the source: the vector it moves by, if each point has its own
     double sense_ = 0;        ///< sign of the advance of the source's facets along their normals
@@ -394,7 +397,8 @@ std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& 
     SweptSource half{swept.source, geometry::part_of_motion(swept.motion, 0, kHalf), false, swept.sets};
     StepPiece first{.volume = close_along(half, {}, context).volume, .turn_to = kHalf};
     const Model& model = first.volume.model;
-    // The second half starts from the target of the first, whose edges have the order of the source's.
+    // The source of the second half is the target of the first half. Its edges have the order of the source's
+    // edges.
     half.source.model = extract(model, first.volume.faces(Role::target));
     half.source.role.assign(half.source.model.faces.size(), Role::source);
     half.motion = geometry::part_of_motion(swept.motion, kHalf, 1);

@@ -228,7 +228,7 @@ std::optional<EdgeId> edge_on_axis(const Model& model, const Vec3& point, const 
 }
 
 /// Refuse a source that touches its axis, where cells would have no width.
-/// @param wedges  whether it can be swept with wedges
+/// @param wedges  whether the volume can be swept with wedges, which the remedy then names.
 void check_axis(const Model& model, const Vec3& point, const Vec3& axis, bool wedges = false)
 {
     if (const auto edge = edge_on_axis(model, point, axis))
@@ -250,7 +250,7 @@ void check_axis(const Model& model, const Vec3& point, const Vec3& axis, bool we
 }
 
 /// Whether edges of a source lie on the axis of its turn.
-/// @throw InvalidInput  it touches the axis elsewhere.
+/// @throw InvalidInput "closure.along_axis"  the source touches the axis, but not along an edge.
 bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
 {
     if (!edge_on_axis(model, point, axis)) {
@@ -313,8 +313,9 @@ Vec3 round_normal(const RoundShape& shape, const Vec3& place)
     return out.normalized();
 }
 
-/// For each point of a source, the vector whose component along the normal of every face there is 1: the
-/// corner of the parallel faces at distance 1. Faces that meet without a crease share their mean normal.
+/// For each point of a source, the offset to the corner of the parallel faces at distance 1: its component
+/// along the normal of every face at the point is 1. Faces that meet without a crease share their mean
+/// normal.
 std::vector<Vec3> unit_offsets(const Model& model)
 {
     std::vector<std::vector<std::pair<FaceId, Vec3>>> normals(model.points.size());
@@ -342,8 +343,8 @@ std::vector<Vec3> unit_offsets(const Model& model)
         Eigen::MatrixXd rows(std::ssize(sums), 3);
         for (std::size_t i = 0; i < sums.size(); ++i)
             rows.row(static_cast<Eigen::Index>(i)) = sums[i].stableNormalized().transpose();
-        // A threshold for pivots: those of two unit normals that differ by the crease angle are 1 and
-        // sin 30° = 0.5.
+        // Threshold for pivots. The pivots of two unit normals that differ by the crease angle are 1 and 0.5,
+        // the sine of 30°.
         constexpr double kDependent = 0.1;
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
         solver.setThreshold(kDependent);
@@ -519,7 +520,7 @@ struct MotionMaker {
         if (along.turns == 0)
             throw InvalidInput("closure.along_turns", "along: a helix needs 'turns' other than {}", found(0));
         check_axis(swept.source.model, along.point, axis);
-        // With the pitch as it is, negative turns would go down along the same right-handed helix.
+        // Reverse the pitch for negative turns: otherwise the path would go down the same right-handed helix.
         const double pitch = along.turns < 0 ? -along.pitch : along.pitch;
         return distorted(geometry::screw(along.point, axis, along.turns * kFullTurn, pitch), centre,
                          start_of_turn(along.point, axis, centre), by);

@@ -30,18 +30,18 @@ using namespace topology;
 
 namespace {
 
-/// Angle by which walls turn inward at a mouth [degrees]: above the angle between facets of a bent wall,
-/// below that of a branch that leaves obliquely.
+/// Least angle by which walls turn inward at a mouth [degrees]. It is larger than the angle between the
+/// facets of a bent wall, and smaller than the angle at an oblique branch.
 constexpr double kConcave = 15;
 /// Largest depth of a dip (the line across a mouth in which the cut faces meet, see `add_dip()`), as a share
 /// of the distance to the opposite wall. For equal tubes the dip then reaches the axis.
 constexpr double kDeepest = 0.5;
-/// Branches leave to one side if the cosine of the angle between their directions, or opposite directions, is
-/// above this (30°); an edge this close to the axis runs along it. A higher value adds planes at small angles
-/// to each other; a lower one lets branches to different sides share a plane.
+/// Cosine of 30°. Two branches share a plane along the main body if the normals of their planes, up to sign,
+/// differ by less than this angle. An edge within this angle of the axis runs along the axis. A higher value
+/// adds planes at small angles to each other; a lower one lets branches to different sides share a plane.
 constexpr double kSameSide = 0.87;
-/// A face at the mouth is an end of its branch, not a wall, if the cosine between its normal and the branch
-/// is above this (44°): about half way between an end square to the branch and a wall along it.
+/// Cosine of 44°. A face at the mouth is an end of its branch, not a wall, if its normal is within this angle
+/// of the branch's direction: about half way between an end square to the branch and a wall along it.
 constexpr double kAlongWay = 0.72;
 /// Lines along a main body closer than this share of its widest mouth are merged, as they would bound a
 /// sliver. A higher value moves lines further from the centres of their mouths.
@@ -84,7 +84,7 @@ public:
     Branching run()
     {
         find_lines();
-        // A line that is no mouth separates no regions: remove it, and the regions around it merge.
+        // Remove lines that are no mouths, so that the regions on their two sides merge.
         for (bool again = true; again;) {
             find_regions();
             again = std::erase_if(result_.mouths, [&](Mouth& mouth) { return !set_sides(mouth); }) > 0;
@@ -305,8 +305,8 @@ private:
             refuse(mouth, formatted("the main body has {} ends, so its direction is ambiguous", ends.size()));
     }
 
-    /// Planes along the main body, through the centre of each mouth and of each edge across its ends. Empty
-    /// if all branches leave to one side.
+    /// Planes along the main body: one through the centre of each mouth, and one through the middle of each
+    /// edge that crosses an end of the main body. Empty if all branches leave to one side.
     [[nodiscard]] std::vector<geometry::Plane> planes_along(const std::vector<const Mouth*>& mouths) const
     {
         const Model& model = volume_.model;
@@ -355,8 +355,8 @@ private:
         return planes;
     }
 
-    /// Split the walls of the main body along some planes, then cut the branches. The new lines determine how
-    /// the ends of arms correspond if mouths on several sides bend their rims.
+    /// Split the walls of the main body along some planes, then cut the branches. Mouths on several sides
+    /// bend the rims of the arms' ends; the new lines determine how these rims correspond.
     std::vector<StepPiece> with_lines(const std::vector<geometry::Plane>& planes) const
     {
         OpenVolume lined = volume_;
@@ -471,7 +471,8 @@ private:
         return geometry::to_plane(plane, place_at(model, place, plane));
     }
 
-    /// Walks across the main body: those from mouth to mouth first, then closed ones next to them.
+    /// Section lines across the main body: first those from mouth to mouth, then the closed ones in the same
+    /// region.
     [[nodiscard]] std::vector<SectionWalk> walks_across(const std::vector<const Mouth*>& mouths,
                                                         const geometry::Plane& plane) const
     {
@@ -484,7 +485,7 @@ private:
         if (open != mouths.size())
             refuse(mouth, open < mouths.size() ? "no wall of the main body lies opposite"
                                                : "walls of the main body are missing opposite");
-        // Keep the closed ones inside the region bounded by the open ones.
+        // Keep the closed walks inside the region that the open walks bound.
         std::vector<std::vector<Vec2>> loops(1);
         for (std::size_t w = 0; w < walks.size(); ++w) {
             if (w >= open) loops.emplace_back();
@@ -519,7 +520,7 @@ private:
             if (found_.region[made.parent[f].index()] == mouths.front()->host) host.emplace_back(f);
 
         Partition middle;
-        std::map<VertexId, EdgeUse> onward; // by start vertex: the dip that continues a walk which ends there
+        std::map<VertexId, EdgeUse> onward; // by the vertex at which a walk ends: the dip that continues it
         for (const Mouth* mouth : mouths) {
             // The void faces of earlier mouths come after the faces of the skin.
             std::vector<FaceId> branch;
@@ -605,8 +606,8 @@ private:
         return {use_from(model, halves[0].front()), use_to(model, halves[0].back())};
     }
 
-    /// Add the dip: a parabola across the mouth into the main body. It goes down by half of the mouth's width
-    /// along the axis, counted from the mouth's widest place, but at most half way to the opposite wall.
+    /// Add the dip: a parabola across the mouth into the main body. Its lowest point lies below the mouth's
+    /// widest place by half of the mouth's extent along the axis, but at most half way to the opposite wall.
     EdgeId add_dip(Model& model, const Mouth& mouth, const geometry::Plane& plane,
                    std::pair<VertexId, VertexId> ends)
     {

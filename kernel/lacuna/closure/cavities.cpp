@@ -16,7 +16,8 @@ using namespace topology;
 
 namespace {
 
-/// @param mouths  number of free loops of its faces
+/// The kind of a cavity as users read it.
+/// @param mouths  number of free loops of the cavity's faces.
 const char* word(VolumeClass value, std::size_t mouths)
 {
     return value == VolumeClass::closed            ? "inner void"

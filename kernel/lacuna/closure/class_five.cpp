@@ -56,8 +56,7 @@ std::vector<Tube> tubes_of(const OpenVolume& volume)
     return tubes;
 }
 
-/// Distance of a loop's centre from another loop, along that loop's normal, which is the sweep direction
-/// there.
+/// Distance between the centres of two loops along the normal of `to`, which is the sweep direction there.
 double distance(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
 {
     const Vec3 normal = geometry::newell_vector(to).stableNormalized();
@@ -90,7 +89,7 @@ void sort_ends(const Model& model, std::vector<Tube>& tubes)
     }
 }
 
-/// Reverse the tubes inside another, so that all walls face the void.
+/// Reverse each tube that lies inside another tube, so that all walls face the void.
 void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
 {
     const geometry::Plane plane = geometry::newell_plane({&tubes.front().points[0], 1});
@@ -108,7 +107,8 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
                                     entity_of(volume.model, tubes.front().walls.front()))
                                 .remedy("make an open volume of each"));
         }
-        // With the void between them, the loop of an inner tube runs against that of the outer one.
+        // If the void lies between two tubes, the loop of the inner one runs opposite to that of the outer
+        // one.
         const double along =
             geometry::newell_vector(tubes[i].points[0]).dot(geometry::newell_vector(tubes.front().points[0]));
         if (along > 0) {

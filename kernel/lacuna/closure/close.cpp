@@ -66,7 +66,7 @@ void check_options(const OpenVolume& volume, VolumeClass value, const std::vecto
     if (options.holes != Holes::automatic && holes.empty()) {
         throw InvalidInput(
             Message("closure.holes_unused",
-                    "the option holes applies to holes of a given end without walls, and there is none")
+                    "the option holes applies only to holes without walls in a given end, and there are none")
                 .remedy("leave the option out"));
     }
     if (!options.void_edges.empty() && !has_two_ends(value)) {
@@ -110,7 +110,7 @@ double lean_of(const OpenVolume& volume)
 /// Above this angle, ends without walls are closed by a bend, because straight edges would meet both ends at
 /// small angles. Between kLean and this angle they are closed straight.
 constexpr double kBend = 100 * kDegree;
-/// Straight closings between ends at a larger angle may have been meant as a bend; a note says so.
+/// Above this angle between the ends, a straight closing may have been meant as a bend; a note says so.
 constexpr double kLean = 20 * kDegree;
 
 /// Relative difference of an alternative volume; 0 if the alternative is impossible.
@@ -132,8 +132,8 @@ bool asks_for_shape(const CloseOptions& options)
            options.cap != Cap::automatic;
 }
 
-/// Note an assumption about missing walls next to a missing end. Its share of the volume is that of a bulge
-/// over these walls by a quarter of their width (4 area / perimeter).
+/// Note an assumption about missing walls next to a missing end. The uncertain share of the volume is
+/// estimated by a bulge of these walls by a quarter of their width, which is 4 area / perimeter.
 void assume_walls(const OpenVolume& sealed, const Message& note, Closure& closure)
 {
     const double taken = enclosed_volume(sealed);
@@ -168,7 +168,7 @@ struct Asked : CloseOptions {
 /// Seals a volume of a class; tries several methods.
 class Sealer {
 public:
-    /// @param lines  of the volume, if they are known
+    /// @param lines  side lines of the volume; empty: to be found when needed.
     Sealer(const OpenVolume& volume, const std::optional<std::vector<matching::SideLine>>& lines,
            VolumeClass value, const Asked& options, const RunContext& context)
         : volume_(volume), lines_(lines), value_(value), options_(options), context_(context)
@@ -274,8 +274,8 @@ private:
                share);
     }
 
-    /// Note a missing end with missing walls that was closed by several flat faces, void faces whose rim does
-    /// not determine their inside, and those that may close off a pocket.
+    /// Note three kinds of ambiguity: a missing end with missing walls that several flat faces close; void
+    /// faces whose rim does not determine their inside; void faces that may close off a pocket.
     void say_what_is_open(Closed& closed) const
     {
         auto& [sealed, closure] = closed;
@@ -330,7 +330,7 @@ private:
         matching::MatchOptions turned;
         turned.vertices = pairs_by_hand(volume_, options_);
         for (const matching::LoopPair& pair : match.loops) turned.flip.push_back(pair.source);
-        // Refused: walls or pairs fix the direction.
+        // match() refuses if walls or pairs fix the direction.
         const auto other = unless_refused([&] { return matching::match(volume_, turned, context_); });
         if (!other) return otherwise();
         for (const Way& way : wanted(*other)) {
@@ -388,7 +388,7 @@ bool lacks_walls(const OpenVolume& volume)
 }
 
 /// Seal a volume of class IV that lacks walls as well: the target is the source's shape, moved onto the tops
-/// of the given walls. Empty if these do not determine the motion, or if another shape is asked for.
+/// of the given walls. Empty if the walls do not determine the motion, or if an option sets another shape.
 std::optional<Closed> seal_as_source_tells(const OpenVolume& volume, const CloseOptions& options,
                                            const RunContext& context)
 {
@@ -455,7 +455,7 @@ Closed close_covered(const OpenVolume& volume, const std::vector<EndHole>& holes
     return closed;
 }
 
-/// The error about holes without walls: the options, with the enclosed volumes.
+/// The error about holes without walls. It lists both options and the volumes that they enclose.
 Message holes_message(const Model& model, const std::vector<EndHole>& holes, const HoleVolumes& volumes)
 {
     const auto encloses = [](const std::optional<double>& volume) {

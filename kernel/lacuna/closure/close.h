@@ -18,8 +18,9 @@ namespace lacuna::closure {
 
 /// Shape of a void edge between its two vertices.
 enum class EdgeShape {
-    /// Straight, or `follow` if straight edges would stray from the walls. If that crosses the given faces or
-    /// encloses no volume, the first of straight, `follow` and `smooth` that seals.
+    /// Between ends at more than 100° to each other without walls that join them: `smooth`. Otherwise
+    /// `straight`, or `follow` if straight edges would stray from the walls. If the first choice crosses
+    /// given faces or encloses no volume, the first other shape that seals the volume.
     automatic,
     straight, ///< as in the paper
     follow,   ///< bent like the given walls beside it
@@ -127,8 +128,8 @@ struct Closed {
 ///         and neither a shape nor `take_guess` was given; names the adjacent faces. "closure.holes_open": an
 ///         end is missing and the given one has holes without walls; reports both volumes: with the holes
 ///         covered, and with the holes extended to the other end.
-/// @throw InvalidInput  a user's void edge that is not possible; names its vertices. An option that does not
-///         apply to the volume.
+/// @throw InvalidInput  a user's void edge is impossible (names its vertices), or an option does not apply to
+///         the volume.
 /// @throw Cancelled
 /// @post  every edge is used twice, in opposite directions, and the volume enclosed is positive.
 Closed close(const topology::OpenVolume& volume, const matching::Match& match,

@@ -138,7 +138,7 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     add_void_walls(volume, tools, closure);
 }
 
-/// Whether a rim is a hole in walls, which continue beside it in its plane; walls that end at a rim stand
+/// Whether a rim is a hole in walls: the walls next to it lie in its plane. Walls that end at a rim stand
 /// across its plane.
 bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
 {

@@ -94,8 +94,8 @@ private:
             const double area = signed_area(outline(walk));
             if (std::abs(area) > std::abs(most)) most = area;
         }
-        // The outer walk is clockwise if the skin faces outward. Otherwise flip the skin: facets in the plane
-        // would be assigned to the wrong side.
+        // The outer walk is clockwise if the skin faces outward. If it is not, flip the skin: facets in the
+        // plane would otherwise be assigned to the wrong side.
         if (most > 0) {
             flip_faces(model_, all_faces(model_));
             walks_ = section_walks(model_, all_faces(model_), plane_, tolerance_);
@@ -384,7 +384,8 @@ std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plan
 {
     const auto walks = section_walks(volume.model, all_faces(volume.model), plane, volume.model.tolerance);
     if (std::ranges::any_of(walks, [](const SectionWalk& walk) { return !walk.closed; })) {
-        // With the whole closed first, the missing faces have its shape, including its corners.
+        // Close the whole volume first, so that the missing faces of the pieces have its shape, including its
+        // corners.
         if (const std::optional<OpenVolume> whole = sealed(volume, context))
             return PlaneCutter(*whole, plane, context).run(suits, straight);
     }
@@ -459,13 +460,12 @@ std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model,
     if (!own && partition.fits()) return partition.run(context);
     const std::optional<geometry::Plane> plane = plane_of(model, face);
     if (!plane)
-        throw NotSweepable(
-            Message("closure.cut_face", "{} is curved{}", entity_of(model, face),
-                    own ? " and one of the volume's own"
-                        : formatted(", and its rim leaves the volume's edges at {}",
-                                    place_with_digits(partition.off(), 4)))
-                .remedy("a curved face cuts only if its whole rim is on edges of the volume, a flat one cuts "
-                        "by its plane"));
+        throw NotSweepable(Message("closure.cut_face", "{} is curved{}", entity_of(model, face),
+                                   own ? " and one of the volume's own"
+                                       : formatted(", and its rim leaves the volume's edges at {}",
+                                                   place_with_digits(partition.off(), 4)))
+                               .remedy("use a flat face, which cuts by its plane, or a curved face whose "
+                                       "whole rim is on edges of the volume"));
     if (own) return cut_by_plane(volume, *plane, context);
     const geometry::FacetTree facets(model.points, model[face].triangles);
     const double tolerance = volume.model.tolerance;

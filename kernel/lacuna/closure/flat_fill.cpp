@@ -68,7 +68,7 @@ std::vector<Rim> simple_loops(const Model& model, const std::vector<Rim>& loops)
     return simple;
 }
 
-/// The free loops of the faces, loops in several planes already split.
+/// The free loops to fill. Loops in several planes are already split.
 struct ToFill {
     std::vector<Loop> flat, bent;
 };
@@ -139,7 +139,8 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
     volume.model = extract(model, faces);
     orient_consistently(volume.model);
     volume.role.assign(faces.size(), Role::wall);
-    // Refused: a ridge across a notch, whose straight edge would be outside the rim; a bent face that folds.
+    // Two things are refused: a ridge across a notch, if its straight edge would be outside the rim; a bent
+    // face that folds.
     return unless_refused([&]() -> std::optional<FlatFilling> {
                const std::optional<ToFill> loops = loops_to_fill(result, missing, context);
                if (!loops) return std::nullopt;
@@ -167,8 +168,9 @@ bool prove(FlatFilling& filling, const RunContext& context)
     return filling.closure.watertight;
 }
 
-/// A new face at a larger angle to the source's plane is a wall, if another face is at a smaller one
-/// [degrees]. Below it, chamfers and roof slopes belong to the end; above it are the risers of steps.
+/// Largest angle between the source's plane and a new face of the missing end [degrees]; chamfers and roof
+/// slopes are below it. Steeper new faces, such as the risers of steps, are walls, unless no new face is
+/// flatter.
 constexpr double kSlope = 60;
 
 /// Make the new faces that face away from the source its target; the others stay walls.

@@ -26,9 +26,9 @@ constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
 /// more than kFarAstray (same unit).
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
 /// If some walls form rings, the open walls of another loop determine that loop only if the rings' motion
-/// misses half of their points by more than this, as a share of their radius. Below it the rings represent
-/// the bend better. On 350 tubes that bend, twist and taper they missed by at most 0.005 in nine of ten
-/// cases; on a lofted pipe by 0.017.
+/// misses half of the points of these open walls by more than this share of the loop's radius. Below it, the
+/// rings represent the bend better. On 350 tubes that bend, twist and taper they missed by at most 0.005 in
+/// nine of ten cases; on a lofted pipe by 0.017.
 constexpr double kMissed = 0.01;
 
 /// Mean distance of points from their centroid; 0 if there are none.
@@ -65,9 +65,9 @@ double median(std::vector<double> values)
     return *middle;
 }
 
-/// How far the walls stray from straight lines between the rims, as a share of the source rim's radius. For
-/// each point of the sections, the largest distance over the heights from the strip formed by such lines; of
-/// these the median.
+/// How far the walls stray from straight lines between the rims, as a share of the source rim's radius: for
+/// each point of the sections, the largest distance at any height from the strip of such lines is taken, and
+/// the median of these distances is returned.
 double bow_of(const std::vector<std::vector<Vec3>>& levels)
 {
     constexpr std::size_t kStep = 4; // checks every fourth level only, to save time

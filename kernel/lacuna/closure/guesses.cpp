@@ -308,11 +308,10 @@ FaceId open_hole(const Model& model, const std::vector<FaceId>& given, const Ope
 
 Message guess_of_hole(const Model& model, FaceId face)
 {
-    return {
-        "topology.shape_open",
-        "it is ambiguous whether the hole of {} ends there or goes through: its walls are missing, and so "
-        "is an opposite end",
-        entity_of(model, face)};
+    return {"topology.shape_open",
+            "it is ambiguous whether the hole of {} ends at this face or goes through: its walls and an "
+            "opposite end are missing",
+            entity_of(model, face)};
 }
 
 void assume(Closure& closure, Message note, double share)
@@ -373,14 +372,13 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
         // If roles are named, one wall is missing there. Otherwise the void face may stand for several faces.
         if (by == RolesBy::finding && !is_membrane(model, face) &&
             (is_untold(model, face) || closes_hole_in_bent_face(model, face)))
-            assume(
-                closure,
-                Message(
-                    "closure.wall_assumed",
-                    "the rim of {} does not determine what is missing beside {}; one face is assumed there",
-                    entity_of(model, face), given_beside(model, face))
-                    .remedy("if several faces or a whole part are missing there, give them"),
-                1);
+            assume(closure,
+                   Message("closure.wall_assumed",
+                           "the rim of {} does not determine how many faces are missing beside {}; one face "
+                           "is assumed",
+                           entity_of(model, face), given_beside(model, face))
+                       .remedy("if several faces or a whole part are missing there, give them"),
+                   1);
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
         assume(closure,
                Message("closure.rough_rim", "the rim of {} is rough and is closed by a smooth face",

@@ -31,7 +31,8 @@ using namespace topology;
 
 namespace {
 
-/// The edges at a vertex as three right-handed axes, seen from inside the volume, and the face across each.
+/// The edges at a vertex as three right-handed axes, seen from inside the volume, and for each edge the face
+/// at the vertex that is not bounded by it.
 struct Net {
     std::array<EdgeId, 3> edge;
     std::array<FaceId, 3> across;
@@ -291,7 +292,8 @@ public:
     {
     }
 
-    /// @param fixed  whether the middles of faces stay at their centroids, as those of a neighbour do.
+    /// @param fixed  whether the middles of faces stay at their centroids, where the neighbour that shares
+    ///         the face has them.
     std::vector<OpenVolume> run(bool fixed)
     {
         const std::size_t edges = model_.edges.size(), faces = model_.faces.size();
@@ -319,7 +321,8 @@ public:
     }
 
 private:
-    /// Add the edges from the middles of faces to that of the volume, and a face for each edge of the skin.
+    /// Add the edges from the middles of faces to the middle of the volume, and a face for each edge of the
+    /// skin.
     void join_middles(VertexId middle)
     {
         std::map<VertexId, EdgeUse> spoke;
@@ -354,7 +357,8 @@ private:
 
     std::vector<Net> net_;
     std::vector<VertexId> middle_of_edge_, middle_of_face_;
-    std::vector<std::vector<std::vector<EdgeUse>>> lines_; ///< by edge: from its middle to those of its faces
+    std::vector<std::vector<std::vector<EdgeUse>>> lines_; ///< by edge: lines from its middle to the middles
+                                                           ///< of its faces
     std::vector<FaceId> between_; ///< by edge: the face between the blocks at its ends
 };
 

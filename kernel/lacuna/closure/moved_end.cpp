@@ -54,8 +54,8 @@ double off_chain(const Vec3& p, const std::vector<Vec3>& chain)
     return least;
 }
 
-/// The flat faces with some adjacent walls given and others missing, those with the most adjacent faces
-/// first.
+/// The flat faces with some adjacent walls given and others missing, in the order of the model. If there are
+/// too many, those with the most adjacent faces are kept.
 std::vector<FaceId> possible_ends(const Model& model)
 {
     constexpr std::size_t kMost = 16; // limits run time: each may be closed on trial
@@ -74,7 +74,7 @@ std::vector<FaceId> possible_ends(const Model& model)
     return ends;
 }
 
-/// A given end, and the known part of the end it is moved to.
+/// Moves a given end to the missing end, part of whose rim is known.
 class EndMover {
 public:
     /// @pre  the volume's model is oriented, its source is the given end, and all other faces are walls

@@ -63,7 +63,7 @@ std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& cont
             if (!plane || tried.size() == kMostPlanes || std::ranges::find(tried, use.face) != tried.end())
                 continue;
             tried.push_back(use.face);
-            // Refused: the plane crosses given quads of a face, or leaves the volume in one piece.
+            // A cut is refused if the plane crosses given quads of a face, or leaves the volume in one piece.
             const auto cut = unless_refused(
                 [&] { return read_ends(cut_by_plane(volume, *plane, context), context).pieces; });
             if (cut && std::ranges::all_of(*cut, walls_run_between_ends, &StepPiece::volume))

@@ -31,8 +31,9 @@ namespace {
 
 /// Bounds of the search, so that a part with hundreds of features ends in seconds.
 constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
-/// Number of cuts whose pieces are searched for ends, those that leave the least to cut: the search costs
-/// more than the cut. Also the number of planes between features, and of axes for steps, that are tried.
+/// Ends are searched only in the pieces of this many cuts, those that leave the least to cut, because the
+/// search costs more than the cut. Also the number of planes between features, and of axes for steps, that
+/// are tried.
 constexpr std::size_t kMostRead = 6;
 
 /// A piece and, if it has no ends, the bends and the length that are left to cut.
@@ -78,7 +79,7 @@ struct CutTried {
     double left = 0; ///< of pieces without ends [model length]
 };
 
-/// Cut a piece by the planes that may help; the cuts that leave the least first.
+/// Cut a piece by each plane that may help. The cuts that leave the least to cut come first.
 std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const RunContext& context)
 {
     const OpenVolume& volume = part.piece.volume;
@@ -86,7 +87,7 @@ std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const Ru
     for (const auto& [plane, edges] : cut_planes(volume, part.bends, kMostRead)) {
         if (tried == kMostCuts) break;
         ++tried;
-        // Refused: the plane crosses given quads, or leaves the volume in one piece.
+        // A cut is refused if the plane crosses given quads, or leaves the volume in one piece.
         auto pieces = unless_refused([&] { return cut_at_edges(volume, plane, edges, context); });
         if (!pieces || pieces->size() < 2) continue;
         CutTried& cut = cuts.emplace_back();
@@ -162,7 +163,7 @@ private:
     std::size_t tried_ = 0, pieces_ = 1;
 };
 
-/// Directions in which a volume has flat faces to either side, those with the most area first.
+/// Axes along which flat faces of a volume face in both directions, those with the largest area first.
 std::vector<Vec3> axes_of(const OpenVolume& volume)
 {
     struct Axis {
@@ -197,8 +198,8 @@ void set_ends_along(OpenVolume& volume, const Vec3& axis)
     }
 }
 
-/// The volume with ends along an axis and the rounds at their rims divided; empty if there are no rounds, or
-/// it cannot be swept so.
+/// The volume with ends along an axis and the rounds at their rims divided. Empty if there are no rounds, or
+/// if the volume cannot be swept along any axis.
 std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const CanSweep& can_sweep,
                                               const RunContext& context)
 {
@@ -216,9 +217,9 @@ std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const Ca
     return std::nullopt;
 }
 
-/// Cut a volume at its steps along an axis. All faces that face one way form one end, all that face the other
-/// way the other, as in foam around a product, which may be tilted. Empty if no axis gives pieces that can be
-/// swept.
+/// Cut a volume at its steps along an axis. All faces that face along the axis form one end, all that face
+/// against it the other end. An example is packing foam around a tilted product. Empty if no axis gives
+/// pieces that can be swept.
 std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& can_sweep,
                                     const RunContext& context)
 {
@@ -242,7 +243,7 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
 std::vector<StepPiece> divided_at_middle(const OpenVolume& volume, std::size_t most,
                                          const CanSweep& can_sweep, const RunContext& context)
 {
-    // Refused: an edge is too short to be split.
+    // An edge that is too short to be split is refused.
     auto blocks = unless_refused([&] { return midpoint_blocks(volume, most, context); });
     std::vector<StepPiece> made;
     if (!blocks) return made;

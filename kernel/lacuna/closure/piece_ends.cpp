@@ -23,11 +23,11 @@ using namespace topology;
 
 namespace {
 
-/// Most faces of a piece whose ends are chosen again. Sets of faces are bit masks, and their number grows
-/// fast with the faces. Pieces of a few cuts have fewer faces.
+/// Pieces with more faces keep their ends. Ends are searched among all sets of adjacent faces (bit masks),
+/// whose number grows fast with the number of faces. A piece made by a few cuts has fewer faces.
 constexpr std::size_t kMostFaces = 40;
-/// Number of ends tried, the smallest sets first: enough for a prism with twelve sides. A higher value finds
-/// ends of more faces, but all pairs of ends are compared.
+/// Limit of candidate ends of a piece; candidates of few faces come first. 600 suffices for a prism with
+/// twelve sides. A higher limit finds ends that consist of more faces; the cost is quadratic in the limit.
 constexpr std::size_t kMostEnds = 600;
 /// Any two faces of one end have normals at less than 110°; this is its cosine. A lower cosine joins faces
 /// that fold back on each other; a higher one separates the slopes of a steep roof.
@@ -35,13 +35,14 @@ constexpr double kOneEnd = -0.35;
 /// A face of an end turns from the end's mean normal by less than 70°; this is its cosine. Columns run along
 /// a steeper face, such as a riser between two steps, and cells beside it have no volume.
 constexpr double kFacesEnd = 0.34;
-/// An end is flat within this share of its area.
+/// A face may belong to an end if its mean normal, which has the length 1 on a flat face, is longer than 1 −
+/// kFlat.
 constexpr double kFlat = 0.1;
 /// Bonus of an end named by the user against ends that are flatter or more square to their walls. A higher
 /// value keeps named ends at the price of worse cells.
 constexpr double kNamed = 0.1;
-/// Cost of a cut that is a wall of both adjacent pieces but has different sides along their ends. It exceeds
-/// the usual costs of ends, so that matching cuts come first.
+/// Cost of a cut that is a wall of both adjacent pieces, but touches their ends along different edges (see
+/// `unlike()`). It exceeds the usual costs of ends, so that matching cuts come first.
 constexpr double kUnlikeCut = 10;
 
 using FaceSet = std::uint64_t;
@@ -54,7 +55,7 @@ void for_each(FaceSet set, const Do& use)
     for (; set != 0; set &= set - 1) use(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-/// By pair: the two faces beside successive edges of a face that run in one line.
+/// Pairs of faces that adjoin a face along two successive edges in one line.
 using Beside = std::vector<std::pair<FaceId, FaceId>>;
 
 Beside faces_in_line(const Model& model, FaceId face)
@@ -200,7 +201,7 @@ private:
     };
     struct OneFace {
         std::vector<std::vector<Side>> loops;
-        FaceSet beside = 0, touched = 0; ///< faces that share an edge, and a vertex
+        FaceSet beside = 0, touched = 0; ///< faces that share an edge with it; faces that share a vertex
         Vec3 normal = Vec3::Zero();      ///< mean normal: shorter than 1 if the face bends
         double area = 0;
     };
@@ -280,8 +281,8 @@ struct Ends {
     std::map<std::string, std::set<std::pair<Origin, int>>> wall{};
 };
 
-/// Number of cuts that are walls of both pieces but have different sides along the ends of each, so that the
-/// rows of quads of the pieces cannot match.
+/// Number of cut faces that are walls of both pieces, but touch the ends of the two pieces along different
+/// edges, so that the pieces' rows of quads on the cut cannot match.
 std::size_t unlike(const Ends& a, const Ends& b)
 {
     return static_cast<std::size_t>(std::ranges::count_if(a.wall, [&](const auto& wall) {
@@ -290,7 +291,8 @@ std::size_t unlike(const Ends& a, const Ends& b)
     }));
 }
 
-/// Possible ends of a piece: its current ones, if valid, and others; at least one entry, which may be empty.
+/// Pairs of ends that a piece can be swept between, its current pair first if valid. If there are none, one
+/// pair of empty ends.
 std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
 {
     const Model& model = piece.model;

@@ -107,8 +107,8 @@ private:
             else
                 lone[sets.find(f)].emplace_back(f);
         }
-        // Faces that touch no partition belong to the piece they lie in; ends without walls belong to the
-        // nearest.
+        // Faces that touch no partition belong to the piece that they lie in. If they lie in no closed piece,
+        // as ends without walls may, the piece with the largest winding number gets them.
         std::vector<std::size_t> home;
         for (const auto& [root, skin] : lone) home.push_back(part_round(skin));
         std::size_t next = 0;
@@ -118,7 +118,7 @@ private:
         }
     }
 
-    /// Number of pieces in front of a part, along the longest way.
+    /// Number of pieces in front of a part, along the longest chain of pieces.
     [[nodiscard]] int steps_below(const Part& part) const
     {
         int steps = 0;
@@ -205,7 +205,7 @@ private:
     }
 
     /// In a piece with both ends, the end that a flat cut across the sweep belongs to: the one with the same
-    /// normal.
+    /// normal. Null if the cut is not across the sweep.
     [[nodiscard]] std::vector<FaceId>* faced_as(const std::vector<FaceId>& cut, const Part& part,
                                                 Roles& roles) const
     {

@@ -32,8 +32,8 @@ constexpr std::size_t kMostSealed = 24;
 /// Number of candidates checked if none of the likeliest seals. A lower number may find no void; a higher one
 /// costs time in proportion.
 constexpr std::size_t kMostTried = 50;
-/// Cost of closing by flat faces, but not by one for each free loop. It equals the cost of missing ends in
-/// `topology::role_candidates()`.
+/// Cost of a flat filling in which a loop is split between faces or a face has several loops
+/// (`!FlatFilling::each_alone`). It equals the cost of missing ends in `topology::role_candidates()`.
 constexpr double kFilled = 0.1;
 
 /// Whether a void edge is further from its chord than a half circle.
@@ -65,7 +65,8 @@ bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& fil
 {
     if (!filled || !filled->each_alone || found.empty()) return false;
     const Model& model = filled->volume.model;
-    // Flat faces between parts would separate them, and one that continues its neighbour encloses nothing.
+    // Flat faces close each connected part alone, so several parts do not count. Nor does a flat face in the
+    // plane of its neighbour: it encloses nothing.
     std::vector<FaceId> given = all_faces(model);
     std::erase_if(given, [&](FaceId face) { return model[face].origin != Origin::given; });
     if (connected_parts(model, given).size() != 1) return false;
@@ -79,7 +80,8 @@ bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& fil
            }) > 0;
 }
 
-/// The void that flat faces close, unless there is one for each free loop.
+/// The void closed by flat faces; empty if each free loop is planar and gets a face of its own
+/// (`each_alone`).
 /// @param told  whether a void without ambiguous bends is known; a channel is then not closed
 std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vector<FaceId>& faces, bool told,
                               const RunContext& context)
@@ -119,7 +121,7 @@ std::optional<Reading> without_ends(FlatFilling filled, const RunContext& contex
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
-    // Refused: new faces that share an edge with two others.
+    // Filling is refused if a new face shares an edge with two others.
     auto filled = unless_refused([&] {
                       return fill_all_loops(model, faces, context);
                   }).value_or(std::nullopt);

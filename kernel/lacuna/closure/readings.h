@@ -43,7 +43,7 @@ struct Reading {
     std::size_t ways = 1; ///< number of candidates for roles that enclose this volume
     /// Null if there is no other sweep direction, or if the user gave the ends.
     std::shared_ptr<const OtherSweeps> others;
-    /// Set if no ends were found: why. Then `closure` is set, and all faces of `volume` are walls.
+    /// Why no ends were found. If set, `closure` is set too, and all faces of `volume` are walls.
     std::optional<Message> no_roles;
 };
 
@@ -53,12 +53,12 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// The voids that some faces of `model` may enclose when no roles are given, likeliest first. Voids that are
 /// clearly less likely than the first are left out.
 ///
-/// Each of topology::role_candidates() is sealed; those that do not seal are dropped. Two are the same void
-/// if their volumes agree and the distance between their void faces is small against their size. Each void is
-/// then analysed again as a closed skin and swept in its best direction: of the candidates about as likely as
-/// the likeliest, the one with the fewest expected irregular nodes, then the one with the most even cells.
-/// The volume stays open if a candidate of the given faces has the same roles. The next three directions are
-/// kept for when the first cannot be meshed.
+/// Each of topology::role_candidates() is sealed; those that do not seal are dropped. Two candidates enclose
+/// the same void if their volumes agree and their void faces are close together, compared with their size.
+/// Each void is then analysed again as a closed skin and swept in its best direction: of the candidates about
+/// as likely as the likeliest, the one with the fewest expected irregular nodes, then the one with the most
+/// even cells. The volume stays open if a candidate of the given faces has the same roles. The next three
+/// directions are kept for when the first cannot be meshed.
 ///
 /// A hollow without such a candidate, because its bottom blends smoothly into its walls (a hemisphere, a bore
 /// with a round end), is split across the blend; its bottom is the source.
@@ -73,7 +73,8 @@ topology::OpenVolume other_sweep(const OtherSweeps& others, std::size_t k);
 /// A void with an ambiguous bent face is dropped if there is one with flat faces; if it is the only void, it
 /// is kept, and `Reading::guess` describes the ambiguity.
 /// @return  empty if no candidate is valid.
-/// @throw InvalidInput  faces that cannot be oriented. Cancelled.
+/// @throw InvalidInput  the faces cannot be oriented.
+/// @throw Cancelled
 /// @note  O(facets log facets) for each sealed candidate, at most 24. Candidates that only fill flat free
 ///        loops enclose the same volume, so only one of them is sealed.
 std::vector<Reading> find_readings(const topology::Model& model, const std::vector<FaceId>& faces,
@@ -82,13 +83,14 @@ std::vector<Reading> find_readings(const topology::Model& model, const std::vect
 /// The only void of some faces, or the one selected by number.
 /// @param number  from 1, as in the error message; 0: there must be exactly one void, with an unambiguous
 ///         shape.
-/// @return  the void. One without ends to sweep between, whose rims determine its missing faces, has
-///          `no_roles`. If `number` is 0 and only holes without walls make it ambiguous: a class IV volume
-///          whose source is the face with these holes; close() then needs `CloseOptions::holes`.
-/// @throw InvalidInput "topology.no_roles", or "topology.sphere", "topology.cone",
-///        "topology.crossing_bores" for these shapes, "topology.roles_ambiguous" (lists the enclosed
-///        volumes), "topology.shape_open" (names the faces next to the missing one),
-///        "topology.no_such_reading". Cancelled.
+/// @return  the void. A void without ends to sweep between, whose rims determine its missing faces, has
+///         `no_roles`. If `number` is 0 and only holes without walls make the choice ambiguous, a class IV
+///         volume whose source is the face with these holes; close() then needs `CloseOptions::holes`.
+/// @throw InvalidInput "topology.no_roles"  no ends were found; instead "topology.sphere", "topology.cone" or
+///         "topology.crossing_bores" for these shapes. "topology.roles_ambiguous"  several voids; lists the
+///         enclosed volumes. "topology.shape_open"  a missing face of ambiguous shape; names the faces next
+///         to it. "topology.no_such_reading"  a wrong number.
+/// @throw Cancelled
 Reading find_reading(const topology::Model& model, const std::vector<FaceId>& faces, int number = 0,
                      const RunContext& context = {});
 

@@ -83,8 +83,8 @@ std::optional<EvenFrame> even_frame(std::span<const Vec3> points)
                      spread.axis * stretches.asDiagonal() * spread.axis.transpose()};
 }
 
-/// A basis of the forms that vanish on some points, in the units of their frame; empty if there are too few
-/// points to decide.
+/// A basis of the forms that vanish on some points, in the units of their frame. Empty if there are too few
+/// points to decide, or more than two independent forms.
 std::vector<Eigen::Matrix4d> forms_through(std::span<const Vec3> points, const EvenFrame& frame)
 {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(10, 10);
@@ -189,7 +189,7 @@ enum class RimIs {
 
 std::vector<Vec3> rim_places(const Model& model, const std::vector<Loop>& loops, RimIs rim)
 {
-    constexpr double kFar = 0.25; // share of the rim's extent: twelve facets of a circle are closer
+    constexpr double kFar = 0.25; // share of the rim's extent; points of a circle of twelve facets are closer
     constexpr std::size_t kPieces = 4;
     std::vector<std::vector<Vec3>> chains;
     Eigen::AlignedBox3d box;

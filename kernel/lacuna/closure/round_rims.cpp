@@ -62,8 +62,8 @@ public:
 private:
     bool divide(const std::vector<FaceId>& rounds)
     {
-        // Along the end's normal, the rounds of a product in a box lie beyond its top, those of a body behind
-        // its end.
+        // Rounds of a product in a box lie in front of the end, in the direction of `out_`. Rounds of a body
+        // lie behind its end.
         const Vec3 from_end = centroid_of(volume_.model, rounds) - centroid_of(volume_.model, part_);
         const Vec3 way = from_end.dot(out_) < -volume_.model.tolerance ? Vec3(-out_) : out_;
         const std::optional<double> height = halfway_height(rounds, way);
@@ -124,7 +124,8 @@ private:
         return least < kHalfway && most > kHalfway && volume_.model[face].given_quads.empty();
     }
 
-    /// The height that parts flat facets from steep ones, with the fewest on the wrong side.
+    /// The height that best separates flat facets from steep ones, with the fewest facets on the wrong side.
+    /// Empty if no height separates any.
     [[nodiscard]] std::optional<double> halfway_height(const std::vector<FaceId>& rounds,
                                                        const Vec3& way) const
     {

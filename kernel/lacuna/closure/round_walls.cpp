@@ -53,7 +53,7 @@ double angle_at(const geometry::Plane& base, const Vec3& place)
 /// The angle from `a` to `b`, in (-π, π].
 double turn_between(double a, double b) { return std::remainder(b - a, 2 * std::numbers::pi); }
 
-/// The turn of a closed chain round the axis: ±2π if it runs round it once.
+/// The turn of a closed chain round the axis: ±2π if the chain runs round the axis once.
 double turn_round(const geometry::Plane& base, const std::vector<Vec3>& places)
 {
     double sum = 0;
@@ -75,7 +75,7 @@ bool is_round(const geometry::Plane& base, double radius, const std::vector<Vec3
     });
 }
 
-/// Whether a given face at a rim is a part of the round wall through it.
+/// Whether a given face at a rim is a part of the round wall through the rim.
 bool is_of_wall(const Model& model, const RoundRim& rim, FaceId face)
 {
     return !plane_of(model, face) &&
@@ -88,7 +88,7 @@ struct Circle {
     double radius = 0;
 };
 
-/// The circle through the projections of places on their mean plane; empty if they are off it.
+/// The circle through the projections of places on their mean plane; empty if a place is off the circle.
 std::optional<Circle> circle_through(const std::vector<Vec3>& places)
 {
     const geometry::Plane plane = geometry::newell_plane({&places, 1});
@@ -199,7 +199,7 @@ std::vector<EdgeUse> stretch(const std::vector<EdgeUse>& loop, std::size_t from,
     return uses;
 }
 
-/// Add the four-sided wall between its sides.
+/// Add a four-sided wall, given its sides.
 void add_wall(FlatFilling& filling, const std::vector<std::vector<EdgeUse>>& sides, const RunContext& context)
 {
     VoidFilling wall = fill_transfinite(filling.volume.model, sides, nullptr, context);
@@ -242,7 +242,8 @@ FaceId given_beside(const Model& model, const Rim& rim)
     return model.uses_of_edge(rim.uses.front().edge).front().face;
 }
 
-/// Whether the given faces at a rim run along a direction. If they are inclined, so may be a missing wall.
+/// Whether the given faces at a rim run along a direction. If they are inclined, a missing wall may be
+/// inclined as well.
 bool is_square_to_walls(const Model& model, const Rim& rim, const Vec3& way)
 {
     return std::ranges::all_of(rim.uses, [&](const EdgeUse& use) {
@@ -297,8 +298,8 @@ struct RoundWall {
     [[nodiscard]] double radius_at(double height) const { return radius + slope * height; }
 };
 
-/// The round wall that contains a whole loop, and one of its edges as an arc round the axis; empty if there
-/// is none.
+/// The round wall through a whole loop, found from an edge of the loop that is an arc round the axis of the
+/// wall; empty if there is none.
 std::optional<RoundWall> wall_through(const Model& model, const Loop& loop)
 {
     const std::vector<Vec3> places = loop_places(model, loop.uses);
@@ -392,12 +393,12 @@ std::vector<Rim> add_straight_walls(FlatFilling& filling, std::vector<Rim> loops
         if (!end) continue;
         const std::vector<FaceId> at{given_beside(model, loops[l])}, beyond{given_beside(model, loops[*end])};
         loops[l] = add_walls_to(filling, loops[l], plane[*end], context);
-        assume(
-            filling.closure,
-            {"closure.straight_wall",
-             "the walls missing at the rim of {} are straight, up to the plane of the missing face beside {}",
-             entities_of(model, at), entities_of(model, beyond)},
-            0);
+        assume(filling.closure,
+               {"closure.straight_wall",
+                "the missing walls at the rim of {} are assumed to be straight, up to the plane of the "
+                "missing face beside {}",
+                entities_of(model, at), entities_of(model, beyond)},
+               0);
     }
     return loops;
 }

@@ -22,10 +22,10 @@ using namespace topology;
 
 namespace {
 
-/// Two skins coincide if their distance is below this share of the cube root of their volume: above the
-/// effect of different facets on one void, below the distance of different voids.
+/// Two skins coincide if their distance is below this share of the cube root of their volume. The value is
+/// above the effect of different facets on one void, and below the distance of different voids.
 constexpr double kSameSkin = 0.02;
-/// Cost of void faces bent by a half turn, added to that of the ends: of two closings, the one with flat
+/// Cost of void faces bent by a half turn, added to the cost of the ends: of two closings, the one with flat
 /// faces is likelier. A higher value drops more closings by bent faces.
 constexpr double kBentVoid = 0.5;
 
@@ -92,7 +92,8 @@ double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
     double bent = 0, whole = 0;
     for (const FaceId face : sealed.closure.void_faces) {
         const double area = face_area(model, face);
-        // As for ends, four times the area lost by the bend: 90° costs 0.4 of the cost of a half turn.
+        // As for ends, a bend costs four times the area that it loses: 90° costs 0.4 times as much as a half
+        // turn.
         bent += std::min(area, 4 * (area - face_area_vector(model, face).norm()));
         whole += area;
     }
@@ -118,8 +119,8 @@ void keep_likely(std::vector<Void>& found)
     });
 }
 
-/// Add a candidate to the void that it encloses. A candidate with an ambiguous bend is dropped in favour of
-/// one with the same volume and none, because closing with its roles would bend the face.
+/// Add a candidate to the void that it encloses. If only some candidates of a void need an ambiguous bend,
+/// these are listed in `Void::bent`, because closing with their roles would bend the face.
 void add_sealed(std::vector<Void>& found, const RoleCandidate& candidate, Sealed sealed, bool fills_flat)
 {
     Void now;

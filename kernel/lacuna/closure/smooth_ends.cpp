@@ -16,7 +16,8 @@ namespace {
 
 bool is_free_of_meshes(const Face& face) { return face.origin == Origin::given && face.given_quads.empty(); }
 
-/// Extent of faces along their mean normal over the diameter of a disc of their projected area.
+/// Depth of faces relative to their width: their extent along their mean normal, divided by the diameter of a
+/// disc with their projected area.
 double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
 {
     const Vec3 area = area_vector_of(model, faces);
@@ -31,7 +32,8 @@ double depth_by_width(const Model& model, const std::vector<FaceId>& faces)
     return (high - low) / std::sqrt(4 * area.norm() / std::numbers::pi);
 }
 
-/// The walls that meet an end smoothly, directly or through each other; empty if they must not join it.
+/// The walls that meet an end smoothly, directly or through each other; empty if the end must not be
+/// extended.
 std::vector<FaceId> smooth_walls(const OpenVolume& volume, Role end, const std::vector<double>& angle)
 {
     const Model& model = volume.model;

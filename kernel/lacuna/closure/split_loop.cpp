@@ -102,7 +102,8 @@ std::vector<Loop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& 
     return parts;
 }
 
-/// The place to split a loop that lies in two planes.
+/// The run to separate from a loop that lies in two planes.
+/// @param run  by use of the loop: `flat_run()` from there.
 std::optional<Run> half_run(const std::vector<std::size_t>& run)
 {
     const std::size_t uses = run.size();
@@ -134,8 +135,8 @@ bool tells_plane(const Model& model, const Rim& rim, const Run& run)
     return tells(run) || tells(between(rim, {&run, 1}, 0));
 }
 
-/// Whether some uses bend from corner to corner and the adjacent ones are not parallel, as along a side of a
-/// ring sector: the missing face opposite may bend in the same way.
+/// Whether a side between two corners is bent and the sides before and after it are not parallel, as in a
+/// ring sector: the missing face opposite may then bend in the same way.
 bool is_of_ring(const Model& model, const std::vector<EdgeUse>& uses)
 {
     const auto way = [&](EdgeUse use) {
@@ -176,8 +177,9 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
     return ends;
 }
 
-/// The direction of a groove: that of the straight edges of its mouth from end to end.
-/// @return  empty if one is bent or they are not parallel.
+/// The direction of a groove: that of the straight edges of its mouth from end to end. Bent parts of the
+/// mouth are ignored.
+/// @return  empty if there are no such edges, or if they are not parallel.
 std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector<Run>& ends)
 {
     std::optional<Vec3> way;

@@ -35,9 +35,9 @@ using namespace topology;
 
 namespace {
 
-/// At a step, the skin turns from the end to the walls towards the void by more than `kStep`. Or it turns
-/// little, and the walls lead away from the opposite end at more than `kLeadsAway` to the level: the walls of
-/// a divided round do so at about 45° [degrees].
+/// Limits of a step [degrees]. At a step, the skin turns from the end to the walls by more than `kStep`
+/// towards the void. Or it turns by less than `kStep` either way, and the walls lead away from the opposite
+/// end at more than `kLeadsAway` to the end's plane. The walls of a divided round do so at about 45°.
 constexpr double kStep = 45, kLeadsAway = 30;
 
 /// Each cut reduces the number of steps; more cuts in a row than this indicate an error.
@@ -434,7 +434,8 @@ Vec3 sweep_way(const OpenVolume& volume)
     return way.stableNormalized();
 }
 
-/// Levels of pieces side by side: 0 for the longest along the sweep, otherwise the number of longer ones.
+/// Levels of pieces side by side: 0 for the longest along the sweep, otherwise the number of different longer
+/// lengths.
 std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Vec3& way)
 {
     std::vector<double> length;
@@ -503,7 +504,8 @@ void cover_step_holes(OpenVolume& volume, const RunContext& context)
 
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round);
 
-/// Cut a volume in the planes of walls at steps; the remaining steps have rims with such walls all round.
+/// Cut a volume by the planes of walls at steps. Then extrude void faces at the remaining steps, which have
+/// such walls all round.
 std::vector<StepPiece> cut_at_risers(const OpenVolume& volume, const std::vector<FaceId>& risers,
                                      const RunContext& context, int round)
 {
@@ -544,7 +546,7 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
     for (const Role end : {Role::source, Role::target}) {
         const auto& [parts, closed, risers] = steps[end == Role::source ? 0 : 1];
         if (parts.size() < 2) continue;
-        // A step with walls all round may be flush with an earlier cut, and its walls end there.
+        // If a step with such walls all round is flush with an earlier cut, its walls end at the cut.
         if (!risers.empty() && round < kRounds) return cut_at_risers(volume, risers, context, round + 1);
         throw NotSweepable(
             Message("closure.steps",

@@ -31,7 +31,7 @@ using namespace topology;
 
 namespace {
 
-/// Longest loop that is split; the splits into three faces grow with the third power.
+/// Most sides of a loop that is split: the number of splits into three faces grows with its third power.
 constexpr std::size_t kMostSides = 48;
 
 // --- one face ---------------------------------------------------------------------------------------------
@@ -49,8 +49,8 @@ bool are_similar(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
     return true;
 }
 
-/// Whether the given faces beside a loop are one, or parts of one cylinder or sphere: the loop is then a hole
-/// in them, which a face of the same shape would close without a trace.
+/// Whether a single bent given face, or parts of one cylinder or sphere, surround a loop: the loop is then a
+/// hole in them, which a face of the same shape would close without a trace.
 bool is_hole_in_round_face(const Model& model, const Loop& loop)
 {
     std::set<FaceId> beside;
@@ -196,8 +196,8 @@ private:
         std::optional<geometry::Plane> plane;
     };
 
-    /// The plane of a run of sides, which the face of the run lies in; empty if the run is not flat or
-    /// straight, if the face would cross itself, or if it would double the given faces along the run.
+    /// The plane of a run of sides, in which the face of the run lies. Empty if the run is straight or not
+    /// flat, if the face would cross itself, or if it would double the given faces along the run.
     [[nodiscard]] std::optional<geometry::Plane> plane_of_run(const FaceChain& run) const
     {
         std::vector<Vec3> points = points_along(run);
@@ -307,7 +307,7 @@ private:
         return turned(std::move(image));
     }
 
-    /// Three flat runs whose planes meet in a point.
+    /// The split into three flat faces whose planes meet in a new vertex; empty if there is none.
     [[nodiscard]] std::optional<FaceSplit> round_vertex(const std::array<const Run*, 3>& runs) const
     {
         if (!std::ranges::all_of(runs, [](const Run* run) { return run->plane.has_value(); }))

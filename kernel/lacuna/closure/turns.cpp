@@ -57,10 +57,11 @@ double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part)
     return before;
 }
 
-/// Whether a part's walls are in front of its ends, where their normals point (positive), or behind them
-/// (negative); 0 if some are in front and some behind, or if the part lacks an end. A wall between both ends
-/// is on the void's side of each; only the risers of a stepped end are on the other side of the end above.
-/// @param folds  of each edge, by folds_across()
+/// Whether a part's walls are in front of its ends, where the normals of the ends point (positive), or behind
+/// them (negative). 0 if some are in front and some behind, or if the part lacks an end. A wall that joins
+/// both ends is on the void's side of each. Only a riser of a stepped end is on the far side of the step
+/// above it.
+/// @param folds  `folds_across()` of each edge.
 /// @return  sum over the edges that an end and a wall share: length times the cosine of the angle between the
 ///          wall and the end's normal [model length].
 double leaves_before(const OpenVolume& volume, const std::vector<FaceId>& part,

@@ -104,7 +104,7 @@ VoidFilling fill_on_newell_plane(const Model& model, const NewellOutline& newell
     return filling_at(model, newell, flat, heights);
 }
 
-/// A void face on a sheet given by its rim; empty if the sheet does not cover the face.
+/// A void face on a sheet that its rim determines; empty if the sheet does not cover the face.
 std::optional<VoidFilling> fill_on_sheet(const Model& model, const NewellOutline& newell,
                                          const QuadricSheet& sheet, const RunContext& context)
 {
@@ -133,8 +133,9 @@ std::optional<VoidFilling> fill_as_rim_tells(const Model& model, const std::vect
     return std::nullopt;
 }
 
-/// Height of a surface over a place of a plane: where the plane's normal meets it, or the closest point next
-/// to its rim. Empty if it is met more than once.
+/// Height of a surface over a place of a plane: that of the point where the normal through the place meets
+/// the surface, or of the closest point if the normal misses it. Empty if the normal meets the surface at
+/// several heights.
 std::optional<double> height_of(const geometry::FacetTree& shape, const geometry::Plane& plane,
                                 const Vec2& place, double tolerance)
 {

@@ -16,7 +16,8 @@ namespace {
 
 using sweep::AssemblyMember;
 
-/// Sides whose areas differ by a smaller share are of one area, in facets of different fineness.
+/// Two sides of a contact count as equal in area if their areas differ by less than this share. Facets of
+/// different fineness cause such differences.
 constexpr double kAlike = 0.01;
 
 const std::string& region_of(const AssemblyMember& member)
@@ -174,9 +175,9 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
     for (std::vector<FaceId>& part : topology::connected_parts(model, others))
         bodies[formatted("part_{}", ++number)] = std::move(part);
     if (bodies.size() < 2)
-        throw InvalidInput(Message("fill.contact_bodies", "contacts: the model is one body, and contacts are "
-                                                          "those of two")
-                               .remedy("load the files of both as one model: lacuna.load {{ a, b }}"));
+        throw InvalidInput(
+            Message("fill.contact_bodies", "contacts: the model is one body, but a contact is between two")
+                .remedy("load the files of both as one model: lacuna.load {{ a, b }}"));
     std::vector<topology::OpenVolume> volumes;
     for (const auto& [name, faces] : bodies)
         volumes.push_back(topology::open_volume(model, {{}, {}, faces}, context));

@@ -114,8 +114,8 @@ struct InCommon {
 };
 
 /// Refuse a copy whose volumes overlap those of the mesh.
-/// @param number  of the copy, for messages
-/// @return  places where they nearly touch
+/// @param number  number of the copy, for messages.
+/// @return  places where mesh and copy nearly touch.
 std::vector<sweep::NearMiss> check_volumes(const FilledParts& mesh, const FilledParts& copy, int number,
                                            const RunContext& context)
 {
@@ -209,7 +209,7 @@ void make_inner(std::vector<sweep::Swept>& parts, std::size_t first, std::span<c
     }
 }
 
-/// The box of a mesh and of all that comes near it.
+/// The bounding box of a mesh, widened by the distance within which near misses are reported.
 Eigen::AlignedBox3d box_of(const FilledParts& mesh)
 {
     Eigen::AlignedBox3d box;
@@ -273,7 +273,7 @@ FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const Pattern
     report_progress(context, "copies");
     const Eigen::AlignedBox3d box = box_of(mesh);
     std::vector<Eigen::Affine3d> moves{Eigen::Affine3d::Identity()};
-    std::vector<InCommon> common(count); // by distance in copies: what two copies that far apart share
+    std::vector<InCommon> common(count); // by k: nodes and sides that copies share if they are k steps apart
     std::optional<Skin> skin;
     std::vector<std::string> gaps;
     for (std::size_t k = 1; k < count; ++k) {

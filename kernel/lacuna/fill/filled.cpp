@@ -23,7 +23,7 @@ void add(const sweep::Fidelity& other, sweep::Fidelity& own)
     own.sealed_volume = all;
 }
 
-/// Count cells by group, in the order in which groups are first met.
+/// Add to the number of cells of a group; a new group is appended.
 void count(std::vector<Group>& groups, const std::string& name, int dim, std::size_t cells)
 {
     auto known = std::ranges::find(groups, name, &Group::name);

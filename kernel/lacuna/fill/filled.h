@@ -33,7 +33,7 @@ struct FilledVolume {
 /// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
 struct FilledTets {
     mesh::TetPart mesh;
-    std::vector<Index> number; ///< of each of its nodes in the whole mesh, from 0
+    std::vector<Index> number; ///< by node of `mesh`: its number in the whole mesh, from 0
     std::size_t shared = 0;    ///< number of sides of its skin that it shares with meshes before it
     std::string region;
     quality::Quality quality;        ///< from the proof
@@ -42,7 +42,7 @@ struct FilledTets {
     std::vector<std::string> report; ///< why it was not swept, sizes, shape
 };
 
-/// Cells of no thickness between two regions of a mesh whose nodes there are doubled.
+/// Zero-thickness cells between two regions of a mesh, whose nodes are duplicated there.
 struct SplitInterface {
     std::string region;  ///< name of the cells
     std::string element; ///< their Abaqus name: "COH3D8"
@@ -54,9 +54,11 @@ struct SplitInterface {
 struct Contact {
     std::array<std::string, 2> regions;    ///< in the order of the members
     std::vector<std::array<int, 2>> faces; ///< tags of the faces that come together
-    double gap = 0;                        ///< within which they were looked for [model length]
-    double least = 0, width = 0;           ///< smallest and largest distance within it [model length]
-    double area = 0;                       ///< of the first region's faces within it [model length²]
+    double gap = 0;                        ///< distance within which the faces were searched [model length]
+    double least = 0, width = 0;           ///< smallest and largest distance of the faces within the gap
+                                           ///< [model length]
+    double area = 0;                       ///< area of the first region's faces within the gap [model
+                                           ///< length²]
     mesh::ContactPair pair;                ///< its groups and tolerance are those of a mesh
 };
 
@@ -90,7 +92,7 @@ std::span<const sweep::Swept> parts(const Filled& filled);
 /// The report of a mesh, one entry a line; lines about a part start with the name of its region.
 std::vector<std::string> report(const FilledParts& mesh);
 
-/// One part, or all parts of one full turn.
+/// A part of the mesh, swept or of tetrahedra. The pieces of a full turn are one region.
 struct Region {
     std::string name;
     int layers = 0;
@@ -111,7 +113,7 @@ struct Group {
 std::vector<Group> groups(const FilledVolume& mesh);
 std::vector<Group> groups(const FilledParts& mesh);
 
-/// Store the nodes of all parts. Those that have `layers` make them on demand.
+/// Store the nodes of all parts, also of parts with `layers`, which otherwise make their nodes on demand.
 void hold_nodes(FilledParts& mesh, const RunContext& context = {});
 
 /// The nodes and cells of all parts, numbered as one mesh.
@@ -124,11 +126,11 @@ struct WholeCells {
 };
 WholeCells whole_cells(const FilledParts& mesh);
 
-/// All parts as one deck for `io::write_deck()`, with groups as regions and sets: how a mesh with tetrahedra
-/// is written.
+/// All parts as one deck for `io::write_deck()`, with groups as regions and sets. Meshes with tetrahedra are
+/// written in this way.
 /// @pre  the parts store their nodes.
 /// @param interfaces  as `io::MeshFileOptions::interfaces`
-/// @throw  as `io::write_parts()`
+/// @throw  the errors of `io::write_parts()`
 io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options, bool interfaces = false,
                     const RunContext& context = {});
 
@@ -142,16 +144,17 @@ struct InterfaceFaces {
     std::string element = "COH3D8"; ///< Abaqus name of the cells: COH3D8 or GK3D8, or a kind of these
 };
 
-/// Double the nodes of faces that two parts of a mesh share, and put a cell of no thickness on each face.
+/// Split a mesh along cell sides that two parts share: duplicate the nodes, and insert a zero-thickness
+/// (cohesive) cell at each side.
 ///
-/// The parts at a node are joined where they share a face that is not split; each set of joined parts gets a
-/// node of its own, so that three regions that meet at split faces have three nodes. At the end of an
-/// interface inside the mesh the parts are joined around the end, and the node stays one. The first nodes
-/// keep their numbers; new nodes follow the others. A cell goes from the part that was meshed first to the
-/// other: its nodes 1 to 4 lie on the first, and the direction of its stack is from nodes 1-4 to nodes 5-8.
-/// Doubles on periodic faces are paired like the parts that have them.
-/// @throw InvalidInput "fill.interface_none"     no face is named, or none of them is shared by two parts.
-///                     "fill.interface_element"  the element has thickness, or is no hexahedron of 8 nodes.
+/// At each node, parts stay connected if they share a side that is not split. Each connected set of parts
+/// gets its own node: three regions that meet at split sides get three. If the interface ends inside the
+/// mesh, all parts around its end stay connected, so nodes there are not duplicated. Existing nodes keep
+/// their numbers; duplicates are numbered after them. Nodes 1 to 4 of a cell lie on the part that was meshed
+/// first, and its stacking direction is from nodes 1-4 to nodes 5-8. Duplicates on a periodic face are paired
+/// with those of the part at the image.
+/// @throw InvalidInput "fill.interface_none"     no face is named, or no named face is shared by two parts.
+///                     "fill.interface_element"  the element is not a zero-thickness one (COH3D8, GK3D8).
 ///                     "fill.interface_order"    the mesh is of order 2.
 ///                     "fill.interface_split"    the mesh was split before.
 /// @note  O(n log n) in the sides of the skins, O(n) in the nodes.

@@ -144,8 +144,8 @@ private:
         }
         std::vector<std::map<Index, Index>> renumbered(parts_.size()); // of each part
         for (const auto& [node, sides] : at) {
-            // `cut` joins parts over faces that are not split, `joined` over all. Parts that only touch keep
-            // their common node.
+            // `cut` unites parts that share a side that is not split; `joined` unites all parts that share a
+            // side. Parts that only touch keep their common node.
             std::map<std::size_t, std::size_t> cut, joined;
             for (const SharedSide* side : sides)
                 for (const std::size_t part : {side->a, side->b}) cut[part] = joined[part] = part;
@@ -169,8 +169,8 @@ private:
                         n = other->second;
     }
 
-    /// Pair nodes of periodic faces anew: a double belongs to the part behind a side, and its image to that
-    /// behind the side's image.
+    /// Rebuild the node pairs of periodic faces after duplication: the node of the part behind a side is
+    /// paired with the node of the part behind the side's image.
     void pair_doubles(const std::vector<std::map<Index, Index>>& renumbered)
     {
         for (mesh::PeriodicNodes& periodic : mesh_.swept.periodic) {
@@ -239,10 +239,9 @@ private:
                                        "interface, which are not duplicated")
                                    .remedy("name a larger face, or use a smaller 'size' on it"));
         if (closed > 0)
-            log_line(context,
-                     formatted("note: split_interface: {} faces have no cell, as all their nodes are at "
-                               "the end of the interface",
-                               closed));
+            log_line(context, formatted("note: split_interface: {} faces have no cell, because all their "
+                                        "nodes are at the end of the interface",
+                                        closed));
         mesh_.interfaces.push_back(std::move(made));
         mesh_.swept.report.push_back(formatted("split_interface: {} cells of {}",
                                                mesh_.interfaces.back().cells.size(), faces_.element));

@@ -38,7 +38,7 @@ struct Part {
     bool left_out = false;            ///< left out of the sweep; options may still name its faces
     const Volume* piece_of = nullptr; ///< volume that this part is a piece of; null: it is no piece
     std::string whole{};              ///< name of that volume
-    std::size_t glue = 0;             ///< as of `sweep::AssemblyMember`
+    std::size_t glue = 0;             ///< as in `sweep::AssemblyMember`
 };
 
 // --- options that name faces ------------------------------------------------------------------------------
@@ -70,7 +70,7 @@ void keep_known_faces(sweep::AssemblyMember& member)
     });
 }
 
-/// The same for pairs of periodic faces: drop those of which no member has a face.
+/// Drop the pairs of periodic faces of which no member has a face.
 void keep_known_pairs(std::vector<sweep::AssemblyMember>& members)
 {
     const auto has_face = [&](const surface::FaceNames& names) {
@@ -190,7 +190,7 @@ void add_pieces(std::vector<Part>& parts, const Member& asked, const std::string
 
 /// Add a volume, or the pieces that it has to be cut into. If cutting fails, it can only be filled with
 /// tetrahedra.
-/// @param name, whole  as for add_pieces()
+/// @param name, whole  see add_pieces()
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
                const std::string& whole, const RunContext& context)
 {
@@ -446,7 +446,7 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
         set.materials.push_back(ready.materials[m]);
         set.parts.push_back(ready.parts[m]);
     }
-    if (ready.members.empty()) sets[0]; // which is refused
+    if (ready.members.empty()) sets[0]; // an empty set, which is refused
     if (sets.size() > 1) sweep::check_alike(ready.members);
     std::vector<sweep::AssemblyMember> members; // in the order of the sets
     for (auto& [glue, set] : sets) {

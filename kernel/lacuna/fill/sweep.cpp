@@ -158,9 +158,9 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
 
 // --- volumes that no single sweep fills -------------------------------------------------------------------
 
-/// The pieces of a sealed volume; itself if it cannot be cut.
-/// @param steps  whether to cut at steps and branches if that fails, although a sweep of all those pieces
-///               failed
+/// The pieces of a sealed volume; the volume itself if it cannot be cut.
+/// @param steps  whether to cut at steps and branches if `partition()` finds no pieces. A sweep of all these
+///         pieces has failed before, but some of them may be swept.
 std::vector<closure::StepPiece> pieces_of(const topology::OpenVolume& sealed, bool steps,
                                           const RunContext& context)
 {
@@ -306,7 +306,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
             if (!first) first = std::current_exception();
             if (!why) why = error.message();
             if (ways == 0) return;
-            failed.push_back(formatted("roles: swept {} it fails: {} [{}]", ends_in_words(now.volume),
+            failed.push_back(formatted("roles: swept {}, it fails: {} [{}]", ends_in_words(now.volume),
                                        error.what(), error.code()));
             log_line(context, failed.back());
         };

@@ -121,7 +121,7 @@ struct CurvedEdge {
 };
 
 /// Take the curves off the edges along some points: `stitch()` merges an exact edge and a polyline only if
-/// the chords of this lie on the curve.
+/// the chords of the polyline lie on the curve.
 std::vector<CurvedEdge> take_curves(ModelBuilder& model, const std::vector<Vec3>& along)
 {
     const geometry::FacetTree tree = tree_of(along);
@@ -217,7 +217,8 @@ private:
         return bodies_[body].faces[face.index()];
     }
 
-    /// Of two closed skins one inside the other touches it from the same side.
+    /// Whether faces of two bodies are in contact. Closed skins that touch from opposite sides, as solids
+    /// side by side do, count only inside a third body.
     [[nodiscard]] bool is_contact(const SharedFace& pair, bool same_side) const
     {
         const Body &a = bodies_[pair.a], &b = bodies_[pair.b];
@@ -230,9 +231,9 @@ private:
         });
     }
 
-    /// Remove points from the lines that divide flat faces, except those of the rims that they follow: so
-    /// line and rim become one edge.
-    /// @param tree  of the points on the model's edges
+    /// Remove the points of lines that divide flat faces, except points on edges of the model. A line and the
+    /// rim that it follows then become one edge.
+    /// @param tree  tree of the points on the model's edges
     void take_rims_of_others(std::size_t b, const std::vector<FaceId>& parents,
                              const geometry::FacetTree& tree)
     {

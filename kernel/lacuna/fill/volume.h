@@ -30,10 +30,10 @@ struct Volume {
     std::optional<closure::SealedVolume> as_read; ///< default closure, if the roles were found
     /// If the roles were found: the alternative sweeps of the same void.
     std::shared_ptr<const closure::OtherSweeps> others;
-    /// Set if no ends to sweep between were found: why. The volume is sealed then, all its faces are walls,
-    /// and only a fallback can mesh it.
+    /// Why no ends to sweep between were found. If set, the volume is sealed, all its faces are walls, and
+    /// only a fallback can mesh it.
     std::optional<Message> no_roles;
-    std::shared_ptr<const closure::SweptSource> along; ///< of class 0: its source and the motion; else null
+    std::shared_ptr<const closure::SweptSource> along; ///< for class 0: its source and the motion; else null
     bool roles_found = false;                          ///< all roles were found, none named
     bool take_guess = false;                           ///< whether an ambiguous closing is accepted
     bool told = false;                                 ///< whether the notes of the closure were logged
@@ -56,7 +56,7 @@ struct RoleRequest {
     std::optional<std::vector<FaceId>> faces; ///< without `roles`; none: all faces of the model
     int reading = 0; ///< number of a found reading, from 1; with `roles`, 1 accepts ambiguous geometry
     std::optional<topology::VolumeClass> override_class;
-    bool full_turn = false; ///< the volume makes a full turn: all faces are walls
+    bool full_turn = false;                 ///< the volume makes a full turn: all faces are walls
     std::optional<geometry::Plane> fill_to; ///< only the part of the void behind this plane
     /// Path along which the source is swept. Only for a volume without a target and walls.
     std::optional<closure::Along> along;
@@ -70,26 +70,27 @@ struct RoleRequest {
 
 /// Open a volume from named faces, or find the roles of its faces. A closed volume without ends to sweep
 /// between is an error only for the stages that need them: match(), cut() and a sweep without a fallback.
-/// @throw InvalidInput "lua.walls_without_ends", "lua.class_of_found_roles"; as `topology::open_volume()`,
-///                     `topology::find_walls()`, `closure::find_reading()` and `require_none_left_out()`.
-///                     "closure.fill_to": the plane leaves several parts; otherwise as cut() by a plane.
-///                     "closure.along_roles": a path with other roles than a source; "closure.along_…" and
-///                     "geometry.path_…": a path or a source that cannot be swept along it.
+/// @throw InvalidInput "lua.walls_without_ends"  walls are to be found and no end is named;
+///         "lua.class_of_found_roles"  a class is given for faces whose roles were found; "closure.fill_to"
+///         the plane leaves several parts; "closure.along_roles"  a path and other roles than a source;
+///         "closure.along_…" or "geometry.path_…"  the source cannot be swept along the path. Or the errors
+///         of `topology::open_volume()`, `topology::find_walls()`, `closure::find_reading()`,
+///         `require_none_left_out()` and, with a plane, of cut().
 Volume open(const topology::Model& model, const RoleRequest& request = {}, const RunContext& context = {});
 
 /// Replace the class that was found.
-/// @throw InvalidInput "lua.sealed"  the volume is closed already. Otherwise as `topology::classify()`.
+/// @throw InvalidInput "lua.sealed"  the volume is closed already. Or the errors of `topology::classify()`.
 Volume override_class(Volume volume, topology::VolumeClass value);
 
 /// Match source and target. A volume with a match is matched again only if options are given.
-/// @throw InvalidInput "lua.sealed"  the volume is closed already. Otherwise as `matching::match()`.
+/// @throw InvalidInput "lua.sealed"  the volume is closed already. Or the errors of `matching::match()`.
 Volume match(Volume volume, const std::optional<matching::MatchOptions>& options = {},
              const RunContext& context = {});
 
 /// Match source and target where closing needs it, and seal the volume unless it is sealed already. A volume
 /// that was sealed to find its roles is sealed anew if options are given.
-/// @throw InvalidInput "lua.sealed"  options are given and close() was called before.
-///                     Otherwise as `matching::match()` and `closure::close()`.
+/// @throw InvalidInput "lua.sealed"  options are given and close() was called before. Or the errors of
+///         `matching::match()` and `closure::close()`.
 Volume close(Volume volume, const std::optional<closure::CloseOptions>& options = {},
              const RunContext& context = {});
 
@@ -102,7 +103,8 @@ struct Cut {
 };
 
 /// Cut a volume into pieces.
-/// @throw NotSweepable  as `closure::cut_by_plane()`, `cut_by_face()`, `cut_into_pieces()` and close().
+/// @throw NotSweepable  the errors of `closure::cut_by_plane()`, `cut_by_face()`, `cut_into_pieces()` and
+///         close().
 std::vector<Volume> cut(const Volume& volume, const Cut& where = {}, const RunContext& context = {});
 
 } // namespace lacuna::fill

@@ -38,7 +38,7 @@ Samples samples_of(const topology::Model& model, const topology::Face& face, con
 }
 
 /// Whether the samples are within `reach` of the facets and, if the face has an exact surface, within the
-/// tolerance of that.
+/// tolerance of that surface.
 bool lie_on(const Samples& samples, const topology::Model& model, const topology::Face& face, double reach,
             double tolerance, const RunContext& context)
 {

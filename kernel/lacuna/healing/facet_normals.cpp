@@ -13,10 +13,10 @@
 namespace lacuna::healing {
 namespace {
 
-/// kRough: a point on a crease is rough if, below the feature angle, some sides there turn up and some turn
-/// down by more than this share of that angle. kNoisy: the surface is noisy if more than this share of the
-/// points on creases is rough. Tessellated CAD has 0 %, and up to 13 % where branches of coarse facets meet
-/// at about the feature angle. Noise of 5 to 40 % of the facets' sides gives 41 to 85 %.
+/// kRough: a point on a crease is rough if some sides at it turn up and others turn down, by more than this
+/// share of the feature angle but by less than that angle. kNoisy: the surface is noisy if more than this
+/// share of the points on creases is rough. Tessellated CAD has 0 %, and up to 13 % where branches of coarse
+/// facets meet at about the feature angle. Noise of 5 to 40 % of the facets' sides gives 41 to 85 %.
 constexpr double kRough = 0.125, kNoisy = 0.25;
 
 /// Whether two facets, or the quads that contain them, have the same corners.

@@ -247,7 +247,7 @@ void check_left(const FacetSoup& soup, const Facets& facets, double given)
         throw InvalidInput(Message("topology.no_facets",
                                    "every facet is smaller than the tolerance of {:.4g}",
                                    found(facets.tolerance))
-                               .remedy("give a smaller one"));
+                               .remedy("give a smaller tolerance"));
     Message message = facets.count() == 0
                           ? Message("topology.no_facets",
                                     "every facet is smaller than the tolerance of {:.4g}, which is derived "

@@ -272,8 +272,8 @@ private:
     }
 
     /// Whether chains end at this point: at another kind of segment, or at a corner. With a reach of more
-    /// than one side, a corner is the point of largest turn within the reach; the turn must also exceed that
-    /// at one end of the reach by more than the feature angle.
+    /// than one side, a corner is the point of largest turn within the reach. Its turn must also exceed the
+    /// turn at one end of the reach by more than the feature angle.
     [[nodiscard]] bool ends_chains(Index point) const
     {
         const auto here = segments_at(point);

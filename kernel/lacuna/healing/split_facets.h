@@ -40,7 +40,8 @@ struct FacetSoup {
 /// The facets of a noisy surface, such as a scan, are separated by the normals of patches and then smoothed
 /// within faces and along edges, with a note. Nodes that must be kept do not move.
 /// @throw InvalidInput  there are no facets; a face is one-sided; an option is out of range; the model is so
-///        large or small that the fourth power of its diagonal cannot be represented. Cancelled.
+///         large or small that the fourth power of its diagonal cannot be represented.
+/// @throw Cancelled
 topology::Model split_facets(const FacetSoup& soup, const SplitOptions& options = {},
                              const RunContext& context = {});
 

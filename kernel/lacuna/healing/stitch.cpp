@@ -395,9 +395,8 @@ void Stitcher::merge_edges()
     }
     if (bundles.empty()) return;
 
-    // For each facet side that gets points: its ends, its new points, and the numbers that they are merged
-    // into. Ends and new points have the numbers from before merging. All sides are collected before any is
-    // changed.
+    // For each facet side that gets points: its ends and its new points, with their numbers from before the
+    // points merge. All sides are collected before any is changed.
     struct FilledSide {
         Index from, to;
         std::vector<Index> between;

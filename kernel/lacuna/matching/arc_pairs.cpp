@@ -35,7 +35,8 @@ double round_distance(double a, double b)
     return std::min(apart, 1 - apart);
 }
 
-/// Map from the target's shares to the source's: piecewise linear between pairs, a rotation without pairs.
+/// Maps shares of the target's length to shares of the source's length: piecewise linear between pairs, a
+/// rotation without pairs.
 class ShareMap {
 public:
     ShareMap(double offset, bool backward, const std::vector<std::pair<double, double>>& fixed)
@@ -76,8 +77,8 @@ private:
     std::vector<std::pair<double, double>> knots_; ///< (source, turned target)
 };
 
-/// Assign to each of `few` a different one of `many`, in order, with the least sum of squared distances. Both
-/// ascend, and `many` has at least as many values.
+/// Assign to each value of `few` a different value of `many`, in order, with the least sum of squared
+/// distances. Both ascend, and `many` has at least as many values.
 /// @return the assignment and its sum.
 std::pair<std::vector<std::size_t>, double> in_line(const std::vector<double>& few,
                                                     const std::vector<double>& many)
@@ -97,7 +98,7 @@ std::pair<std::vector<std::size_t>, double> in_line(const std::vector<double>& f
     return {chosen, cost[n][m]};
 }
 
-/// The same on a circle: try every partner of the first one and assign the others in order.
+/// The same assignment on a circle: try every partner of the first value and assign the others in order.
 std::vector<std::size_t> round_about(const std::vector<double>& few, const std::vector<double>& many)
 {
     std::vector<std::size_t> best;

@@ -26,9 +26,9 @@ double misfit(const Problem& problem, std::size_t s, std::size_t t, const geomet
 }
 
 /// Cost of pairing loop s with loop t after the source is moved by `fit`.
-/// @param scale  expected ratio of loop sizes, from the lengths of the anchor loops. The fit's own scale is
-///               smaller the worse the fit, so with it the sizes of other loops would affect the anchor's
-///               alignment.
+/// @param scale  expected ratio of loop sizes, from the lengths of the anchor loops. The scale of the fit is
+///         not used: the worse the fit, the smaller its scale, so the sizes of other loops would affect the
+///         anchor's alignment.
 double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
                  double scale, double reach)
 {
@@ -44,7 +44,7 @@ double loop_cost(const Problem& problem, std::size_t s, std::size_t t, const geo
 }
 
 /// Finds the cheapest target loop for a source loop. Target loops are tried in the order of their distance
-/// along one axis; the search ends where the distance alone costs more than the cheapest.
+/// along one axis; the search ends where this distance alone costs more than the cheapest target so far.
 class CheapestTarget {
 public:
     CheapestTarget(const Problem& problem, double reach) : problem_(problem), reach_(reach)

@@ -94,7 +94,7 @@ std::optional<std::vector<std::vector<Triangle>>> facets_at_levels(const OpenVol
 }
 
 /// The only level line at height t; empty if there are several or none.
-/// @param triangles  those that the level passes through
+/// @param triangles  the facets that the level passes through.
 std::optional<LevelLine> level_line(const Model& model, const std::vector<Triangle>& triangles,
                                     const std::vector<double>& heights, double t, const std::vector<Vec3>& up,
                                     const std::map<FacetSide, std::size_t>& on_line)
@@ -317,8 +317,8 @@ struct PartSections {
     bool closed = false;
 };
 
-/// Complete a section for the fit, and return its area vector. This points up the wall, whichever side the
-/// void is on, so that the areas of several parts add up.
+/// Complete a section for the fit, and return its area vector. The vector points up the wall, whichever side
+/// the void is on, so that the areas of several parts add up.
 ///
 /// An open section does not fix the size of the void next to it, and a straight one not even its rotation.
 /// Two points off the wall are therefore added, and the area of a circle whose circumference is the distance
@@ -423,8 +423,8 @@ PartSections sections_of(const OpenVolume& volume, const std::vector<FaceId>& pa
     return result;
 }
 
-/// Add the sections of a wall part to the source loops that it touches and from where it can be extrapolated.
-/// Parts on one loop are merged.
+/// Add the sections of a wall part to each source loop that it touches, if the part reaches far enough round
+/// the loop to be extrapolated. Sections of several parts on one loop are merged.
 void add_to_loops(const OpenVolume& volume, const std::vector<FaceId>& part, const PartSections& sections,
                   std::vector<LoopSections>& loops)
 {

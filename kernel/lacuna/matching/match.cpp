@@ -140,8 +140,8 @@ private:
         sampled_[s] = samples(problem_, s, t, best);
     }
 
-    /// Of the loops that count, the `kNearLoops` that are nearest to loop s, in ascending order. Loops are
-    /// visited in the order of their distances along the axis, until no other can be nearer.
+    /// Of the loops for which `counts` is true, the `kNearLoops` that are nearest to loop s, in ascending
+    /// order. Loops are visited in the order of their distances along the axis, until no other can be nearer.
     template <class Counts>
     [[nodiscard]] std::vector<std::size_t> nearest(std::size_t s, const Counts& counts) const
     {
@@ -212,9 +212,9 @@ private:
         if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
-    /// Shift a loop that is paired by length to the best common fit with all others, unless its samples are
-    /// given nodes. Of other loops that can still shift, only the centroids count, each with the weight of a
-    /// loop.
+    /// Shift a loop that is paired by length to the best common fit with the loops nearest to it, unless its
+    /// samples are given nodes. Nearest loops that can still shift take part with their centroids only, which
+    /// weigh as much as the samples of a loop.
     void slide(std::size_t s)
     {
         const std::size_t t = target(s);

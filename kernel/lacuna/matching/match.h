@@ -30,7 +30,8 @@ struct LoopPair {
     bool flipped = false; ///< the target loop is traversed against its own direction
 };
 
-/// A vertex of one end without a partner on the other end: an edge there is split to make one.
+/// A vertex of one end without a partner on the other end. An edge of the other end is split to make a
+/// partner.
 struct Split {
     VertexId vertex;
     bool on_target = true; ///< the edge is the target's and the vertex the source's; otherwise the reverse

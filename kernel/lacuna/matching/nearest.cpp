@@ -88,11 +88,11 @@ public:
     }
 
 private:
-    /// An alignment of two loops: source place i on target place (shift ± i).
+    /// An alignment of two loops: it pairs source place i with target place (shift ± i).
     struct Way {
         std::size_t shift = 0;
         bool backward = true;
-        std::size_t agree = 0;       ///< vertices whose own match agrees
+        std::size_t agree = 0;       ///< vertices whose own match agrees with it
         double distance = kInfinity; ///< sum over the loop
     };
 
@@ -274,7 +274,8 @@ private:
         backward_ = problem_.backward.value_or(backward == forward ? low.dot(high) < 0 : backward > forward);
     }
 
-    /// Align a loop as most of its matches agree. Vertices that were dropped or unpaired follow the others.
+    /// Align a loop as most of its vertex pairs suggest. Vertices that were dropped or unpaired follow the
+    /// others.
     void align(std::size_t l)
     {
         const std::size_t m = loop_[l], n = source_.count(l);

@@ -142,8 +142,8 @@ void read_options(Problem& problem)
     }
 }
 
-/// If all edges of all loops have given sides, and both ends the same numbers of them, measure the loops in
-/// sides, so that nodes correspond.
+/// If all edges of all loops have given sides, and the loops of both ends have the same numbers of sides,
+/// measure the loops in sides, so that nodes correspond.
 void count_given_sides(Problem& problem)
 {
     const auto sides_of = [](const std::vector<LoopShape>& loops) {

@@ -20,8 +20,8 @@ struct SideLine {
 std::vector<double> wall_heights(const topology::OpenVolume& volume, const std::vector<SideLine>& lines = {},
                                  const RunContext& context = {});
 
-/// How steeply an edge climbs: its height difference over the largest one possible along its length, 1
-/// straight up, 0 along a level line. Positive from `from` to `to`. NaN where a height is NaN.
+/// How steeply an edge climbs: its height difference, divided by the largest one possible along its length.
+/// It is 1 straight up and 0 along a level line, positive from `from` to `to`, and NaN where a height is NaN.
 double climb(const topology::Model& model, EdgeId edge, const std::vector<double>& heights,
              const std::vector<double>& gradient);
 

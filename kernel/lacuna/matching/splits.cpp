@@ -93,7 +93,8 @@ Matched apply_splits(OpenVolume volume, Match match)
                                  return !model[use.face].given_quads.empty();
                              });
         if (on_wall || at_end || no_node) {
-            match.notes.push_back({"matching.no_partner", "{} has no partner: its position is on {}, {}",
+            match.notes.push_back({"matching.no_partner",
+                                   "{} has no partner: its place on the other end is on {}, {}",
                                    entity_of(model, split.vertex), entity_of(model, split.edge),
                                    on_wall  ? "which has a wall"
                                    : at_end ? "at an end that has another partner"

@@ -60,7 +60,8 @@ struct Reading {
     double cost = 0;
     std::size_t step = kNoIndex; ///< index of the candidate if its ends are several patches
 
-    /// Cheapest first. Ties: first candidates without ends, then with steps, then by the numbers of the ends.
+    /// Cheapest first. At equal costs, candidates without ends come first, then those with steps, then the
+    /// others by the numbers of their ends.
     friend bool operator<(const Reading& x, const Reading& y)
     {
         if (x.cost != y.cost) return x.cost < y.cost;
@@ -133,7 +134,8 @@ public:
     Readings(const Readings&) = delete; // the tally refers to the map
     Readings& operator=(const Readings&) = delete;
 
-    /// The cheapest candidates that their ends alone do not rule out, cheapest first.
+    /// Candidates that their ends alone do not rule out: the cheapest ones, in ascending order of their
+    /// costs.
     /// @param after  only candidates that rank after this one
     [[nodiscard]] std::vector<Reading> by_cost(const std::optional<Reading>& after)
     {
@@ -171,7 +173,7 @@ public:
             vertex_seen_.clear();
             for (const VertexId v : map_.patches[order[i]].vertices) vertex_seen_.add(v.index());
             for (std::size_t k = i + 1; k < order.size(); ++k) {
-                if (tally_ && !tally_->can_hold(order[i], order[k])) break; // nor with the following ones
+                if (tally_ && !tally_->can_hold(order[i], order[k])) break; // nor with those that follow
                 const auto [a, b] = std::minmax(order[i], order[k]);
                 if (parts == 2 && tally_->hang_together(a, b)) continue;
                 if (are_apart(order[i], order[k]))
@@ -197,8 +199,8 @@ public:
         for (const WallPart& part : parts) {
             if (part.several || (part.source_rim == kNoIndex && part.target_rim == kNoIndex)) return false;
             if (part.source_rim == kNoIndex || part.target_rim == kNoIndex) {
-                // A ring of walls that ends at a free loop: the end there is missing, or a ring of walls
-                // before it.
+                // A ring of walls that ends at a free loop: the end there is missing, or another ring of
+                // walls between this one and the end.
                 if (part.rims != 2 || part.euler != 0) return false;
                 if (part.source_rim == kNoIndex) {
                     ++behind_gap;
@@ -236,7 +238,7 @@ public:
     }
 
     /// The cost of a candidate's walls and steps. Near linear in the edges of patches.
-    /// @pre holds() was called for it last
+    /// @pre  the last call of holds() was for this candidate.
     [[nodiscard]] double cost_of_walls(const Reading& reading)
     {
         if (reading.source == kNoIndex) return 0;
@@ -318,8 +320,9 @@ private:
         return std::abs(4 * (2 - static_cast<long>(end.rims.size())) - end.corners);
     }
 
-    /// Candidates whose target is all flat patches that face one way and whose source is all those that face
-    /// the other way, at least three in total. If one side has a single patch, it is the source.
+    /// Find the candidates with ends at several heights: one end consists of all flat patches that face one
+    /// way, the other of all those that face the opposite way. Both together have at least three patches. If
+    /// one end is a single patch, it is the source.
     void find_stepped()
     {
         std::vector<std::size_t> flat;
@@ -332,7 +335,8 @@ private:
         for (const std::size_t source : flat) {
             check_cancelled(context_);
             const Vec3 way = -map_.patches[source].normal;
-            // Inclined faces other than ends would be cut by the void faces below the steps.
+            // Faces that are inclined to the sweep and are no ends would be cut by the void faces below the
+            // steps.
             std::vector<std::size_t> same, ahead;
             double ends = 0;
             for (const std::size_t p : flat) {
@@ -446,8 +450,8 @@ private:
         return kNoEnd + cost / static_cast<double>(parts.size());
     }
 
-    /// Cost of two free loops as missing ends; empty if they cannot be: one lies inside the other in one
-    /// plane, or a cap would only extend the face next to it.
+    /// Cost of two free loops as missing ends. Empty if they cannot be ends: one lies inside the other in the
+    /// same plane, or a cap would only extend the face next to it.
     [[nodiscard]] std::optional<double> cap_cost(const Rim& first, const Rim& second) const
     {
         double cost = 0;
@@ -479,8 +483,9 @@ private:
         return cost;
     }
 
-    /// Whether several wall edges leave one vertex of an end, although only one line of nodes does. This
-    /// distinguishes the floor of a box from its sides where three rounded rims meet.
+    /// Whether several wall edges leave one vertex of an end. Such ends are invalid, because only one line of
+    /// nodes leaves a vertex. Where three rounded rims of a box meet, this distinguishes its floor from its
+    /// sides.
     [[nodiscard]] bool has_fans(const Reading& reading) const
     {
         const auto is_wall = [&](std::size_t p) {

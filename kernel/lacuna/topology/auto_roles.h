@@ -43,7 +43,8 @@ struct RoleOptions {
 /// A face meshed with quads has at least |4 (2 − rims) − quarter turns of its rims| irregular nodes
 /// (Gauss-Bonnet).
 /// @return empty if no candidate is valid.
-/// @throw InvalidInput  faces that cannot be oriented. Cancelled.
+/// @throw InvalidInput  the faces cannot be oriented.
+/// @throw Cancelled
 ///
 /// Pairs of ends are first filtered by Euler numbers, because walls between two ends have no handles. Only
 /// few face pairs of a plate with a thousand holes are therefore checked in full.

@@ -264,10 +264,11 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
     std::ranges::copy_if(result.walls, std::back_inserter(result.more_of_end), is_more);
     std::erase_if(result.walls, is_more);
     for (const FaceId face : result.more_of_end)
-        log_line(context,
-                 formatted("note: {} of the same cavity becomes part of {}'s end, because it faces the same "
-                           "way",
-                           entity_of(model, face), entity_of(model, end.front())));
+        log_line(
+            context,
+            formatted(
+                "note: {} of the same cavity becomes part of the end with {}, because both face the same way",
+                entity_of(model, face), entity_of(model, end.front())));
     return result;
 }
 

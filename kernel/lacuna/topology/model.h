@@ -104,8 +104,8 @@ private:
 };
 
 /// Parts that no longer change, and the faces at each edge. Made by `ModelBuilder::finish()`. A variable can
-/// be assigned another model; copies share their data. The parts live as long as a model that has them: keep
-/// the model of a call in a variable before iterating over its faces.
+/// be assigned another model; copies share their data. The parts live as long as a model that has them: store
+/// the model that a call returns in a variable before iterating over its faces.
 class Model {
 public:
     Model(); ///< nothing

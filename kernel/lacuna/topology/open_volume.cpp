@@ -41,7 +41,8 @@ std::string count(std::size_t n, std::string_view one)
     return formatted("{} {}{}", n, one, n == 1 ? "" : "s");
 }
 
-/// The gap between a wall and its neighbours, from the wall's edge; empty if it is too wide.
+/// The gap between a wall and its neighbours, seen from the wall's edge; empty if no gap is narrow enough to
+/// be sewn.
 std::optional<Gap> gap_beside(const Model& model, const std::vector<FaceId>& part)
 {
     const std::set<FaceId> own(part.begin(), part.end());

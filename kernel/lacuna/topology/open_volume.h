@@ -41,8 +41,8 @@ struct OpenVolume {
 };
 
 /// Extract the named faces from `model` and make a volume of them.
-/// @throw InvalidInput  a face with two roles or named twice, no faces, faces that cannot be oriented.
-///         Cancelled.
+/// @throw InvalidInput  a face has two roles or is named twice; there are no faces; faces cannot be oriented.
+/// @throw Cancelled
 OpenVolume open_volume(const Model& model, const Roles& roles, const RunContext& context = {});
 
 /// A model of the named faces only, in that order, with the edges, vertices and points they use.

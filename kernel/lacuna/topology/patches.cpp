@@ -95,7 +95,7 @@ private:
     }
 
     const Model& model_;
-    std::vector<std::size_t> start_; ///< of each point's segments, those that have it as their lower point
+    std::vector<std::size_t> start_; ///< by point: its first segment; each segment belongs to its lower point
     std::vector<Segment> segments_;
 };
 

@@ -11,7 +11,9 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Split along side `k`, then the pieces along the sides after it.
+/// Split a facet at the points of its first side that is not `whole`, then split the pieces at their other
+/// sides.
+/// @param whole  by side: whether it needs no split.
 void cut(std::span<const Vec3> points, const ParamFacet& facet, std::array<bool, 3> whole,
          const SidePoints& sides, std::vector<ParamFacet>& result)
 {
@@ -77,8 +79,8 @@ void add_to_seam(ModelBuilder& model, FaceId face, Index a, Index b, double frac
     }
 }
 
-/// As `point_on_side()`, with the new point at `place`, or on an exact surface at the point closest to
-/// `place`.
+/// Insert a point into a side as `point_on_side()` does, but at `place`, or on an exact surface at the point
+/// closest to `place`.
 Index add_on_side(ModelBuilder& model, FaceId id, Index a, Index b, double fraction, const Vec3& place)
 {
     Face& face = model[id];

@@ -17,9 +17,9 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Error of `curve_beside()` along the chord, as a share of the tolerance, and the most steps. Each step
-/// divides the error by about the square of the number of chords in a turn, so three are enough. Eight is a
-/// bound for curves with uneven parameters.
+/// Allowed error of `curve_beside()` along the chord, as a share of the tolerance, and largest number of
+/// steps. Each step divides the error by about the square of the number of chords in a turn, so three are
+/// enough. Eight is a bound for curves with uneven parameters.
 constexpr double kShareOfTolerance = 1e-3;
 constexpr int kSteps = 8;
 
@@ -78,7 +78,7 @@ EdgeSplit divide(ModelBuilder& model, EdgeId id, const std::vector<FaceId>& user
     return made;
 }
 
-/// @throw InvalidInput  as `split_edge()`.
+/// @throw InvalidInput  the errors of `split_edge()`.
 SplitPlace place_of_split(const Model& model, EdgeId id, const std::vector<FaceId>& users, double fraction)
 {
     if (!(fraction > 0 && fraction < 1)) {

@@ -32,8 +32,8 @@ WallTally::WallTally(const PatchMap& map, std::size_t free_loops) : map_(map), t
     whole_.contacts = static_cast<long>(free_loops);
 }
 
-/// Count the fans: corners round a vertex that are connected over edges. Also count by how many each patch,
-/// if it is removed, reduces them.
+/// Count the fans: sets of corners round a vertex that are connected over edges. Also count by how many each
+/// patch reduces the number of fans if it is removed.
 void WallTally::count_fans()
 {
     // A corner is identified by the use that leaves it. The next one round its vertex is across that use.

@@ -16,11 +16,12 @@ public:
     /// @param volume  is referenced and must outlive the climber.
     explicit Climber(const topology::OpenVolume& volume);
 
-    /// The chain of wall edges upward from a rim vertex, as far as it goes; it stops where it reaches an end.
+    /// The chain of wall edges upward from a rim vertex, until it reaches an end or no edge continues it.
     [[nodiscard]] std::vector<topology::EdgeUse> climb(VertexId start) const;
 
-    /// Whether exactly one of the two paths along a free loop joins the vertices without passing an end: the
-    /// rim of the walls is then the side line there. Round a hole in the walls both paths do.
+    /// Whether exactly one of the two paths along a free loop joins two vertices without passing an end. The
+    /// rim of the walls is then the side line between them. Around a hole in the walls, both paths join the
+    /// vertices.
     [[nodiscard]] bool joined(VertexId from, VertexId to,
                               const std::vector<const topology::Rim*>& loops) const;
 

@@ -15,7 +15,7 @@ namespace lacuna::closure {
 struct Bend {
     EdgeId edge; ///< invalid: a cylinder
     FaceId face; ///< of a cylinder
-    /// Length of the edge. Of a cylinder: its length times the number of right angles by which it turns,
+    /// Length of the edge. For a cylinder: its length times the number of right angles by which it turns,
     /// reduced to 0 for a quarter turn [model length].
     double length = 0;
     std::optional<Vec3> axis; ///< a sweep in this direction follows the bend; empty: a curved edge

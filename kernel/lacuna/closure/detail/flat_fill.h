@@ -9,8 +9,8 @@
 
 namespace lacuna::closure {
 
-/// A volume sealed by its free loops alone: the given faces in their order, then the new ones, all with the
-/// role of walls.
+/// A volume that was sealed without ends, by filling its free loops: the given faces in their order, then the
+/// new ones. All have the role of walls.
 struct FlatFilling : Closed {
     bool each_alone = true; ///< whether each loop is planar and has its own face
     bool channel = false;   ///< whether a loop was split at two congruent ends
@@ -21,22 +21,27 @@ struct FlatFilling : Closed {
 /// straight void edge. The loop of a groove that lacks its ends and its mouth gets a face for each; the loop
 /// of a channel that lacks its ends and one wall gets flat ends and a wall that may bend.
 /// @return  empty if a loop is none of these, or if the result is not sealed or crosses itself.
-/// @throw InvalidInput  faces that cannot be oriented. Cancelled.
+/// @throw InvalidInput  the faces cannot be oriented.
+/// @throw Cancelled
 std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const std::vector<FaceId>& faces,
                                            const RunContext& context);
 
-/// As `fill_flat_loops()`, with round walls between two loops as well, see `add_tubes()`. Any other loop gets
-/// one face, of the shape that its rim determines; `guess_of_bent()` reports rims that determine none.
+/// Fill the free loops as `fill_flat_loops()` does, and join pairs of loops by round walls, see
+/// `add_tubes()`. Any other loop gets one face with the shape that its rim determines; `guess_of_bent()`
+/// reports a rim that does not determine a shape.
 std::optional<FlatFilling> fill_all_loops(const topology::Model& model, const std::vector<FaceId>& faces,
                                           const RunContext& context);
 
 /// Fill the free loops of a volume without a target as `fill_flat_loops()` does. New faces that face away
-/// from the source, or slope by at most 60°, are the target; the others are walls, the risers of a target at
+/// from the source, or slope by at most 60°, are the target. The others are walls: the risers of a target at
 /// several heights.
-/// @return  empty if every loop is planar and gets a face of its own, if a loop lies on a sphere, a circular
-///          cylinder or a cone, if a loop is that of a channel (`FlatFilling::channel`), if a loop of a new
-///          face is not flat, if the result is not sealed, or if the target is one connected part and does
-///          not have as many loops as the source.
+/// @return  empty in any of these cases:
+/// - every loop is planar and gets a face of its own;
+/// - a loop lies on a sphere, a circular cylinder or a cone, or is that of a channel
+///   (`FlatFilling::channel`);
+/// - a loop of a new face is not flat;
+/// - the result is not sealed;
+/// - the target is one connected part, but does not have as many loops as the source.
 std::optional<FlatFilling> fill_missing_end(const topology::OpenVolume& volume, const RunContext& context);
 
 /// Whether a loop is flat.

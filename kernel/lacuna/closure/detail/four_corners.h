@@ -15,8 +15,8 @@ std::vector<std::size_t> sharp_corners(const topology::Model& model, const topol
 
 /// The four sides of a loop with exactly four sharp corners, in walking order; otherwise empty.
 ///
-/// The list starts with that one of the first two sides which, moved along its two neighbours, comes closer
-/// to the side opposite. On a face round an axis, these neighbours are then arcs about it.
+/// The list starts with the first or the second side: the one that comes closer to its opposite side when it
+/// is moved along its two neighbours. On a face round an axis, these neighbours are then arcs about the axis.
 std::vector<std::vector<topology::EdgeUse>> four_corners(const topology::Model& model,
                                                          const topology::Loop& loop);
 

@@ -12,10 +12,10 @@ namespace lacuna::closure {
 /// Cut a full-turn ring, a volume that consists of walls only, across in two places.
 ///
 /// The plane contains the centroid of the walls and one of their three principal axes (second moments of
-/// area). Of eight directions about that axis, the first through a vertex, it is the one that crosses the
-/// walls along the shortest lines and leaves two pieces with both cuts as ends. The pieces share both cuts,
-/// so `sweep::sweep_assembly()` makes one mesh that closes on itself. Where walls are missing, straight void
-/// edges cross each gap, and each piece closes its part.
+/// area). Eight directions about that axis are tried, the first through a vertex. The chosen plane crosses
+/// the walls along the shortest lines and leaves two pieces with both cuts as ends. The pieces share both
+/// cuts, so `sweep::sweep_assembly()` makes one mesh that closes on itself. Where walls are missing, straight
+/// void edges cross each gap, and each piece closes its part.
 /// @return  two pieces, whose `turn_from` and `turn_to` are their share of the turn, by arc length along the
 ///         centroids of the sections.
 /// @throw NotSweepable "closure.full_turn"  no such plane; reports the result of the shortest cut.

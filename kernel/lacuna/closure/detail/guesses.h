@@ -12,21 +12,22 @@ namespace lacuna::closure {
 /// Whether the user or the program chose the roles of the faces.
 enum class RolesBy { person, finding };
 
-/// The error about an ambiguous bend in a sealed volume, without a remedy; empty if there is none: code
-/// "closure.shape_open" for a person's roles, otherwise "topology.shape_open". Ambiguous are:
+/// The error about an ambiguous bend in a sealed volume, without a remedy; empty if no bend is ambiguous. The
+/// code is "closure.shape_open" if the user chose the roles, otherwise "topology.shape_open". Ambiguous are:
 ///
-/// - A membrane: its rim does not determine its inside. If the user named the roles, it is the missing end
-///   (Algorithm 4), which closing interpolates; it is then ambiguous only if the smoothest faces over its
-///   rim, a membrane and a thin plate, differ, or straight sides suggest several flat faces.
-/// - A bent void face whose rim also lies on other quadrics that are far from it.
+/// - A membrane: its rim does not determine its inside. If the user chose the roles, the membrane is the
+///   missing end, which closing interpolates (Algorithm 4). It is then ambiguous only in two cases: the
+///   smoothest faces over its rim, a membrane and a thin plate, differ; or straight sides suggest several
+///   flat faces.
+/// - A bent void face whose rim also lies on other quadrics that are far from the face.
 ///
 /// A rough rim is never ambiguous: its points are off a plane by at most a twentieth of its diameter, and
 /// smooth faces over it enclose the same volume to 2 %.
 std::optional<Message> guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
 
-/// A face of `model` with a hole that is closed in its plane although an end away from it is missing too, so
-/// that the hole may extend to that end. Invalid if there is none, or if the faces face the void, as those of
-/// a counterbore do.
+/// A face of `model` with a hole that was closed in the face's plane, although an end far from the face is
+/// missing too, so that the hole may extend to that end. Invalid if there is no such face, or if the faces
+/// face the void, as those of a counterbore do.
 /// @param given  the faces of `model` that come first in the volume
 FaceId open_hole(const topology::Model& model, const std::vector<FaceId>& given,
                  const topology::OpenVolume& sealed, const Closure& closure);
@@ -37,9 +38,10 @@ Message guess_of_hole(const topology::Model& model, FaceId face);
 /// @param share  relative change of the volume under the alternative
 void assume(Closure& closure, Message note, double share);
 
-/// Note holes of given faces that void walls close in their planes, because an entirely missing pocket leaves
-/// no other trace. It is an assumption if a pocket as deep as its mouth is wide would change the volume
-/// enough.
+/// Note holes of given faces that void faces close in their planes, because an entirely missing pocket leaves
+/// no other trace. The note is an assumption if a pocket as deep as its mouth is wide would change the volume
+/// enough. Two more cases are noted: an end covers a hole because the given faces face into the void, and a
+/// void face is the smaller part of a ball.
 void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& given,
                        const topology::OpenVolume& sealed, Closure& closure);
 

@@ -21,11 +21,12 @@ namespace lacuna::closure {
 /// cones from its centroid over triangles. Three-sided faces are such triangles; other faces are split into
 /// triangles by lines from their vertices to their centroid. Each cone is then divided, with the middles of
 /// its faces at their centroids.
-/// @param most  number of blocks.
+/// @param most  largest number of blocks.
 /// @return  the blocks, whose faces are walls. Empty if a face keeps a mesh or is not bounded by one loop of
 ///          at least three edges between different faces, if there would be more than `most` blocks, if a
 ///          line would leave its face, or if the scaled Jacobian at a corner of a block would be below 0.1.
-/// @throw InvalidInput  an edge is too short to be split. Cancelled
+/// @throw InvalidInput  an edge is too short to be split.
+/// @throw Cancelled
 /// @note  O(edges · facets).
 std::vector<topology::OpenVolume> midpoint_blocks(const topology::OpenVolume& volume, std::size_t most,
                                                   const RunContext& context = {});

@@ -27,18 +27,19 @@ struct MovedEnd : Closed {
 /// The missing end then has the given end's shape, and walls are closed between the two. The scale is fitted
 /// only if walls cover a third of the outline, because the taper of a bore is not that of the outline. The
 /// map must move every part of the rim.
-/// @param known  whether points on the missing end's rim and at mid-height of the missing walls lie on
-///               existing faces; if all points for one end do, nothing is sealed
+/// @param known  tells whether all of some points lie on existing faces. If it says so of the points on the
+///         rim of a missing end and at mid-height of the missing walls, nothing is sealed.
 /// @return  one result per flat face that can be such an end: all other faces are walls connected to it, and
 ///          adjacent walls are missing. If there are many such faces, those with the most adjacent faces are
 ///          tried.
-/// @throw InvalidInput  faces that cannot be oriented. Cancelled.
+/// @throw InvalidInput  the faces cannot be oriented.
+/// @throw Cancelled
 std::vector<MovedEnd> move_ends(const topology::Model& model, const std::vector<FaceId>& faces,
                                 const std::function<bool(const std::vector<Vec3>&)>& known,
                                 const RunContext& context);
 
-/// As `move_ends()`, for an end that the user named as the source, with the given walls. Empty if these do
-/// not determine the missing end.
+/// Seal a volume whose source the user named in the same way, with the given walls. Empty if the walls do not
+/// determine the missing end.
 /// @pre  `open` has no target
 std::optional<MovedEnd> move_source(const topology::OpenVolume& open, const RunContext& context);
 

@@ -18,16 +18,19 @@ bool is_ring(const topology::OpenVolume& volume, const RunContext& context);
 /// Why no roles were found and what to call instead, after trying planes to cut by: "topology.sphere",
 /// "topology.cone" (one that includes its apex), "topology.crossing_bores", otherwise
 /// "topology.no_roles".
-/// @throw InvalidInput  faces that cannot be oriented. Cancelled.
+/// @throw InvalidInput  the faces cannot be oriented.
+/// @throw Cancelled
 Message why_no_roles(const topology::Model& model, const std::vector<FaceId>& faces,
                      const RunContext& context);
 
 /// The likeliest readings for a message: "1 (class IV, volume 2.1), 2 (class II, volume 3) and 3 more".
 std::string listed(const std::vector<Reading>& readings, std::ptrdiff_t most = 6);
 
-/// @throw NotClosed "closure.tube_loops"  a connected part of walls in a volume without ends that does not
-///        have two free loops; reports a tested way to open or cut it. InvalidInput
-///        "topology.crossing_bores". Cancelled.
+/// Refuse a volume without ends whose walls are not tubes, unless they have branches.
+/// @throw NotClosed "closure.tube_loops"  a connected part of the walls does not have two free loops; reports
+///         a tested way to open or cut the volume.
+/// @throw InvalidInput "topology.crossing_bores"  such a volume has bores that cross each other.
+/// @throw Cancelled
 void check_tubes(const topology::OpenVolume& volume, const RunContext& context);
 
 } // namespace lacuna::closure

@@ -42,7 +42,7 @@ topology::WalkImprint imprint(topology::OpenVolume& volume, const std::vector<to
 std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context);
 
 /// Cut every piece that a cut meets; the others stay as they are.
-/// @throw  as `cut`, except "closure.cut_misses".
+/// @throw  the errors of `cut`, except "closure.cut_misses".
 std::vector<StepPiece> cut_each(
     std::vector<StepPiece> pieces,
     const std::function<std::vector<StepPiece>(const topology::OpenVolume&)>& cut);
@@ -53,7 +53,7 @@ std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<V
 /// Add a flat partition bounded by loops of edges (the outer first).
 FaceId add_partition(topology::Model& model, const std::vector<std::vector<topology::EdgeUse>>& loops,
                      const geometry::Plane& plane, const std::string& name, const RunContext& context);
-/// The next free name of a partition: `cut_1` or with the next number.
+/// The next free name of a partition: `cut_1`, `cut_2` and so on.
 std::string partition_name(const topology::Model& model);
 
 } // namespace lacuna::closure

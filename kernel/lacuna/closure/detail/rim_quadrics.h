@@ -33,11 +33,11 @@ bool is_pair_of_planes(const Quadric& quadric);
 
 /// Shapes of a face that follow from its non-planar rim.
 struct RimShapes {
-    /// Sheets that the face lies on: the only quadric through the rim or, if there are many, as at the end of
-    /// a circular tube, the spheres, circular cylinders, cones and pairs of planes among them. Planes of
-    /// given faces at the rim are excluded.
+    /// Sheets that the face lies on: that of the only quadric through the rim. If there are many quadrics, as
+    /// through the end of a circular tube, the spheres, circular cylinders, cones and pairs of planes among
+    /// them. Planes of given faces at the rim are excluded.
     std::vector<QuadricSheet> told;
-    /// Other cylinders through such a rim: the face may lie on any of them.
+    /// If there are many quadrics, the other cylinders among them: the face may lie on any of these.
     std::vector<QuadricSheet> possible;
 };
 

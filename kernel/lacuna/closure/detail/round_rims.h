@@ -7,9 +7,9 @@
 namespace lacuna::closure {
 
 /// Divide rounds between an end and walls that lead away from the opposite end, such as the fillet round the
-/// top of a product in a box. They are divided where they are inclined by 45 degrees. The flatter part
-/// becomes part of the end, so that the rim of the step is there and layers meet the walls below at 45
-/// degrees or more. Undivided, the round would be tangent to the layers.
+/// top of a product in a box. They are divided where they are inclined by 45 degrees, and the flatter part
+/// becomes part of the end. Layers then meet the remaining walls at 45 degrees or more; they would be tangent
+/// to an undivided round.
 ///
 /// The dividing plane is normal to the direction of the end: facets on one side of it are flatter, on the
 /// other side steeper. A round that the plane does not divide all round is left as it is.

@@ -13,10 +13,10 @@ namespace lacuna::closure {
 /// Add missing round walls between free loops: the wall of a bore, of a shaft or of a cone between two rims
 /// on one axis.
 ///
-/// A rim needs such a wall if a flat face in it would lie in the plane of the given faces round it, or if it
-/// is not planar and these faces do not continue the wall. Rims on one axis with equal radii are paired along
-/// it; a rim left over is paired with one that a flat face might close as well. Rims of two unconnected parts
-/// are paired too.
+/// A rim needs such a wall in two cases: a flat face in the rim would lie in the plane of the given faces
+/// round it; or the rim is not planar and the given faces round it do not continue the wall. Rims on one axis
+/// with equal radii are paired along the axis. A rim left over is paired with a rim that a flat face might
+/// close as well. Rims of two unconnected parts are paired too.
 /// @return  the free loops that are left.
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);
@@ -39,8 +39,8 @@ bool is_bent_ring(const topology::Model& model, FaceId face);
 std::vector<topology::Rim> add_straight_walls(FlatFilling& filling, std::vector<topology::Rim> loops,
                                               const RunContext& context);
 
-/// Fill a rim that does not run round the axis with a face on the circular cylinder or cone through it. An
-/// arc of the rim determines the surface; the facets are made on the unrolled surface.
+/// Fill a rim with a face on the circular cylinder or cone through it, unless the rim runs round the axis of
+/// that surface. An arc of the rim determines the surface; the facets are made on the unrolled surface.
 /// @return  empty if the rim lies on no such surface.
 std::optional<VoidFilling> fill_round_patch(const topology::Model& model, const topology::Loop& loop,
                                             const RunContext& context);

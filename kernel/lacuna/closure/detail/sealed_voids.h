@@ -24,8 +24,8 @@ struct Void {
     std::vector<topology::RoleCandidate> ways; ///< role candidates, the likeliest first
     std::vector<topology::RoleCandidate> bent; ///< other candidates, which would need an ambiguous bend
     bool untold = false;                       ///< whether a void face has an ambiguous bend
-    bool fills_flat_loops = false;             ///< only flat free loops were missing
-    /// An end that was moved together with its holes without walls.
+    bool fills_flat_loops = false;             ///< whether a candidate fills only flat free loops
+    /// An end that was moved together with its holes without walls; invalid if there is none.
     FaceId through;
     bool channel = false; ///< sealed by two congruent ends
     std::string filled;   ///< how it was sealed without roles, in words for the user
@@ -51,9 +51,9 @@ bool leaves_open(const Sealed& sealed);
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
                         std::size_t most, const RunContext& context);
 
-/// Use the voids that follow from moving a given end to the missing one. If candidates found some of these
-/// too, keep only those. Otherwise the moved ones replace all others; if a rim without walls was extended,
-/// they are only added.
+/// Use the voids that are sealed by moving a given end to the missing one. If role candidates found some of
+/// these voids as well, keep only those. Otherwise the voids with a moved end replace all others; if a rim
+/// without walls was extended, they are added to the others instead.
 void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
                 const RunContext& context);
 

@@ -10,13 +10,15 @@ namespace lacuna::closure {
 
 /// A free loop, split into the loops of the faces that are missing there.
 struct SplitLoop {
-    std::vector<topology::Loop> parts; ///< all but the last planar
-    bool channel = false;              ///< whether the first two are congruent ends
+    std::vector<topology::Loop> parts; ///< all but the last are planar
+    bool channel = false;              ///< whether the first two parts are congruent ends
 };
 
-/// Split a non-planar free loop by straight void edges: a loop in two planes into two planar parts; the loop
-/// of a groove that lacks its ends and its mouth into the loops of these; the loop of a channel that lacks
-/// its ends and one wall into those of two planar congruent ends and of the wall.
+/// Split a non-planar free loop by straight void edges into the loops of the faces that are missing there:
+/// - a loop in two planes into two planar loops;
+/// - the loop of a groove without its ends and its mouth into the loops of these three faces;
+/// - the loop of a channel without its ends and one wall into the loops of two planar congruent ends and of
+///   the wall.
 /// @return  empty for any other loop.
 std::optional<SplitLoop> split_loop(topology::Model& model, const topology::Rim& rim);
 

@@ -7,8 +7,8 @@
 
 namespace lacuna::closure {
 
-/// Add to each end the walls that surround a whole loop of it and do not reach the other end: the lowest or
-/// topmost faces of a stack whose middle is missing.
+/// Add to each end the walls that surround a whole loop of that end and do not reach the other end: the
+/// lowest or topmost faces of a stack whose middle is missing.
 ///
 /// The free rim of these walls then is the end's open loop, so the gap can be closed as between any source
 /// and target.

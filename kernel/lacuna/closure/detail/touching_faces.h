@@ -9,22 +9,26 @@
 
 namespace lacuna::closure {
 
-/// Whether two straight sides of a loop join two others of one shape, so that straight lines between these
-/// fill it.
+/// Whether a four-sided loop has two opposite straight sides, and its other two sides are similar curves: a
+/// ruled face between these then fills the loop.
 bool is_ruled_between_alike(const topology::Model& model, const topology::Loop& loop);
 
 /// Whether a loop lies on a ball, a circular cylinder or a cone.
 bool lies_on_round_face(const topology::Model& model, const topology::Loop& loop);
 
-/// Whether the rim of one missing face determines its shape: straight lines fill it, or it lies on one ball,
-/// cylinder or cone that does not contain the given faces beside it.
+/// Whether the rim of one missing face determines its shape: the face is ruled between similar sides, or the
+/// rim lies on a sphere, a circular cylinder or a cone. In the second case, a hole in one bent face, or in
+/// parts of one cylinder or sphere, does not count.
 bool tells_face(const topology::Model& model, const topology::Loop& loop, const RunContext& context = {});
 
-/// The loops of two or three missing faces that touch, where one free loop runs round them. Flat faces whose
-/// runs of the loop determine their planes meet in straight void edges, three of them in a void vertex. A
-/// flat face and one that its rim determines meet in a straight edge, or in the image of the opposite side.
-/// @param rim  a loop that is not flat; the void edges are added to the model.
-/// @return  empty if there is no such split, or several.
+/// Split a free loop that runs around two or three adjacent missing faces into the loops of these faces.
+///
+/// Of two faces, one is flat, because its part of the loop lies in a plane. The other is flat too, or its rim
+/// determines its shape. The void edge between them is straight, or a shifted copy of the opposite side of
+/// the second face. Of three faces, all are flat and meet in a void vertex, or one is flat and the other two
+/// are split as above.
+/// @param rim  a loop that is not flat. The void edges and the void vertex are added to the model.
+/// @return  empty if no split fits, or more than one.
 std::optional<std::vector<topology::Loop>> split_touching(topology::Model& model, const topology::Rim& rim,
                                                           const RunContext& context);
 
@@ -35,8 +39,8 @@ bool closes_hole_in_bent_face(const topology::Model& model, FaceId face);
 /// Whether a void face is bent and its rim does not determine its shape.
 bool is_untold(const topology::Model& model, FaceId face);
 
-/// The error "topology.shape_open" about the first bent void face that its rim does not determine, without a
-/// remedy.
+/// The error "topology.shape_open" about the first bent void face whose rim does not determine its shape,
+/// without a remedy.
 std::optional<Message> untold_face(const topology::OpenVolume& sealed, const Closure& closure);
 
 } // namespace lacuna::closure

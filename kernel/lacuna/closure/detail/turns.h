@@ -11,8 +11,9 @@ namespace lacuna::closure {
 /// Mean turn of the skin towards the void at each edge between two faces [degrees]: positive if the interior
 /// angle of the void exceeds 180°, 0 for free edges and seams.
 ///
-/// The void's side is found for each connected part of the skin: from the side to which its walls leave both
-/// ends, from where the opposite ends lie, or else from the part's centre; see `parts_facing_void()`.
+/// The side of the void is found for each connected part of the skin: by the side of its ends on which its
+/// walls stand, by the position of the opposite ends, or else by the part's centre; see
+/// `parts_facing_void()`.
 /// @note  O(facets · parts).
 std::vector<double> concave_turns(const topology::OpenVolume& volume, const RunContext& context);
 

@@ -13,7 +13,8 @@ namespace lacuna::closure {
 struct Gap {
     VertexId source, target; ///< on the rims
     VertexId from, to;       ///< where the wall edges end, up from the source and down from the target
-    std::vector<topology::EdgeUse> below, above; ///< those edges, directed away from their rim
+    std::vector<topology::EdgeUse> below, above; ///< the wall edges up to `from` and down to `to`, directed
+                                                 ///< away from their rim
 };
 
 /// The gaps of all matched pairs, in the order of the match. Wall edges are followed from each rim as long as
@@ -34,9 +35,9 @@ struct Course {
 /// normal. Its handles have the length c / (3 cos²(θ/4)), where c is the chord and θ the total turn of the
 /// tangents. These are the handles of the circular arc with the same chord and turn, which the curve
 /// approximates within 0.03 % of the radius at 90°.
-/// @throw InvalidInput  a user's void edge that names no vertex of the free rims, is given twice, contradicts
-///         the match, or crosses a given face; names the vertices.
-/// @throw NotClosed     smooth, and the ends do not determine to which side to bend.
+/// @throw InvalidInput  a user's void edge names no vertex of the free rims, is given twice, contradicts the
+///         match, or crosses a given face; names the vertices.
+/// @throw NotClosed     edges are smooth, and the ends do not determine to which side they bend.
 std::vector<EdgeId> make_void_edges(topology::OpenVolume& volume, const matching::Match& match,
                                     const std::vector<VoidEdge>& by_hand, const Course& course,
                                     const RunContext& context);

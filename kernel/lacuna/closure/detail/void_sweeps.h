@@ -26,7 +26,7 @@ topology::Classification class_as_given(const topology::Model& model, const topo
 /// Give the faces of a sealed volume the roles of one sweep direction.
 void set_ends(topology::OpenVolume& volume, const topology::Roles& roles);
 
-/// A void with its best sweep direction. Empty if a likelier void has these ends.
+/// The reading of a void with its best sweep direction. Empty if a likelier void has the same ends.
 /// @param likelier  all voids, `found` among them, the likeliest first
 std::optional<Reading> read(const topology::Model& model, const std::vector<Void>& likelier, Void& found,
                             const RunContext& context);

@@ -29,25 +29,28 @@ struct SweptSource {
 
 /// Give a source the motion along a path.
 /// @param model  contains the edges of a path.
-/// @throw InvalidInput "closure.along_…"  a path without length or with an unknown edge; a source that
-///                     touches the axis at a point, has several parts or is closed; a section that shrinks to
-///                     nothing; a place of the source whose ray meets the face nowhere or twice. As
-///                     `geometry::motion_along_path()`. Cancelled.
+/// @throw InvalidInput "closure.along_…"  the path has no length or an unknown edge; the source touches the
+///         axis at a point, has several parts or is closed; the section shrinks to nothing; the ray from a
+///         point of the source meets the target face not at all or twice. Or the errors of
+///         `geometry::motion_along_path()`.
+/// @throw Cancelled
 SweptSource swept_source(const topology::Model& model, topology::OpenVolume source, const Along& along,
                          const RunContext& context);
 
 /// @throw InvalidInput "closure.along_axis"  edges of the source lie on the axis of its turn.
 void refuse_edges_on_axis(const SweptSource& swept);
 
-/// Seal a source and its motion: each edge of its rim becomes void walls, one between two corners of the
-/// path, each vertex of its rim a void edge along the path, and each of its faces a face of the target. All
-/// have the exact geometry that the motion gives them. After a full turn there are walls only.
-/// @throw InvalidInput  options that shape missing faces. As `refuse_edges_on_axis()`.
-/// @throw NotClosed "closure.along_folds"  the path bends more than the source allows, or its layers would
-///        fold; "closure.along_crosses": the volume would cross itself. Both say where.
+/// Build the skin of a source swept along a path. Each rim edge of the source sweeps one void wall for each
+/// section of the path between two of its corners. Each rim vertex sweeps a void edge along the path. Each
+/// face of the source has an image on the target. New entities have the exact geometry of the motion. After a
+/// full turn there are walls only.
+/// @throw InvalidInput  an option shapes missing faces, which the motion defines here; or the errors of
+///         `refuse_edges_on_axis()`.
+/// @throw NotClosed "closure.along_folds"  the path bends within the width of the source, or layers along the
+///         normals would fold. "closure.along_crosses"  the volume would cross itself. Both name the place.
 Closed close_along(const SweptSource& swept, const CloseOptions& options, const RunContext& context);
 
-/// The two halves of a full turn, sealed, which share both ends.
+/// The two halves of a full turn, sealed. They share both ends.
 std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& context);
 
 } // namespace lacuna::closure

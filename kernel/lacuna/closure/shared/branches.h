@@ -18,20 +18,21 @@ inline constexpr double kAlongAxis = 0.1;
 /// half its width.
 bool has_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 
-/// Cut a volume at its side branches into arms that can be swept: a tee into three arms, a manifold into two
-/// more per branch and one more between two branches.
+/// Cut a volume at its side branches into arms that can be swept: a tee into three arms, a manifold with n
+/// branches into 2n + 1, because the main body is also cut between two branches.
 ///
-/// Three void faces meet in a line across each mouth, which dips into the main body: one across the main
-/// body, and two from that line to the halves of the mouth. Each arm ends in two of them, so the junction of
-/// a tee of equal tubes consists of three half ellipses. The remaining pieces are cut again, and so are
-/// branches of branches. If branches leave to several sides, or one leaves an arm at an angle to the line
-/// across that arm's end, the main body's walls are first split by planes along its axis through the centre
-/// of each mouth and of each such line: the new edges determine the correspondence on rims that are bent at
-/// mouths.
+/// Three void faces meet in a line that crosses the mouth of a branch and dips into the main body: one face
+/// runs across the main body, two run from the line to the halves of the mouth. Each arm ends at two of these
+/// faces, so the junction of a tee of equal tubes consists of three half ellipses. The remaining pieces are
+/// cut again, and so are branches of branches.
+///
+/// If branches leave to several sides, or at an angle to an edge that crosses an end of the main body, the
+/// walls of the main body are first split by planes along its axis. A plane runs through the centre of each
+/// mouth and of each such edge. The new edges determine how rims that are bent at mouths correspond.
 /// @return  pieces in the order of the cuts; the volume itself if it has no branches.
-/// @throw NotSweepable "closure.branches"  a main body with missing walls at the mouth, or with more than two
-///         ends; mouths next to each other (names where to cut by hand); a branch that reaches beyond the
-///         side of the main body. Otherwise as `cut_by_plane()`.
+/// @throw NotSweepable "closure.branches"  the main body has missing walls at the mouth, or more than two
+///         ends; mouths are next to each other (names where to cut by hand); a branch reaches beyond the side
+///         of the main body. Or the errors of `cut_by_plane()`.
 /// @note  O(branches · facets log facets).
 std::vector<StepPiece> cut_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 

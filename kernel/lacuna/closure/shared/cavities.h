@@ -9,8 +9,8 @@
 
 namespace lacuna::closure {
 
-/// A hollow of a solid that is a valid open volume, or a void within it, which may have no ends to sweep
-/// between.
+/// A hollow of a solid that makes an open volume, or an inner void: a hollow without a mouth, which is listed
+/// even if it has no ends to sweep between.
 struct Cavity {
     std::string kind;          ///< "pocket", "bore", "slot" or "inner void"
     std::vector<FaceId> faces; ///< ascending: the `faces` to name for an open volume
@@ -18,9 +18,9 @@ struct Cavity {
     double volume = 0; ///< enclosed once sealed [model length³]
 };
 
-/// The cavities of the solids of a model: the hollows of topology::hollows(), each alone and merged with the
-/// others that share a whole rim with it, if they have no mouth or find_readings() finds exactly one void. In
-/// the order of their first faces.
+/// The cavities of the solids of a model, in the order of their first faces. Candidates are the hollows of
+/// topology::hollows(), and each set of hollows that share whole rims, merged. A candidate is a cavity if it
+/// has no mouth, or if find_readings() finds exactly one void.
 /// @throw Cancelled
 /// @note  One call of find_readings() per hollow.
 std::vector<Cavity> cavities(const topology::Model& model, const RunContext& context = {});

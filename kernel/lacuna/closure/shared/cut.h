@@ -26,13 +26,14 @@ namespace lacuna::closure {
 ///         distance. "closure.cut_apart"  the volume stays connected, such as a ring cut once.
 ///         "closure.cut_touches"  the plane runs along faces that nearly lie in it. "closure.cut_gaps"  open
 ///         ends of walls that cannot be joined without crossings.
-/// @throw InvalidInput  as `topology::imprint_walks()`.
+/// @throw InvalidInput  the errors of `topology::imprint_walks()`.
 /// @note  O(facets log facets).
 std::vector<StepPiece> cut_by_plane(const topology::OpenVolume& volume, const geometry::Plane& plane,
                                     const RunContext& context = {});
 
-/// As `cut_by_plane()`, but only in the regions of the plane whose rims run along one of these edges; without
-/// edges, in all. Cut lines across flat faces have no inner points, so that coarse meshes fold no facets.
+/// Cut like `cut_by_plane()`, but only in the regions of the plane whose rims run along one of the given
+/// edges; without edges, in all regions. Cut lines across flat faces have no inner points, so that coarse
+/// meshes fold no facets.
 std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const geometry::Plane& plane,
                                     const std::vector<EdgeId>& edges, const RunContext& context = {});
 
@@ -43,7 +44,7 @@ std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const ge
 /// face of another model only where its own facets are inside the volume.
 /// @param face  of `model`, which may be the volume's.
 /// @throw NotSweepable "closure.cut_face"  a curved face whose rim leaves the volume's edges; names the face
-///         and the place. Otherwise as `cut_by_plane()`.
+///         and the place. Or the errors of `cut_by_plane()`.
 std::vector<StepPiece> cut_by_face(const topology::OpenVolume& volume, const topology::Model& model,
                                    FaceId face, const RunContext& context = {});
 

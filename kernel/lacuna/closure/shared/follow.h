@@ -47,8 +47,8 @@ public:
     /// edges would enclose a different volume. @pre leads()
     [[nodiscard]] bool leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const;
 
-    /// Distance of the walls from straight lines between the rims, as a share of the source rim's radius: for
-    /// each point of the sections the largest over the heights, of these the median.
+    /// Distance of the walls from straight lines between the rims, as a share of the source rim's radius: the
+    /// median, over the points of the sections, of the largest distance at any height.
     [[nodiscard]] double bow() const { return bow_; }
 
     /// Height of a model point on a given wall; NaN for other points.
@@ -66,8 +66,8 @@ private:
     static Way way_of(const std::vector<std::vector<Vec3>>& levels, const std::vector<Vec3>& areas,
                       const RunContext& context);
 
-    /// Distance between a loop's given walls and their image under the motion of all walls, as a share of
-    /// their radius.
+    /// Distance between a loop's given walls and their image under the motion of all walls, as a share of the
+    /// loop's radius.
     [[nodiscard]] double missed_by_all(const topology::Model& model,
                                        const matching::LoopSections& loop) const;
 

@@ -15,14 +15,16 @@ using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 
 /// Cut a sealed volume that no single sweep fills into pieces that can be swept.
 ///
-/// Cut surfaces are those of `cut_planes()`: planes of flat faces beside concave edges, each only as far as
-/// it reaches from these edges into the volume, planes between features, and planes through the axes of
-/// crossing bores.
+/// Candidate cuts are those of `cut_planes()`:
+/// - the plane of a flat face next to concave edges, only in the regions of the plane that adjoin these
+///   edges;
+/// - planes midway between features;
+/// - planes through the axes of bores that cross each other.
 ///
-/// The best cut of a piece leaves the least length still to cut (`length_to_cut()`) in pieces without ends,
-/// which are then cut in turn. A piece has ends if `read_ends()` finds them, or if its closed skin has a
-/// sweep direction, and `can_sweep` accepts them. Cutting stops where no cut reduces that length. Cuts are
-/// undone if each of the resulting pieces lacks ends and still needs cuts.
+/// The best cut of a piece leaves the least length to cut (`length_to_cut()`), summed over the resulting
+/// pieces without ends. These pieces are cut in turn. A piece has ends if `can_sweep` accepts the ends that
+/// `read_ends()` finds, or those of a sweep of its closed skin. Cutting stops where no cut reduces that
+/// length. Cuts are undone if all resulting pieces lack ends and still need cuts.
 ///
 /// If a piece is left without ends, the whole volume is tried in three other ways, in this order:
 /// - as one piece with ends along an axis, the rounds at their rims divided (`split_round_rims()`);

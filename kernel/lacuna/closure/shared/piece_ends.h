@@ -24,7 +24,7 @@ struct ReadPieces {
 /// faces within 60° of the normal of a flat one. Two candidates can be the ends if each wall touches both and
 /// has another wall on either side. The function takes the pair that is flattest, most similar and most
 /// perpendicular to its walls. It prefers ends that the user named, and pairs for which a cut face that is a
-/// wall of both adjacent pieces touches the ends of both along the same sides.
+/// wall of both adjacent pieces touches the ends of both along the same edges.
 /// Pieces without such ends, or with missing faces, are unchanged.
 /// @throw Cancelled
 /// @note  O(ends² · faces) per piece, for at most 600 ends; pieces with more than 40 faces are unchanged.

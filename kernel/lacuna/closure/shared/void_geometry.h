@@ -35,9 +35,10 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 /// Triangulate one void face from its loops (the outer loop and islands).
 ///
 /// The method depends on the face; algorithms are numbered as in the paper (`docs/bibliography.md`).
-/// - A bent face with four logical sides: Algorithm 6 (Algorithm 5 if two of them are closed edges), a
-///   bilinear Coons patch over arc length. Departure: its facets are made by transfinite interpolation, as
-///   its mesh is, so that both are the same surface.
+/// - A bent face with four logical sides, or with four sharp corners if it is ruled or its rim lies on no
+///   quadric: Algorithm 6 (Algorithm 5 if two of the sides are one closed edge), a bilinear Coons patch over
+///   arc length. Departure: its facets are made by transfinite interpolation, as its mesh is, so that both
+///   are the same surface.
 /// - Any other face whose outline does not cross itself in its Newell plane: Algorithm 4, constrained
 ///   Delaunay in that plane, with inner heights from the harmonic interpolation of the rim's heights.
 ///   Departure: if the rim determines a quadric, the interior lies on it too. If the rim lies on many

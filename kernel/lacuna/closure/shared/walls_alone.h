@@ -15,7 +15,8 @@ namespace lacuna::closure {
 /// @param take_guess  whether to accept an ambiguous shape
 /// @return  empty if all parts are tubes, if they have branches (which are cut instead), or if
 ///          find_readings() finds no void or several.
-/// @throw InvalidInput  as open_volume(). Cancelled.
+/// @throw InvalidInput  the errors of open_volume().
+/// @throw Cancelled
 std::optional<Reading> read_walls_alone(const topology::Model& model, const std::vector<FaceId>& walls,
                                         bool take_guess, const RunContext& context = {});
 

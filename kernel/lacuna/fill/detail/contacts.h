@@ -14,13 +14,14 @@ struct FoundContact {
     std::vector<sweep::FaceContact> faces; ///< `a` is of the first region
 };
 
-/// As `contacts()`. Without a gap only regions that are not glued can be in contact.
+/// Find contacts like `contacts()`. Without a gap, only regions that are not glued can be in contact.
 std::vector<FoundContact> find_contacts(std::span<const sweep::AssemblyMember> members,
                                         const ContactRequest& request, const RunContext& context);
 
 std::vector<Contact> without_faces(std::vector<FoundContact> found);
 
-/// Add a contact to a mesh, with groups of its faces; none if the volumes of a side were left out.
+/// Add a contact and the groups of its faces to a mesh. Nothing is added if the volumes of one side were left
+/// out.
 void add_contact(FilledParts& mesh, std::span<const sweep::AssemblyMember> members,
                  const FoundContact& found);
 

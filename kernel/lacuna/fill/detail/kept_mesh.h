@@ -12,7 +12,7 @@
 
 namespace lacuna::fill {
 
-/// The place of a node.
+/// Coordinates of a corner node or a middle node.
 inline Vec3& place(mesh::HexMesh& mesh, Index node)
 {
     const std::size_t n = index(node), corners = mesh.nodes.size();
@@ -32,14 +32,14 @@ struct KeptMesh {
 };
 
 std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh);
-/// As above for each part, in the order of the parts.
-/// @throw InvalidInput "fill.mixed_member"  the mesh has tetrahedra; "fill.split_member";
-///        "fill.contact_member"
+/// Keep each part of a mesh, in the order of the parts.
+/// @throw InvalidInput "fill.mixed_member"  the mesh has tetrahedra; "fill.split_member"  it was split by
+///         `split_interface()`; "fill.contact_member"  it has contact pairs.
 std::vector<std::unique_ptr<KeptMesh>> keep(FilledParts mesh);
 
 /// Move nodes of copies onto nodes of other meshes that differ from them by rounding only; then make the
 /// skins.
-/// @throw InvalidInput  as `io::skin_of()`.
+/// @throw InvalidInput  the errors of `io::skin_of()`.
 void add_skins(std::span<KeptMesh* const> meshes, const RunContext& context);
 
 } // namespace lacuna::fill

@@ -16,7 +16,7 @@ void require_roles(const Volume& volume);
 /// Why a volume cannot be swept, with the option that fills it with tetrahedra as one more thing to try.
 Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& options);
 
-/// Run a sweep. @throw NotSweepable  as the sweep, with tetrahedra as one more thing to try.
+/// Run a sweep. @throw NotSweepable  the error of the sweep, with tetrahedra as one more thing to try
 template <class Do>
 auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 {
@@ -44,12 +44,12 @@ Volume sealed_whole(const Volume& volume, const RunContext& context);
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name);
 
-/// Whether a volume is swept in pieces, and the pieces. As `closure::cut_into_pieces()`; for class 0, the
-/// halves of a full turn.
+/// Whether a volume must be swept in pieces, and these pieces: those of `closure::cut_into_pieces()` or, for
+/// class 0, the halves of a full turn.
 bool has_pieces(const Volume& volume, const RunContext& context);
 std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunContext& context);
 
-/// Cut a sealed volume into pieces that can be swept, as `closure::partition()`.
+/// Cut a sealed volume into pieces that can be swept, by `closure::partition()`.
 std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context);
 
 /// Sweep the pieces of one volume as an assembly.

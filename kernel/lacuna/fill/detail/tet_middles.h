@@ -26,10 +26,10 @@ struct ElevatedTets {
 /// not valid by its Bézier bounds, its sides that bend only to follow geometry are straight too.
 /// @param faces   face of each patch of the skin
 /// @param known   middle nodes of the neighbours' meshes
-/// @param region  its name, for messages
+/// @param region  name of the region, for messages
 /// @throw NotSweepable "fill.second_order"  a cell stays invalid because of sides that neighbours or the file
-///                     give.
-///        Cancelled.
+///         give.
+/// @throw Cancelled
 /// @note  Deterministic for any number of threads. O(n log n) in the sides of the skin, O(n) in cells.
 ElevatedTets elevate(const topology::Model& model, mesh::TetPart& mesh, const std::vector<FaceId>& faces,
                      const sweep::SharedMiddles& known, const sweep::SecondOrderOptions& options,

@@ -24,10 +24,8 @@ struct ToFill {
     const sweep::SharedMiddles& middles;          ///< at order 2: middle nodes of the meshes made before
 };
 
-/// The cells that a mesh has on one of its faces, as seen from the neighbour.
-/// @param faces  of each patch of the mesh
-/// @param there  that face
-/// @param own    the neighbour's face
+/// The cells that a mesh has on its face `there`, as seen from the neighbour, whose face `own` is the same.
+/// @param faces  face of each patch of the mesh
 surface::FixedFace cells_on(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, FaceId there,
                             FaceId own);
 surface::FixedFace cells_on(const FilledTets& mesh, FaceId there, FaceId own);
@@ -38,13 +36,15 @@ surface::FixedFace cells_on(const FilledTets& mesh, FaceId there, FaceId own);
 /// triangulated at the size. The result is proved: conforming, every cell certified, its skin on the sealed
 /// skin. Middle nodes of order 2 are added to a proved mesh of order 1, as `elevate()` of `tet_middles.h`.
 /// @return  without `number`.
-/// @throw InvalidInput "fill.no_tets"  the options have no mesher for tetrahedra; as
-///        `surface::triangulate_skin()`. NotSweepable  as the mesher and `elevate()`; the proof fails;
-///        "sweep.deviation"  the skin or the volume deviates. Cancelled.
+/// @throw InvalidInput "fill.no_tets"  the options have no mesher for tetrahedra. Or the errors of
+///         `surface::triangulate_skin()`.
+/// @throw NotSweepable "sweep.deviation"  the skin or the volume deviates. Or the proof fails, or the errors
+///         of the mesher and of `elevate()`.
+/// @throw Cancelled
 FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options, const RunContext& context);
 
 /// Number the nodes of tetrahedra after those of the meshes before. A skin node at the same place as a skin
-/// node of one of these gets its number.
+/// node of one of these meshes gets the number of that node.
 /// @throw NotSweepable "fill.not_shared"  sides of skins that should be shared are not.
 void number_nodes(FilledParts& mesh);
 

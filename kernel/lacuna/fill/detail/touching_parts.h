@@ -19,13 +19,13 @@ struct JoinedParts {
 };
 
 /// Join the parts of a volume's skin that touch, such as a box and a product of another solid on its floor.
-/// What two faces share is split off both and left out, for it does not bound the volume.
+/// The area that two faces share is split off both and left out, because it does not bound the volume.
 ///
 /// Whole solids side by side are not joined, unless they stand inside another part.
 /// @param named  faces of the volume, or some of them if `all_follow`: then the others are found later.
 /// @return  empty if nothing touches.
-/// @throw InvalidInput "assembly.part_of_face"  faces in contact that cannot be split; names both.
-///        "assembly.rims_apart"  as `sweep::shared_faces()`.
+/// @throw InvalidInput "assembly.part_of_face"  faces in contact cannot be split; names both.
+///         "assembly.rims_apart"  see `sweep::shared_faces()`.
 /// @note  Only parts with named faces whose boxes meet are compared.
 std::optional<JoinedParts> join_touching_parts(const topology::Model& model, const std::vector<FaceId>& named,
                                                bool all_follow, const RunContext& context = {});

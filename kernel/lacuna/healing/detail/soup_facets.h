@@ -30,7 +30,8 @@ Vec3 area_vector(const std::vector<Vec3>& points, const Triangle& facet);
 /// point of one free side lies on another (T-junction). Halves of quads are not cut.
 /// @param tolerance  points closer than this are merged [model length]; 0: 1e-6 × the diagonal.
 /// @throw InvalidInput  there are no facets; a facet uses a point that is missing or not finite; with a
-///        tolerance of 0, more facets collapse than remain. Cancelled.
+///         tolerance of 0, more facets collapse than remain.
+/// @throw Cancelled
 Facets facets_of(const FacetSoup& soup, double tolerance, const RunContext& context);
 
 } // namespace lacuna::healing

@@ -21,11 +21,11 @@ struct GrownFace {
                              ///< entirely
 };
 
-/// Make one face of the facets connected to the facet closest to `near`. Growth crosses sides that have two
-/// facets or fewer and turn by no more than `angle`; a given quad counts as one facet.
+/// Make one face of the facets connected to the facet closest to `near`. Growth crosses sides that have
+/// exactly two facets and turn by no more than `angle`; a given quad counts as one facet.
 ///
 /// Growth may take facets from other faces. The rest of such a face keeps its tag and its place among the
-/// faces. If the rest is in several parts, the part with the most facets keeps them; the other parts and the
+/// faces. If the rest is in several parts, the part with the most facets keeps both; the other parts and the
 /// grown face come last, with new tags above all others. A face that is grown over entirely is removed. The
 /// grown face takes its name, groups and regions from the face of the first facet. If growth takes exactly
 /// one existing face, the model is unchanged and that face is returned. Otherwise edges and vertices are

@@ -44,9 +44,9 @@ PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const A
 /// Whether two alignments differ by more than a small shift along a smooth loop.
 bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignment& a, const Alignment& b);
 
-/// Number of mismatches of given sides under an alignment: source edges paired with an edge of another number
-/// of sides. For loops that are paired by length and measured in sides: vertices of the loop with fewer
-/// vertices that meet no vertex of the other.
+/// Number of mismatches of given sides under an alignment: source edges paired with an edge that has another
+/// number of sides. For loops that are paired by length and measured in sides: vertices of the loop with
+/// fewer vertices that meet no vertex of the other loop.
 std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment);
 
 } // namespace lacuna::matching

@@ -10,8 +10,8 @@
 
 namespace lacuna::matching {
 
-/// Sample points of a loop in a fit. Each is tried as the start, so the cost grows with their square; the
-/// best start is refined between samples afterwards.
+/// Number of sample points of a loop in a fit. Each is tried as the start, so the cost grows with the square
+/// of their number; the best start is refined between samples afterwards.
 inline constexpr std::size_t kSamples = 64;
 /// Number of nearest loops whose samples take part in the fit of a loop. With all loops, the cost of each fit
 /// would grow with the number of loops.
@@ -47,7 +47,7 @@ std::size_t given_sides(const LoopShape& shape);
 std::vector<std::size_t> first_sides(const LoopShape& shape);
 
 /// Measure arc length in given sides. Loops with equal numbers of sides then correspond node by node.
-/// @pre given_sides()
+/// @pre  given_sides() is not 0.
 void count_by_sides(LoopShape& shape);
 
 /// Sample a loop evenly, starting at a running length.

@@ -21,7 +21,8 @@ struct Sections {
     std::vector<Vec3> areas;     ///< area vector of each level's lines, pointing up the walls
     std::vector<std::vector<Vec3>>
         levels; ///< level by level from the source rim to the target rim; point i of each corresponds
-    bool closed = false; ///< some wall part is a closed ring, so its sections need no extrapolation
+    bool closed = false; ///< by level, from the source rim to the target rim; points with the same index in
+                         ///< two levels correspond
     /// Sections of the loops whose open walls reach far enough round to extrapolate the rest of the loop.
     std::vector<LoopSections> loops;
 };

@@ -14,7 +14,8 @@ namespace lacuna::topology {
 /// The patches of a model, indexed for role candidates.
 struct PatchMap {
     std::vector<SmoothPatch> patches;
-    std::vector<std::size_t> of_use;            ///< `kNoIndex` for a use without a face
+    std::vector<std::size_t> of_use;            ///< by use, see `number_of()`; `kNoIndex` for a use without a
+                                                ///< face
     std::vector<EdgeUse> next;                  ///< next use in the face's loop
     std::vector<std::vector<std::size_t>> at{}; ///< patches by vertex
 };

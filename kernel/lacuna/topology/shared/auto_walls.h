@@ -31,7 +31,8 @@ struct WallChoice {
 /// shortest free edges wins, and of equal ones the one that encloses the least volume: the faces nearest to
 /// the void. With one end, free edges must remain for the other. All faces are taken if there are too many
 /// choices to enumerate, if a sheet meets itself at such an edge, or if no choice is valid.
-/// @throw InvalidInput "topology.walls_ambiguous"  two equally good choices; names both. Cancelled.
+/// @throw InvalidInput "topology.walls_ambiguous"  two choices are equally good; names both.
+/// @throw Cancelled
 /// @note  O(faces) if no edge is used more than twice; otherwise exponential in the number of sheets, up to a
 ///         bound.
 WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,

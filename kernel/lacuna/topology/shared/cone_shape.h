@@ -34,7 +34,7 @@ struct ConeShape {
 /// The cone of a face from its facets: the axis has the same angle to all normals, and apex and slope are
 /// fitted to the corners by least squares.
 /// @return empty if corners are off by more than a hundredth of the largest radius, as on a plane, a cylinder
-///         or a free form, and if the face has too few facets round the axis to decide.
+///         or a free form, or if the face has too few facets round the axis to decide.
 /// @note  O(facets).
 std::optional<ConeShape> cone_shape(const Model& model, FaceId face);
 

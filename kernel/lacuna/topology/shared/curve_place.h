@@ -13,8 +13,8 @@ struct CurvePlace {
     Vec3 place;
 };
 
-/// The point of an edge's exact curve that lies perpendicular to a chord from a given point of that chord.
-/// Models with different chords thus place a shared vertex at the same point of the exact curve.
+/// The point where an edge's exact curve meets the plane that is normal to a chord at a given point of the
+/// chord. Models with different chords thus place a shared vertex at the same point of the exact curve.
 /// @param segment   index of the chord.
 /// @param fraction  of the chord's length, in [0, 1].
 /// @pre  the edge has a curve and parameters.

@@ -38,10 +38,11 @@ void give_edge_nodes(OpenVolume& volume, std::span<const EdgeNodes> edges);
 /// curves and the face its exact surface, because the given mesh replaces them.
 /// @param nodes  of the mesh [model length].
 /// @param quads  of the mesh, consistently oriented either way. A triangle repeats its last corner.
-/// @throw InvalidInput "topology.mesh_unlike_face"  quads that are no manifold, whose rim has other loops
-///         than the face, or whose rim is off them; "topology.mesh_misses_vertex"  a vertex without a node;
-///         "topology.meshes_differ"  an adjacent face whose given mesh has other nodes on their edge. Names
-///         them.
+/// @throw InvalidInput "topology.mesh_unlike_face"  the quads are not a manifold, their rims do not
+///         correspond one to one to the face's loops, or a rim node does not lie on a loop.
+///         "topology.mesh_misses_vertex"  a vertex with edges of other faces has no node.
+///         "topology.meshes_differ"  an adjacent face has a given mesh with other nodes on the common edge.
+///         Names the face, the vertex or the edge.
 /// @note  O(facets + quads + nodes of the rim × points of the loop).
 void give_mesh(OpenVolume& volume, FaceId face, std::span<const Vec3> nodes, std::span<const Quad> quads);
 

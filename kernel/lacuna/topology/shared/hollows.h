@@ -32,8 +32,8 @@ struct Hollow {
 /// @note  Near linear in facets.
 std::vector<Hollow> hollows(const Model& model, const RunContext& context = {});
 
-/// For each hollow, the first of the chain of hollows that share whole rims with it, such as a bore and its
-/// counterbore.
+/// For each hollow, the index of the first hollow in its chain of hollows that share whole rims, such as a
+/// bore and its counterbore.
 std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows);
 
 /// The faces of the cavity in a closed skin that contains the given faces: their hollows, the hollows that

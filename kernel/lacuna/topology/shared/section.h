@@ -18,7 +18,7 @@ struct SectionPlace {
     friend constexpr auto operator<=>(const SectionPlace&, const SectionPlace&) = default;
 };
 
-/// Where a place is, for a plane that crosses its side.
+/// Coordinates of a place on a facet side. @pre  the plane crosses the side
 Vec3 place_at(const Model& model, const SectionPlace& place, const geometry::Plane& plane);
 
 /// A chain of places where a plane crosses facets. It is oriented as the boundary of the facets behind the

@@ -30,8 +30,8 @@ struct ParamFacet {
     std::array<Vec2, 3> uv{Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
 };
 
-/// The facets that a facet is split into: fans from the corner opposite each side with points; the facet
-/// itself if it has none. Parameters of new corners are interpolated along the side.
+/// The facets that a facet is split into: fans from the corner opposite each side that has points; the facet
+/// itself if no side has points. Parameters of new corners are interpolated along the side.
 /// @pre  no inserted point is a corner of the facet.
 std::vector<ParamFacet> cut_at_sides(std::span<const Vec3> points, const ParamFacet& facet,
                                      const SidePoints& sides);
