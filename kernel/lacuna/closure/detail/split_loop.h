@@ -12,6 +12,8 @@ namespace lacuna::closure {
 struct SplitLoop {
     std::vector<topology::Loop> parts; ///< all but the last planar
     bool channel = false;              ///< whether the first two are congruent ends
+    bool is_assumed =
+        false; ///< whether one of two planar parts has only two given edges, which any plane fits
 };
 
 /// Split a non-planar free loop by straight void edges: a loop in two planes into two planar parts; the loop
