@@ -22,7 +22,8 @@ using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 /// The best cut of a piece leaves the least length still to cut (`length_to_cut()`) in pieces without ends,
 /// which are then cut in turn. A piece has ends if `read_ends()` finds them, or if its closed skin has a
 /// sweep direction, and `can_sweep` accepts them. Cutting stops where no cut reduces that length. Cuts are
-/// undone if each of the resulting pieces lacks ends and still needs cuts.
+/// undone if each of the resulting pieces lacks ends and cannot be divided at its middle or, with nothing
+/// left to cut, across an edge between coplanar faces.
 ///
 /// If a piece is left without ends, the whole volume is tried in three other ways, in this order:
 /// - as one piece with ends along an axis, the rounds at their rims divided (`split_round_rims()`);
