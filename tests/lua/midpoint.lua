@@ -275,7 +275,8 @@ end
 
 -- --- real bodies -------------------------------------------------------------------------------------------
 
-local bodies = { ["s14o_cube_corner_sub_sphere.stp"] = 1000 - 4 / 3 * math.pi * 4 ^ 3 / 8 }
+local bodies = { ["s14o_cube_corner_sub_sphere.stp"] = 1000 - 4 / 3 * math.pi * 4 ^ 3 / 8,
+  ["s10o_cyl_cutsphere.stp"] = false } -- half of its ball is cut where an earlier cut ended
 if whole then
   bodies["s04o_tetrahedron.geo"], bodies["s06o_dodecahedron.geo"] = false, false
   bodies["n08o_pentapyr.geo"], bodies["n14o_octahedron.geo"] = false, 4 / 3

@@ -90,6 +90,37 @@ for _ = 1, whole and 6 or 1 do
   end
 end
 
+-- A pyramid without its base and two sides lacks the vertex between them: two flat faces close it, with a
+-- note.
+for sides = 5, whole and 8 or 5 do
+  local path = params.scratch .. "/pyramid.geo"
+  local file <close> = assert(io.open(path, "w"))
+  local function write(text, ...) file:write(text:format(...), "\n") end
+  write 'SetFactory("OpenCASCADE");\nPoint(99) = {0, 0, 1.5, 0.4};'
+  for k = 1, sides do
+    local angle = 2 * math.pi * k / sides
+    write("Point(%d) = {%.15g, %.15g, 0, 0.4};", k, math.cos(angle), math.sin(angle))
+  end
+  for k = 1, sides do
+    local next = k % sides + 1
+    write("Line(%d) = {%d, %d}; Line(%d) = {%d, 99};", k, k, next, 100 + k, k)
+  end
+  for k = 1, sides do
+    local up, down = 100 + k % sides + 1, -100 - k
+    write("Curve Loop(%d) = {%d, %d, %d}; Plane Surface(%d) = {%d};", k, k, up, down, k, k)
+  end
+  write("Curve Loop(99) = {1:%d}; Plane Surface(99) = {99};", sides)
+  write("Surface Loop(1) = {1:%d, 99}; Volume(1) = {1};", sides)
+  file:close()
+  local model, gone = lacuna.load(path), {}
+  for angle = -1, 0 do
+    local at = 2 * math.pi * (angle + 0.5) / sides
+    gone[model:face { near = { 0.7 * math.cos(at), 0.7 * math.sin(at), 0.4 } }.tag] = true
+  end
+  gone[model:face { near = { 0, 0, 0 } }.tag] = true
+  check.that(has_note((sealed_without(model, gone))), sides .. " sides: notes")
+end
+
 local folder = params.shared .. "/data/bodies/"
 if params.shared == "" or not check.exists(folder .. "bodies.json") then
   print("skipped: " .. folder .. "bodies.json is not here")

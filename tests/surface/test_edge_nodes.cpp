@@ -87,6 +87,10 @@ TEST_CASE("points of an edge with an exact curve lie on the curve, not on the ch
     }
     CHECK(same_bits(points.front(), model.points.front()));
     CHECK(same_bits(points.back(), model.points.back()));
+    const std::vector<double> rounded{1e-15, 1 - 1e-15};
+    const auto ends = surface::edge_points(model, EdgeId(std::size_t(0)), rounded);
+    CHECK(same_bits(ends[0], model.points.front()));
+    CHECK(same_bits(ends[1], model.points.back()));
 }
 
 TEST_CASE("a chain runs through its edges in the direction they are used, and its places and points agree")

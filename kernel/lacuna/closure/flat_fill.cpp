@@ -14,10 +14,12 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace lacuna::closure {
 
@@ -73,6 +75,14 @@ struct ToFill {
     std::vector<Loop> flat, bent;
 };
 
+/// The faces at a free loop.
+std::vector<FaceId> faces_at(const Model& model, const Rim& rim)
+{
+    std::set<FaceId> faces;
+    for (const EdgeUse& use : rim.uses) faces.insert(model.uses_of_edge(use.edge).front().face);
+    return {faces.begin(), faces.end()};
+}
+
 /// The kinds of missing faces that are looked for.
 enum class Missing { flat, any };
 
@@ -106,6 +116,13 @@ std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const
             (is_flat(model, {part.uses}) ? result.flat : result.bent).push_back(std::move(part));
         filling.each_alone = false;
         filling.channel = filling.channel || split->channel;
+        if (split->is_assumed)
+            assume(filling.closure,
+                   Message("closure.edge_assumed",
+                           "two flat faces that meet in a straight edge are assumed to be missing beside {}",
+                           entities_of(model, faces_at(model, rim)))
+                       .remedy("if more faces are missing there, give them"),
+                   1);
     }
     return result;
 }

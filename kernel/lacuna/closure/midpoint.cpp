@@ -107,6 +107,7 @@ public:
         faces_ = places_.size();
         for (const FaceId face : all_faces(model)) {
             facets_.emplace_back(model.points, model[face].triangles);
+            is_cut_.push_back(model[face].origin == Origin::made_void && !model[face].name.empty());
             places_.push_back(facets_.back().closest(face_centroid(model, face)).point);
         }
         places_.push_back(centroid(model));
@@ -136,7 +137,7 @@ public:
     }
 
     /// Move the middles of faces (unless `fixed`) and of the volume along the coordinate axes, by shorter and
-    /// shorter steps, where this improves the blocks at them.
+    /// shorter steps, where this improves the blocks at them. Those of cuts stay: a neighbour may have them.
     void improve(bool fixed, const RunContext& context)
     {
         constexpr double kFirst = 0.25, kShorter = 0.8,
@@ -144,6 +145,7 @@ public:
         for (double step = kFirst; step > kLast; step *= kShorter) {
             check_cancelled(context);
             for (std::size_t p = fixed ? places_.size() - 1 : faces_; p < places_.size(); ++p) {
+                if (p - faces_ < facets_.size() && is_cut_[p - faces_]) continue;
                 double loss = loss_at(p);
                 const double length = step * shortest_at(p);
                 for (int k = 0; k < 6; ++k) {
@@ -199,6 +201,7 @@ private:
     std::vector<Vec3> places_;
     std::size_t faces_ = 0;                   ///< position of the first middle of a face
     std::vector<geometry::FacetTree> facets_; ///< by face
+    std::vector<bool> is_cut_;                ///< by face
     std::vector<Block> blocks_;
     std::vector<std::vector<std::size_t>> blocks_at_; ///< by place
 };

@@ -42,6 +42,7 @@ struct CutPart {
     std::vector<Bend> bends;
     double left = 0; ///< [model length]
     bool has_ends = false;
+    std::vector<StepPiece> blocks{}; ///< into which it is divided at its middle; may be empty
 };
 
 CutPart part_of(StepPiece piece, const RunContext& context)
@@ -71,6 +72,61 @@ bool find_ends(StepPiece& piece, const CanSweep& can_sweep, const RunContext& co
         return true;
     }
     return false;
+}
+
+/// Divide a volume at its middle; empty if that is not possible, or makes more than `most` pieces.
+std::vector<StepPiece> divided_at_middle(const OpenVolume& volume, std::size_t most,
+                                         const CanSweep& can_sweep, const RunContext& context)
+{
+    // Refused: an edge is too short to be split.
+    auto blocks = unless_refused([&] { return midpoint_blocks(volume, most, context); });
+    std::vector<StepPiece> made;
+    if (!blocks) return made;
+    for (OpenVolume& block : *blocks) {
+        made.push_back({std::move(block)});
+        if (!find_ends(made.back(), can_sweep, context)) return {};
+    }
+    return made;
+}
+
+/// Cut a volume across an edge between coplanar faces, where an earlier cut ended, into parts that have ends
+/// or are divided at their middles; empty if no such edge has such parts.
+std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_t most,
+                                            const CanSweep& can_sweep, const RunContext& context)
+{
+    const Model& model = volume.model;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        const auto plane = uses.size() == 2 ? plane_of(model, uses[0].face) : std::nullopt;
+        if (!plane || !lies_in_plane(model, uses[1].face, *plane)) continue;
+        const Vec3 from = model.at(model[model[EdgeId(e)].from].point),
+                   to = model.at(model[model[EdgeId(e)].to].point);
+        const geometry::Plane across = geometry::plane_across(from,
+                                                              plane->normal.cross(to - from).normalized());
+        // Refused: the edge is bent, or the volume stays in one piece.
+        auto parts = unless_refused([&] { return cut_at_edges(volume, across, {EdgeId(e)}, context); });
+        std::vector<StepPiece> made;
+        for (std::size_t p = 0; parts && p < parts->size(); ++p) {
+            std::vector<StepPiece> own{std::move((*parts)[p])};
+            if (!find_ends(own.front(), can_sweep, context))
+                own = divided_at_middle(own.front().volume, most, can_sweep, context);
+            if (own.empty()) parts.reset();
+            std::ranges::move(own, std::back_inserter(made));
+        }
+        if (parts && parts->size() > 1 && made.size() <= most) return made;
+    }
+    return {};
+}
+
+/// Divide a part without ends at its middle or, if nothing is left to cut, at an edge between coplanar
+/// faces. @return  the number of additional pieces
+std::size_t divide(CutPart& part, std::size_t most, const CanSweep& can_sweep, const RunContext& context)
+{
+    std::ranges::fill(part.piece.volume.role, Role::wall);
+    part.blocks = divided_at_middle(part.piece.volume, most, can_sweep, context);
+    if (part.blocks.empty() && !(part.left > 0))
+        part.blocks = divided_at_flat_edge(part.piece.volume, most, can_sweep, context);
+    return part.blocks.empty() ? 0 : part.blocks.size() - 1;
 }
 
 /// The pieces of one cut, and the length that is left to cut.
@@ -130,10 +186,14 @@ std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const Can
 /// Cuts a volume, and its parts in turn, as long as a cut leaves less to cut in parts without ends.
 class Cutter {
 public:
-    Cutter(const CanSweep& can_sweep, const RunContext& context) : can_sweep_(can_sweep), context_(context) {}
+    /// @param can_sweep_block  the same for a block of a part that is divided at its middle
+    Cutter(const CanSweep& can_sweep, const CanSweep& can_sweep_block, const RunContext& context)
+        : can_sweep_(can_sweep), can_sweep_block_(can_sweep_block), context_(context)
+    {
+    }
 
     /// Cut a part without ends, and its parts in turn. Returns the part itself unless one of its parts has
-    /// ends or has nothing left to cut.
+    /// ends, or has nothing left to cut and is divided at its middle.
     std::vector<CutPart> cut(CutPart part)
     {
         check_cancelled(context_);
@@ -143,13 +203,14 @@ public:
         pieces_ += made.size() - 1;
         std::vector<CutPart> all;
         for (CutPart& own : made) {
-            if (own.has_ends)
-                all.push_back(std::move(own));
-            else
+            if (!own.has_ends && own.left > 0) {
                 std::ranges::move(cut(std::move(own)), std::back_inserter(all));
+                continue;
+            }
+            if (!own.has_ends) pieces_ += divide(own, kMostPieces + 1 - pieces_, can_sweep_block_, context_);
+            all.push_back(std::move(own));
         }
-        // A part with nothing left to cut may still be divided at its middle.
-        const auto helps = [](const CutPart& own) { return own.has_ends || !(own.left > 0); };
+        const auto helps = [](const CutPart& own) { return own.has_ends || !own.blocks.empty(); };
         if (std::ranges::none_of(all, helps)) {
             pieces_ -= all.size() - 1;
             return {std::move(part)};
@@ -158,7 +219,7 @@ public:
     }
 
 private:
-    const CanSweep& can_sweep_;
+    const CanSweep &can_sweep_, &can_sweep_block_;
     const RunContext& context_;
     std::size_t tried_ = 0, pieces_ = 1;
 };
@@ -239,21 +300,6 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
     return {};
 }
 
-/// Divide a volume at its middle; empty if that is not possible, or makes more than `most` pieces.
-std::vector<StepPiece> divided_at_middle(const OpenVolume& volume, std::size_t most,
-                                         const CanSweep& can_sweep, const RunContext& context)
-{
-    // An edge that is too short to be split is refused.
-    auto blocks = unless_refused([&] { return midpoint_blocks(volume, most, context); });
-    std::vector<StepPiece> made;
-    if (!blocks) return made;
-    for (OpenVolume& block : *blocks) {
-        made.push_back({std::move(block)});
-        if (!find_ends(made.back(), can_sweep, context)) return {};
-    }
-    return made;
-}
-
 } // namespace
 
 bool has_ends(const OpenVolume& piece)
@@ -270,7 +316,7 @@ std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_s
     const CanSweep suits = [&](const OpenVolume& piece) {
         return ends_suit_columns(piece) && can_sweep(piece);
     };
-    std::vector<CutPart> parts = Cutter(suits, context).cut(part_of({volume}, context));
+    std::vector<CutPart> parts = Cutter(suits, can_sweep, context).cut(part_of({volume}, context));
     std::vector<StepPiece> pieces;
     if (!are_swept(parts)) {
         if (auto divided = with_rounds_divided(volume, can_sweep, context)) return {{std::move(*divided)}};
@@ -278,18 +324,15 @@ std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_s
         if (pieces.empty()) pieces = divided_at_middle(volume, kMostPieces, can_sweep, context);
     }
     if (!pieces.empty()) return pieces;
-    std::size_t left = parts.size();
+    std::size_t count = 0;
+    for (const CutPart& part : parts) count += std::max<std::size_t>(1, part.blocks.size());
     for (CutPart& part : parts) {
-        const std::size_t others = pieces.size() + --left;
-        std::vector<StepPiece> blocks;
-        if (!part.has_ends) {
+        if (!part.has_ends && part.left > 0 && parts.size() > 1)
+            count += divide(part, kMostPieces + 1 - std::min(kMostPieces, count), can_sweep, context);
+        else if (!part.has_ends)
             std::ranges::fill(part.piece.volume.role, Role::wall);
-            if (parts.size() > 1)
-                blocks = divided_at_middle(part.piece.volume, kMostPieces - std::min(kMostPieces, others),
-                                           can_sweep, context);
-        }
-        if (blocks.empty()) blocks.push_back(std::move(part.piece));
-        std::ranges::move(blocks, std::back_inserter(pieces));
+        if (part.blocks.empty()) part.blocks.push_back(std::move(part.piece));
+        std::ranges::move(part.blocks, std::back_inserter(pieces));
     }
     return pieces;
 }

@@ -127,12 +127,11 @@ std::size_t turns(const std::vector<Vec3>& chain)
     return count;
 }
 
-/// Whether a run of a loop, or its complement, shows that a flat face is missing there; two straight edges
-/// alone do not, as they are always coplanar.
+/// Whether a run of a loop shows that a flat face is missing there; two straight edges alone do not, as they
+/// are always coplanar.
 bool tells_plane(const Model& model, const Rim& rim, const Run& run)
 {
-    const auto tells = [&](const Run& part) { return turns(use_places(model, uses_of(rim, part))) >= 2; };
-    return tells(run) || tells(between(rim, {&run, 1}, 0));
+    return turns(use_places(model, uses_of(rim, run))) >= 2;
 }
 
 /// Whether a side between two corners is bent and the sides before and after it are not parallel, as in a
@@ -272,8 +271,12 @@ std::optional<SplitLoop> split_loop(Model& model, const Rim& rim)
 {
     std::vector<std::size_t> run;
     for (std::size_t i = 0; i < rim.uses.size(); ++i) run.push_back(flat_run(model, rim, i));
-    if (const auto half = half_run(run); half && tells_plane(model, rim, *half))
-        return SplitLoop{cut_off(model, rim, {*half})};
+    if (const auto half = half_run(run)) {
+        const bool one = tells_plane(model, rim, *half),
+                   other = tells_plane(model, rim, between(rim, {&*half, 1}, 0));
+        if (one || other)
+            return SplitLoop{.parts = cut_off(model, rim, {*half}), .is_assumed = !one || !other};
+    }
     const std::vector<Run> ends = groove_ends(model, rim, run);
     if (auto parts = part_groove(model, rim, ends)) return SplitLoop{std::move(*parts)};
     const std::vector<Run> alike = channel_ends(model, rim, ends);

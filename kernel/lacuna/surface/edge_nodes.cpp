@@ -28,9 +28,10 @@ std::vector<Vec3> edge_points(const Model& model, EdgeId id, std::span<const dou
     std::vector<double> params;
     std::vector<std::size_t> inside;
     for (std::size_t i = 0; i < fractions.size(); ++i) {
-        if (fractions[i] <= 0) {
+        // Near an end a curve would be off its vertex by roundoff, and neighbours that share it would differ.
+        if (fractions[i] < kSamePlace) {
             result[i] = line.front();
-        } else if (fractions[i] >= 1) {
+        } else if (fractions[i] > 1 - kSamePlace) {
             result[i] = line.back();
         } else {
             const geometry::PolylinePlace at = geometry::place_at(arc, fractions[i] * arc.back());

@@ -12,6 +12,8 @@ namespace lacuna::closure {
 struct SplitLoop {
     std::vector<topology::Loop> parts; ///< all but the last are planar
     bool channel = false;              ///< whether the first two parts are congruent ends
+    /// Whether one of two planar parts has only two given edges, which fit any plane through them.
+    bool is_assumed = false;
 };
 
 /// Split a non-planar free loop by straight void edges into the loops of the faces that are missing there:

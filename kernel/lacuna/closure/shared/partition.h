@@ -21,10 +21,11 @@ using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 /// - planes midway between features;
 /// - planes through the axes of bores that cross each other.
 ///
-/// The best cut of a piece leaves the least length to cut (`length_to_cut()`), summed over the resulting
-/// pieces without ends. These pieces are cut in turn. A piece has ends if `can_sweep` accepts the ends that
-/// `read_ends()` finds, or those of a sweep of its closed skin. Cutting stops where no cut reduces that
-/// length. Cuts are undone if all resulting pieces lack ends and still need cuts.
+/// The best cut of a piece leaves the least length still to cut (`length_to_cut()`) in pieces without ends,
+/// which are then cut in turn. A piece has ends if `read_ends()` finds them, or if its closed skin has a
+/// sweep direction, and `can_sweep` accepts them. Cutting stops where no cut reduces that length. Cuts are
+/// undone if each of the resulting pieces lacks ends and cannot be divided at its middle or, with nothing
+/// left to cut, across an edge between coplanar faces.
 ///
 /// If a piece is left without ends, the whole volume is tried in three other ways, in this order:
 /// - as one piece with ends along an axis, the rounds at their rims divided (`split_round_rims()`);
