@@ -15,6 +15,7 @@
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/plane.h>
+#include <lacuna/geometry/shared/point_tree.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -293,13 +294,11 @@ public:
     /// Whether the rim runs along edges; otherwise stores the place where it leaves them.
     bool fits()
     {
-        std::vector<Triangle> dots;
         std::vector<Index> of_edges;
         const Model& whole = parted_.volume.model;
         for (const Edge& edge : whole.edges)
             of_edges.insert(of_edges.end(), edge.points.begin(), edge.points.end());
-        for (const Index p : of_edges) dots.push_back({p, p, p});
-        const geometry::FacetTree tree(whole.points, dots);
+        const geometry::FacetTree tree = geometry::point_tree(places_at(whole, of_edges));
         std::unordered_map<std::uint64_t, EdgeUse> use;
         for (std::size_t e = 0; e < whole.edges.size(); ++e) {
             const std::vector<Index>& points = whole.edges[e].points;

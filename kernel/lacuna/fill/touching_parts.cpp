@@ -2,7 +2,7 @@
 #include <lacuna/fill/detail/touching_parts.h>
 
 #include <lacuna/closure/shared/straighten_lines.h>
-#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/point_tree.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/healing/shared/stitch.h>
 #include <lacuna/sweep/shared/imprinted.h>
@@ -106,14 +106,6 @@ void add(ModelBuilder& builder, const Model& more)
     }
 }
 
-/// A tree of points.
-geometry::FacetTree tree_of(const std::vector<Vec3>& points)
-{
-    std::vector<Triangle> dots;
-    for (Index p = 0; p < std::ssize(points); ++p) dots.push_back({p, p, p});
-    return {points, dots};
-}
-
 /// An edge with an exact curve, and its points.
 struct CurvedEdge {
     Edge edge;
@@ -124,7 +116,7 @@ struct CurvedEdge {
 /// the chords of the polyline lie on the curve.
 std::vector<CurvedEdge> take_curves(ModelBuilder& model, const std::vector<Vec3>& along)
 {
-    const geometry::FacetTree tree = tree_of(along);
+    const geometry::FacetTree tree = geometry::point_tree(along);
     std::vector<CurvedEdge> taken;
     for (Edge& edge : model.edges) {
         std::vector<Vec3> places = places_at(model, edge.points);
@@ -202,7 +194,7 @@ public:
         std::vector<Vec3> on_edges;
         for (const Edge& edge : model_.edges)
             for (const Index p : edge.points) on_edges.push_back(model_.at(p));
-        const geometry::FacetTree tree = tree_of(on_edges);
+        const geometry::FacetTree tree = geometry::point_tree(on_edges);
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
             for (const FaceId parent : split.parents[b]) bodies_[b].faces.push_back(original(b, parent));
             take_rims_of_others(b, split.parents[b], tree);
