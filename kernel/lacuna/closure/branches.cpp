@@ -460,7 +460,7 @@ private:
         std::vector<StepPiece> pieces{{volume_, 0}};
         for (const double height : heights) {
             const geometry::Plane plane = geometry::plane_across(on_axis(height), axis_);
-            pieces = cut_each(std::move(pieces),
+            pieces = cut_each(std::move(pieces), plane,
                               [&](const OpenVolume& piece) { return cut_by_plane(piece, plane, context_); });
         }
         return pieces;

@@ -278,11 +278,25 @@ std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool
     return Parter(parted, tool, context).run();
 }
 
-std::vector<StepPiece> cut_each(std::vector<StepPiece> pieces,
+std::vector<StepPiece> cut_each(std::vector<StepPiece> pieces, const geometry::Plane& plane,
                                 const std::function<std::vector<StepPiece>(const OpenVolume&)>& cut)
 {
+    const auto is_crossed = [&](const Model& model) {
+        bool below = false, above = false;
+        for (const Face& face : model.faces) {
+            for (const Index p : corners_of(face)) {
+                const double height = geometry::height(plane, model.at(p));
+                (height < 0 ? below : above) |= std::abs(height) > model.tolerance;
+            }
+        }
+        return below && above;
+    };
     std::vector<StepPiece> result;
     for (StepPiece& piece : pieces) {
+        if (!is_crossed(piece.volume.model)) {
+            result.push_back(std::move(piece));
+            continue;
+        }
         try {
             std::ranges::move(cut(piece.volume), std::back_inserter(result));
         } catch (const NotSweepable& error) {

@@ -405,13 +405,14 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
 {
     std::vector<StepPiece> pieces{{volume, 0}};
     for (const FaceId face : faces) {
-        if (!plane_of(volume.model, face))
+        const std::optional<geometry::Plane> plane = plane_of(volume.model, face);
+        if (!plane)
             throw NotSweepable(Message("closure.steps",
                                        "the step at {} is not flat, so it has no plane to cut by, and its "
                                        "rim is not closed",
                                        entity_of(volume.model, face))
                                    .remedy("cut the volume with cut{{ plane = … }}"));
-        pieces = cut_each(std::move(pieces), [&](const OpenVolume& piece) {
+        pieces = cut_each(std::move(pieces), *plane, [&](const OpenVolume& piece) {
             return cut_by_face(piece, volume.model, face, context);
         });
     }

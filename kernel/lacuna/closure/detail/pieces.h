@@ -41,10 +41,11 @@ topology::WalkImprint imprint(topology::OpenVolume& volume, const std::vector<to
 /// @throw NotSweepable "closure.cut_apart"  both sides of a partition belong to one piece.
 std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context);
 
-/// Cut every piece that a cut meets; the others stay as they are.
+/// Cut every piece that a plane crosses and a cut in that plane meets; the others stay as they are.
 /// @throw  the errors of `cut`, except "closure.cut_misses".
+/// @note  O(facets) for each piece that the plane does not cross.
 std::vector<StepPiece> cut_each(
-    std::vector<StepPiece> pieces,
+    std::vector<StepPiece> pieces, const geometry::Plane& plane,
     const std::function<std::vector<StepPiece>(const topology::OpenVolume&)>& cut);
 
 /// Sort planar loops, given by their points, into regions: an outer loop first, then its holes.
