@@ -56,8 +56,12 @@ void check_field_name(const std::string& name, std::set<std::string>& names)
     if (name.empty() || !plain)
         throw InvalidInput("io.field_name",
                            "the cell field '{}' must have a name without blanks, quotes, < and &", name);
-    if (name == "entity" || !names.insert(name).second)
-        throw InvalidInput("io.field_name", "two cell fields are named '{}'", name);
+    if (name == "entity")
+        throw InvalidInput(Message("io.field_name", "the files name their own cell field 'entity'")
+                               .remedy("give the field another name"));
+    if (!names.insert(name).second)
+        throw InvalidInput(Message("io.field_name", "two cell fields are named '{}'", name)
+                               .remedy("give one of them another name"));
 }
 
 void check_fields(const mesh::HexMesh& mesh, const std::vector<CellField>& fields)
