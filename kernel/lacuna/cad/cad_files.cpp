@@ -124,7 +124,7 @@ LoadFile::Format format_of(const std::string& path, const std::string& head)
     if (ending == ".step" || ending == ".stp") return checked(is_step(head), "STEP", LoadFile::step);
     if (ending == ".iges" || ending == ".igs") return checked(is_iges(head), "IGES", LoadFile::iges);
     if (ending == ".brep") return checked(is_brep(head), "BREP", LoadFile::brep);
-    // A script can run commands, so its ending must match exactly.
+    // A script can run commands, so only an all-lower-case or all-upper-case extension is accepted.
     const std::string written = path.substr(path.size() - ending.size());
     const bool meant = written == ending || std::none_of(written.begin(), written.end(),
                                                          [](unsigned char c) { return std::islower(c); });

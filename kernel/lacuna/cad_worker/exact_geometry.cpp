@@ -239,7 +239,7 @@ std::vector<Vec3> plain_form(int tag, double first, double last)
     const std::vector<Vec3> along = curve_tangents(tag, {0.0, kRightAngle});
     geometry::PlainCurve plain{{start, along[0]}};
     if (!line) {
-        // Use the tangent at the parameter kRightAngle itself, whose cosine is 6e-17, not 0.
+        // The cosine of the rounded kRightAngle is 6e-17, so along[1] contains that share of along[0].
         const Vec3 out = std::cos(kRightAngle) * along[0] - along[1];
         plain.form = {start - out, out, along[0]};
     }

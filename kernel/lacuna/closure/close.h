@@ -119,15 +119,15 @@ struct Closed {
 
 /// Seal a volume: add void edges and faces with their geometry, and give every face its role.
 ///
-/// Algorithms 2–6 and one of 8–11 for the class. Classes IV and V start without a target and end with both
-/// ends. Departure: where walls cover only part of the height, a void edge joins the remaining gap of each
-/// matched pair; the paper joins only vertices that are on no wall.
+/// Uses Algorithms 2–6 of the paper and, for classes II to V, one of 8–11. In class IV the missing end is
+/// added, in class V both ends. Departure: where walls cover only part of the height, a void edge spans the
+/// gap between the two vertices of each matched pair; the paper joins only vertices that are on no wall.
 /// @param match   of source and target; ignored for classes IV and V, which lack an end.
 /// @throw NotClosed  names the free loop, face or edge that cannot be sealed, the reason, and a shape or
 ///         direction that would seal it. "closure.shape_open": the shape of the missing faces is ambiguous
 ///         and neither a shape nor `take_guess` was given; names the adjacent faces. "closure.holes_open": an
-///         end is missing and the given one has holes without walls; reports both volumes: with the holes
-///         covered, and with the holes extended to the other end.
+///         end is missing and the given one has holes without walls; reports the volume with the holes
+///         covered and the volume with the holes extended to the other end.
 /// @throw InvalidInput  a user's void edge is impossible (names its vertices), or an option does not apply to
 ///         the volume.
 /// @throw Cancelled

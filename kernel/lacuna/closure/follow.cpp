@@ -25,10 +25,10 @@ constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
 /// than a sweep. Edges that follow them are then tried before straight ones only if they leave their chord by
 /// more than kFarAstray (same unit).
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
-/// If some walls form rings, the open walls of another loop determine that loop only if the rings' motion
-/// misses half of the points of these open walls by more than this share of the loop's radius. Below it, the
-/// rings represent the bend better. On 350 tubes that bend, twist and taper they missed by at most 0.005 in
-/// nine of ten cases; on a lofted pipe by 0.017.
+/// If some walls form closed rings, a loop with open walls gets its own motion only if the median distance
+/// between these walls and their image under the rings' motion exceeds this share of the loop's radius.
+/// Below it, the rings represent the bend better. On 350 bent, twisted and tapered tubes the distance was at
+/// most 0.005 in nine of ten cases; on a lofted pipe it was 0.017.
 constexpr double kMissed = 0.01;
 
 /// Mean distance of points from their centroid; 0 if there are none.

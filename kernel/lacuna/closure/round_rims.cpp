@@ -124,8 +124,8 @@ private:
         return least < kHalfway && most > kHalfway && volume_.model[face].given_quads.empty();
     }
 
-    /// The height that best separates flat facets from steep ones, with the fewest facets on the wrong side.
-    /// Empty if no height separates any.
+    /// The height with the fewest facets on the wrong side, if facets below it should be inclined to the end
+    /// by less than 45° and facets above it by more. Empty if no height is better than one below all facets.
     [[nodiscard]] std::optional<double> halfway_height(const std::vector<FaceId>& rounds,
                                                        const Vec3& way) const
     {

@@ -550,7 +550,8 @@ private:
         }
     }
 
-    /// The region of a set. Elements may have created it, by naming the set.
+    /// Index of the region named after an element set. It exists if an *ELEMENT line names the set; otherwise
+    /// it is added.
     static Index region_called(Scope& scope, const std::string& name)
     {
         const std::vector<DeckRegion>& all = scope.builder.deck().regions;

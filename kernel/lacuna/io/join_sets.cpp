@@ -89,8 +89,10 @@ public:
         find_places();
     }
 
-    /// Add the replacements to a set. @param old  the set before elements were left out. @return  the share
-    /// of its loss that is replaced [-]
+    /// Add the new nodes, cells or sides to a set that lost members.
+    /// @param old   the set before its members were left out
+    /// @param fits  whether the set may take the new cells
+    /// @return  the replaced share of the members left out, measured by area of the skin [-]
     double fill(const DeckSet& old, DeckSet& set, const std::function<bool(const DeckSet&)>& fits)
     {
         using enum mesh::SetKind;

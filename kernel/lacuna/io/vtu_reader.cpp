@@ -33,8 +33,8 @@ int base64_value(char c)
     return c == '+' ? 62 : c == '/' ? 63 : -1;
 }
 
-/// Decode base64 text up to the first character that is not base64. The text may consist of several pieces,
-/// each padded with '='.
+/// Decode base64 text up to the first invalid character; blanks and line ends are skipped. The text may
+/// consist of several pieces, each padded with '='.
 /// @param most  number of bytes that are needed; no more are decoded.
 std::string from_base64(std::string_view text, std::uint64_t most)
 {

@@ -74,8 +74,9 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
 /// Levels between the rims: a bend turns by less than 6° between two.
 constexpr int kLevels = 64;
 
-/// Points of loops without walls and their images under the given walls. Rims alone do not fix the rotation
-/// of a bend.
+/// Points of the first section through the given walls, and the corresponding points of the last one. They
+/// fix the rotation of loops without walls, which the rims of a bend alone do not. Empty if every source loop
+/// has a wall, or if no wall joins the ends.
 PointPairs led_by_walls(const Problem& problem, const std::vector<SideLine>& lines)
 {
     const bool bare = std::ranges::any_of(problem.source, [&](const LoopShape& loop) {

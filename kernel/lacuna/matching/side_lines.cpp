@@ -37,7 +37,7 @@ std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& fac
     return points;
 }
 
-/// By point between the rims on a side line: the share of the line's length below the point.
+/// The height of each side line's points between the rims: the share of the line's length below the point.
 std::map<Index, double> heights_along(const Model& model, const std::vector<SideLine>& lines)
 {
     std::map<Index, double> heights;

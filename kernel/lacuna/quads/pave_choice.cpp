@@ -154,7 +154,8 @@ bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_
 /// @param few    the quads are so few that the given sides determine their sizes.
 bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const SizeField& asked, bool few)
 {
-    // Lower bounds of least and mean scaled Jacobian and of the share of right sizes; not measured.
+    // Lower bounds for the least and mean scaled Jacobian and the share of edges of the requested size; not
+    // measured.
     constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0};
     const Limits& limits = few ? kGoodFew : kGood;
     if (attempt.worst < limits.least || !find_fault(attempt.mesh, region).empty()) return false;

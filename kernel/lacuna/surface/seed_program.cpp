@@ -52,7 +52,7 @@ struct Program {
     std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
     std::vector<FaceGrid> grids;         ///< grids that together fill a face
     double asked = 0;                    ///< number of quads wanted on faces filled by `grids`
-    /// If present numbers are to be repaired, the edges that are changed last; otherwise null.
+    /// Edges to be changed last, if the program only corrects existing numbers of sides; otherwise null.
     const std::set<EdgeId>* last = nullptr;
 };
 

@@ -85,8 +85,9 @@ struct FaceContact {
     double area = 0;             ///< area of the first face within the gap of the other [model length²]
 };
 
-/// The faces of members in contact. Left out are: pieces of one volume with each other; glued members where
-/// they share a face; and a face that mostly lies on one member, in contacts with other members.
+/// Find the pairs of faces of two members in contact. Pieces of one volume are not in contact, nor are
+/// touching faces of members that are glued together. If most of a face lies on another member, its contacts
+/// across a gap are omitted.
 /// @param gap  returns the largest distance at which faces of two members are in contact [model length].
 /// @throw InvalidInput "assembly.overlap"  members that are not glued overlap, as for `shared_faces()`.
 /// @note  cost as for `shared_faces()`.

@@ -24,8 +24,8 @@ struct Bend {
 /// All bends of a sealed volume. O(facets).
 std::vector<Bend> bends_of(const topology::OpenVolume& volume, const RunContext& context);
 
-/// How far the bends are from those of one sweep: the length of all, plus the length of those that a sweep in
-/// the best direction does not follow [model length].
+/// Measure of the cutting that a volume still needs: the total length of its bends, plus the length of the
+/// bends that a sweep in the best direction does not follow [model length].
 double length_to_cut(const std::vector<Bend>& bends);
 
 /// A plane that may cut a volume into pieces that are easier to sweep.

@@ -8,11 +8,11 @@
 
 namespace lacuna::closure {
 
-/// Give walls that meet an end smoothly the role of that end, up to the next rim with other walls.
+/// Give walls that meet an end smoothly, directly or through each other, the role of that end.
 ///
-/// A cell between an end and a wall tangent to it would have an angle near 180°. Ends and walls with a given
-/// mesh keep their roles. An end is not extended if it would then reach the opposite end or a missing wall,
-/// gain or lose a loop, or be deeper than wide.
+/// A cell between an end and a wall tangent to it would have an angle near 180°. An end is not extended at
+/// all if it has a void face or a given mesh or would then include one, if it would include or be adjacent to
+/// the opposite end, if it would gain or lose a loop, or if it would be deeper than wide.
 /// @param sealed  watertight and oriented; its roles change.
 /// @return  the walls that became part of an end.
 /// @throw Cancelled

@@ -36,17 +36,18 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 ///
 /// The method depends on the face; algorithms are numbered as in the paper (`docs/bibliography.md`).
 /// - A bent face with four logical sides, or with four sharp corners if it is ruled or its rim lies on no
-///   quadric: Algorithm 6 (Algorithm 5 if two of the sides are one closed edge), a bilinear Coons patch over
-///   arc length. Departure: its facets are made by transfinite interpolation, as its mesh is, so that both
-///   are the same surface.
+///   quadric: Algorithm 6 (Algorithm 5 if two of the sides are one closed edge), a patch between four sides
+///   over arc length. Departure: instead of a bilinear Coons patch, `geometry::SweptPatch`, whose frame
+///   rotates along the sides. The mesh of the face is made on the same surface.
 /// - Any other face whose outline does not cross itself in its Newell plane: Algorithm 4, constrained
 ///   Delaunay in that plane, with inner heights from the harmonic interpolation of the rim's heights.
 ///   Departure: if the rim determines a quadric, the interior lies on it too. If the rim lies on many
 ///   quadrics, the interior lies on the one that is a sphere, a circular cylinder, a cone or a pair of
 ///   planes.
-/// - Any other face is an error.
-/// @param follower  null, or the motion that a bent four-sided face follows: the source side moved up along
-///                  the given walls and the target side moved down, blended, and shifted to meet the sides.
+/// - Any other face is refused.
+/// @param follower  null, or the motion of the walls. A bent face with four logical sides then blends its
+///                  source side moved up and its target side moved down by this motion, and is shifted to
+///                  meet the two other sides.
 /// @throw NotClosed  names the face and the edges that cross.
 VoidFilling fill(const topology::OpenVolume& volume, const std::vector<topology::Loop>& loops,
                  const Follower* follower, const Subject& face, const RunContext& context = {});

@@ -37,8 +37,8 @@ Volume close_to_sweep(const Volume& volume, const std::string& region, const Run
 /// The same volume with the roles of an alternative sweep of its void. @pre number < others->ways.size()
 Volume with_other_sweep(const Volume& volume, std::size_t number);
 
-/// Seal a volume that is to be cut or filled. A smooth bottom is not separated from its walls, because only a
-/// sweep needs that.
+/// Seal a volume that is to be cut or filled. A hollow's bottom that blends smoothly into the walls is not
+/// split from them, because only a sweep needs the split. A full-turn ring is returned unchanged.
 Volume sealed_whole(const Volume& volume, const RunContext& context);
 
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.

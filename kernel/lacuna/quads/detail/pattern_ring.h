@@ -40,14 +40,15 @@ bool runs_round(const PatternLoop& loop);
 /// @return false if the part is too short.
 bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows);
 
-/// Place rows along a loop without turns until it has another number of sides.
+/// Place rows along a loop without turns until its number of sides has changed by `by`.
 ///
-/// The first row has as many quads as the loop has sides, so no irregular node lies on the boundary. In each
-/// of the next rows, `corners` evenly spaced nodes are ends or corners of the grid: each removes two sides
-/// from the row or adds two. Each leaves a node of three quads and a node of five quads, with the changed
-/// rows between them. The sides of the rows are then evenly spaced.
-/// @param by  even number of sides to add (> 0) or remove (< 0).
-/// @return false if the corners would meet.
+/// The first row has as many quads as the loop has sides, so no irregular node lies on the boundary. Each
+/// further row turns at `corners` evenly spaced nodes (the last row perhaps at fewer): an end of the grid
+/// there removes two sides, a corner adds two. The turns of successive rows lie above each other; each such
+/// column of turns leaves one node of three quads and one of five. The nodes of each row are evenly spaced.
+/// @param by  even number of sides to add (> 0) or remove (< 0), at least twice `corners`.
+/// @return false if `by` or `corners` is not allowed, if turns would be less than three sides apart, or if a
+///         row would have fewer than three nodes.
 bool change_sides(PatternLoop& loop, int by, int corners, std::vector<Vec2>& points, std::vector<Quad>& quads,
                   const SizeField& height);
 

@@ -52,13 +52,13 @@ struct RowsFilling {
 
 /// Place rows of quads along sides of a region and fill the rest.
 ///
-/// Each node of a row stands at the row's height above both boundary sides at its foot, measured square to
-/// them. At a corner where rows end on existing boundary nodes, nearby row nodes lean as these boundary nodes
-/// do. Where two sides with rows meet in a corner, their rows cross there. At an outer corner
-/// (`RowTurn::outer`), such as that of a square hole, the rows of one side continue along the ends of the
-/// other side's rows.
+/// Each node of a row is at the row's height above both boundary sides at its foot, measured perpendicular to
+/// them. Where rows end on existing boundary nodes (`RowTurn::inner`), these may be offset along the rows;
+/// the row's nodes near that corner get the same offset, which fades with distance. Where two sides with rows
+/// meet in such a corner, their rows cross. At an outer corner (`RowTurn::outer`), such as that of a square
+/// hole, the rows of one side continue along the ends of the other side's rows.
 /// @param core  mesher for the region that the rows leave.
-/// @return  the quads of the rows first; a finding if the rows do not fit.
+/// @return  the quads of the rows first; if the rows do not fit, only the reason (`RowsFinding`).
 /// @throw   any exception of `core`.
 /// @note    O(rows · sides), plus the filling.
 RowsFilling fill_with_rows(const PlanarRegion& region, const BoundaryRows& rows, const PlanarQuadMesher& core,

@@ -32,8 +32,8 @@ struct NodeFreedom {
 ///
 /// Each face was meshed separately, in a flat image and between prescribed nodes on shared edges, so poor
 /// quads in space become visible only here. A node moves only if the worst corner around it improves, so the
-/// minimum over the mesh cannot decrease. At the end nodes are projected onto the exact edges and faces. If
-/// the worst quad around the moved nodes is then worse than before, all moves are undone.
+/// minimum over the mesh cannot decrease. Finally, the moved nodes are projected onto the exact edges and
+/// faces. If the worst quad around them is then worse than before, all moves are undone.
 /// @return  for each edge with a moved node, the new positions as in `OnEdge::at`.
 /// @note  Deterministic. O(quads), plus work for poor ones.
 std::map<EdgeId, std::vector<double>> raise_poor_quads(mesh::QuadMesh& mesh, const topology::Model& model,

@@ -10,10 +10,11 @@
 /// The requested sides of every source edge, before interval assignment. Internal to this folder.
 namespace lacuna::surface {
 
-/// The pieces of all edges, with the numbers of sides that size and curvature require. Kept are the nodes of
-/// faces that keep their own quads, and nodes given on edges inside the source.
+/// Divide all edges into pieces (`SeedPiece`), and give each piece the number of sides that size and
+/// curvature require. Edges of faces that keep their own quads keep their nodes, and so do edges inside the
+/// source that have given nodes.
 /// @param lengths  as for `seed_source()`.
-/// @param kept     faces that keep their own quads in any style.
+/// @param kept     faces that keep their own quads, whatever the style.
 /// @return  seeds of which only `pieces`, `kept` and `notes` are set.
 /// @throw NotSweepable  "surface.given_triangles", "surface.not_kept", "surface.kept_rim",
 ///                      "surface.too_many_sides".

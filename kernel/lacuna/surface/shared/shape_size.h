@@ -12,8 +12,8 @@ namespace lacuna::surface {
 struct ShapeSizing {
     int curvature = 12; ///< sides for a full turn of an edge or a surface, >= 0; 0: the size alone
     int gap = 0;        ///< minimum number of quads across a narrow place, >= 0; 0: no minimum
-    /// If the narrow face is mapped and has four sides, meet `gap` by its number of sides across, while the
-    /// sides along it stay long. If no place is narrow, rectilinear faces are submapped.
+    /// Mapped faces with four corners meet `gap` by at least that many quads between opposite sides, without
+    /// a smaller size. Rectilinear faces may be submapped although `gap` is set.
     bool counts_across = false;
 };
 

@@ -30,8 +30,10 @@ struct Skin {
     std::vector<SkinOfFace> faces; ///< by their numbers in the model
 };
 
-/// @param faces  face of each patch of the mesh. @param face_count  number of faces of the model. O(skin
-///          log).
+/// The quads of a mesh's skin by face of the model; each quad of order 2 becomes four.
+/// @param faces       face of each patch of the mesh
+/// @param face_count  number of faces of the model
+/// @note  O(n log n) in the nodes of the skin.
 Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std::size_t face_count,
              const RunContext& context = {});
 

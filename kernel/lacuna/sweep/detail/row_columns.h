@@ -79,8 +79,8 @@ Vec3 point_at(const std::vector<Vec3>& line, double place);
 /// The point of a chain closest to `p`: first on the chain's polyline, then by iteration on its exact curve.
 Vec3 nearest_on(const topology::Model& model, const surface::Chain& chain, const Vec3& p);
 
-/// New positions of all nodes of a line: given nodes have the given positions, the others lie in proportion
-/// between them.
+/// New positions of the inner nodes of a line, by index. Given nodes have the given positions; the others
+/// divide the length between the nearest given ones in their original proportion.
 /// @pre  the positions of both ends are given.
 std::vector<std::pair<std::size_t, double>> places_along(const std::vector<Vec3>& line,
                                                          const std::map<std::size_t, double>& place);

@@ -32,9 +32,10 @@ struct ConeShape {
 };
 
 /// The cone of a face from its facets: the axis has the same angle to all normals, and apex and slope are
-/// fitted to the corners by least squares.
-/// @return empty if corners are off by more than a hundredth of the largest radius, as on a plane, a cylinder
-///         or a free form, or if the face has too few facets round the axis to decide.
+/// fitted to the facets' corners by least squares.
+/// @return empty if the face is a plane, a sphere or a cylinder, if its normals have unequal angles to every
+///         axis, if a corner is off the cone by more than a hundredth of the largest radius, or if there are
+///         fewer than four facets or their normals turn by less than a few degrees.
 /// @note  O(facets).
 std::optional<ConeShape> cone_shape(const Model& model, FaceId face);
 
