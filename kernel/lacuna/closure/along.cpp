@@ -157,7 +157,7 @@ private:
         throw NotClosed(std::move(message).remedy("use a wider bend, or a smaller source"));
     }
 
-    /// Largest share of the way to the target at which no facet has folded yet, rounded down to a percent.
+    /// Largest share of the thickness at which no facet has folded yet, rounded down to a percent.
     [[nodiscard]] double largest_share() const
     {
         constexpr int kPercent = 100;

@@ -587,7 +587,8 @@ private:
         return walk_of(model, branch, rim_edges(model, host));
     }
 
-    /// Put the halves of a mouth in walking order. @return  the vertices where the first begins and ends.
+    /// Put the halves of a mouth in walking order. @return  the vertices where the first half begins and
+    /// ends.
     [[nodiscard]] std::pair<VertexId, VertexId> order(const Model& model, const Mouth& mouth,
                                                       std::array<std::vector<EdgeUse>, 2>& halves) const
     {

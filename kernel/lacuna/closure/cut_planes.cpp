@@ -137,7 +137,7 @@ private:
                 bend.face.valid() ? bend.face.index() : model_.uses_of_edge(bend.edge).front().face.index()));
     }
 
-    /// Normals of flat faces and common normals of two axes, without parallels.
+    /// Normals of flat faces and common normals of two axes, without parallel ones.
     [[nodiscard]] std::vector<Vec3> normals() const
     {
         std::vector<Vec3> found;

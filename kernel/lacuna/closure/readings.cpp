@@ -158,8 +158,8 @@ std::optional<Closed> sealed_state(const Reading& reading)
     return std::nullopt;
 }
 
-/// If a reading is ambiguous, or has a void face that its rim does not determine, replace it by the reading
-/// of `read_filled()`, provided that this one is unambiguous.
+/// If a reading is ambiguous, or has a void face whose rim does not determine its shape, replace it by the
+/// reading of `read_filled()`, provided that this one is unambiguous.
 void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& reading,
                  const RunContext& context)
 {

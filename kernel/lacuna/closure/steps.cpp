@@ -234,7 +234,8 @@ private:
             std::vector<Index> high;
             for (const Index p : low) high.push_back(lift(p));
             const VertexId from = use_from(builder_, use), to = use_to(builder_, use);
-            // A closed rim gives a ring face with two loops, other rims one face per side.
+            // A rim that is one closed edge gives a ring face with two loops; other rims give one face per
+            // side.
             const bool closed = rim.uses.size() == 1;
             const EdgeId top = builder_.add_void_edge(vertex(from), vertex(to), high);
             if (!closed) {

@@ -18,8 +18,9 @@ struct FlatFilling : Closed {
 
 /// Fill the free loops of some faces with flat faces. Coplanar nested loops bound one face with holes. A loop
 /// in two planes, as where an end and an adjacent wall are missing, is filled with two faces that meet in a
-/// straight void edge. The loop of a groove that lacks its ends and its mouth gets a face for each; the loop
-/// of a channel that lacks its ends and one wall gets flat ends and a wall that may bend.
+/// straight void edge. The loop of a groove that lacks its ends and its mouth gets one face for each end and
+/// one for the mouth; the loop of a channel that lacks its ends and one wall gets flat ends and a wall that
+/// may bend.
 /// @return  empty if a loop is none of these, or if the result is not sealed or crosses itself.
 /// @throw InvalidInput  the faces cannot be oriented.
 /// @throw Cancelled

@@ -24,9 +24,9 @@ struct MovedEnd : Closed {
 /// fitted from the given end's rim to those tops, or an affine map if there are four corners or more. If the
 /// map takes the foot of every wall to its top, it is applied to the rest of the rim too, including round
 /// holes without walls. Otherwise, missing straight sides become straight lines between tops in one plane.
-/// The missing end then has the given end's shape, and walls are closed between the two. The scale is fitted
-/// only if walls cover a third of the outline, because the taper of a bore is not that of the outline. The
-/// map must move every part of the rim.
+/// The missing end then has the given end's shape, and the missing walls are closed between the two ends. The
+/// scale is fitted only if walls cover a third of the outline, because the taper of a bore is not that of the
+/// outline. The map must move every part of the rim.
 /// @param known  tells whether all of some points lie on existing faces. If it says so of the points on the
 ///         rim of a missing end and at mid-height of the missing walls, nothing is sealed.
 /// @return  one result per flat face that can be such an end: all other faces are walls connected to it, and
@@ -38,8 +38,8 @@ std::vector<MovedEnd> move_ends(const topology::Model& model, const std::vector<
                                 const std::function<bool(const std::vector<Vec3>&)>& known,
                                 const RunContext& context);
 
-/// Seal a volume whose source the user named in the same way, with the given walls. Empty if the walls do not
-/// determine the missing end.
+/// Seal, in the same way, a volume whose source the user named, with the given walls. Empty if the walls do
+/// not determine the missing end.
 /// @pre  `open` has no target
 std::optional<MovedEnd> move_source(const topology::OpenVolume& open, const RunContext& context);
 

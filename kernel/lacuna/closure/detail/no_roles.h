@@ -15,9 +15,9 @@ namespace lacuna::closure {
 /// swept as a full turn.
 bool is_ring(const topology::OpenVolume& volume, const RunContext& context);
 
-/// Why no roles were found and what to call instead, after trying planes to cut by: "topology.sphere",
-/// "topology.cone" (one that includes its apex), "topology.crossing_bores", otherwise
-/// "topology.no_roles".
+/// The error that no roles were found, with a remedy. Its code is "topology.sphere", "topology.cone" (a cone
+/// that includes its apex), "topology.crossing_bores", or otherwise "topology.no_roles". Planes to cut by are
+/// tried first.
 /// @throw InvalidInput  the faces cannot be oriented.
 /// @throw Cancelled
 Message why_no_roles(const topology::Model& model, const std::vector<FaceId>& faces,
