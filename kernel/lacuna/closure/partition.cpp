@@ -3,7 +3,7 @@
 
 #include <lacuna/closure/detail/cut_planes.h>
 #include <lacuna/closure/detail/midpoint.h>
-#include <lacuna/closure/detail/round_rims.h>
+#include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>

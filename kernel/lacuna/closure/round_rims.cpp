@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <lacuna/closure/detail/round_rims.h>
+#include <lacuna/closure/shared/round_rims.h>
 
 #include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
@@ -112,9 +112,15 @@ private:
         return sets;
     }
 
-    /// Whether a face is flatter than 45° in places and steeper in others, and has no given quads.
+    /// Whether a face is flatter than 45° in places and steeper in others, is not a part of a divided face, and
+    /// has no given quads.
     [[nodiscard]] bool is_round(FaceId face) const
     {
+        const Face& own = volume_.model[face];
+        const auto is_part = [&](const Face& other) {
+            return other.tag == own.tag && other.origin == own.origin;
+        };
+        if (std::ranges::count_if(volume_.model.faces, is_part) > 1) return false;
         double least = 1, most = -1;
         for (const Triangle& t : volume_.model[face].triangles) {
             const double cosine = slope_of(volume_.model, t, out_, out_).cosine;
@@ -158,6 +164,7 @@ private:
 
 void split_round_rims(OpenVolume& volume, const RunContext& context)
 {
+    face_away(volume, context);
     std::vector<double> turns = concave_turns(volume, context);
     for (const Role end : {Role::source, Role::target})
         for (const std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(end)))

@@ -4,7 +4,7 @@
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
-#include <lacuna/closure/detail/round_rims.h>
+#include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>

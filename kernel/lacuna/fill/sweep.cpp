@@ -85,7 +85,8 @@ void report_closure(const Volume& volume, std::vector<std::string>& report, cons
 
 Filled sweep_whole(const Volume& volume, sweep::SweepOptions options, const RunContext& context)
 {
-    Volume sealed = close_to_sweep(volume, volume.name.empty() ? "the volume" : volume.name, context);
+    Volume sealed = close_to_sweep(with_rims_divided(volume, context),
+                                   volume.name.empty() ? "the volume" : volume.name, context);
     keep_given_middles(sealed, options.second_order);
     FilledVolume mesh{sweep::sweep(sealed.volume, options, context), sealed.material, sealed.unit};
     report_closure(sealed, mesh.swept.report, context);

@@ -5,6 +5,7 @@
 #include <lacuna/closure/shared/branches.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/piece_ends.h>
+#include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/detail/members.h>
@@ -81,6 +82,21 @@ Volume override_class(Volume volume, topology::VolumeClass value)
 void require_roles(const Volume& volume)
 {
     if (volume.no_roles) throw InvalidInput(*volume.no_roles);
+}
+
+Volume with_rims_divided(const Volume& volume, const RunContext& context)
+{
+    const bool as_found = volume.roles_found && !volume.told;
+    if (volume.along || volume.no_roles || (!as_found && (volume.match || volume.closure))) return volume;
+    Volume divided = volume;
+    if (divided.closure) reopen(divided, context);
+    const std::size_t faces = divided.volume.model.faces.size();
+    closure::split_round_rims(divided.volume, context);
+    if (divided.volume.model.faces.size() == faces) return volume;
+    divided.match.reset();
+    divided.as_read.reset();
+    divided.others.reset();
+    return divided;
 }
 
 Volume match(Volume volume, const std::optional<matching::MatchOptions>& options, const RunContext& context)

@@ -30,6 +30,10 @@ auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 /// Make the options keep the middle nodes that the decks of a volume contain.
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options);
 
+/// The volume with the rounds divided at which its walls meet an end smoothly, as by
+/// `closure::split_round_rims()`. Unchanged if there are none, or if it was matched or closed by the user.
+Volume with_rims_divided(const Volume& volume, const RunContext& context);
+
 /// Close a volume and check that it has a source and a target.
 /// @param region  name of the region, for messages.
 Volume close_to_sweep(const Volume& volume, const std::string& region, const RunContext& context);

@@ -13,7 +13,7 @@ namespace lacuna::closure {
 ///
 /// The dividing plane is normal to the direction of the end: facets on one side of it are flatter, on the
 /// other side steeper. A round that the plane does not divide all round is left as it is.
-/// @pre  the skin faces away from the void.
+/// The skin is oriented away from the void.
 /// @note  O(facets) for each part of the ends that has such rounds.
 void split_round_rims(topology::OpenVolume& volume, const RunContext& context);
 
