@@ -594,7 +594,10 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
 {
     OpenVolume volume = whole;
     face_away(volume, context);
-    if (!has_steps(volume, context)) return {{whole, 0}};
+    if (!has_steps(volume, context)) {
+        split_round_rims(volume, context);
+        return {{volume.model.faces.size() > whole.model.faces.size() ? std::move(volume) : whole, 0}};
+    }
     close_brim(volume, context);
     cover_step_holes(volume, context);
     split_round_rims(volume, context);
