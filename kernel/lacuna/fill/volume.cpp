@@ -20,6 +20,10 @@ using topology::Role;
 
 namespace {
 
+constexpr const char* kRimsDivided =
+    "note: rounds tangent to an end are divided at 45 degrees: the flatter half belongs to the end, the rest "
+    "to the walls";
+
 bool asks_nothing(const closure::CloseOptions& options)
 {
     const closure::CloseOptions none;
@@ -93,6 +97,7 @@ Volume with_rims_divided(const Volume& volume, const RunContext& context)
     const std::size_t faces = divided.volume.model.faces.size();
     closure::split_round_rims(divided.volume, context);
     if (divided.volume.model.faces.size() == faces) return volume;
+    log_line(context, kRimsDivided);
     divided.match.reset();
     divided.as_read.reset();
     divided.others.reset();
@@ -166,8 +171,11 @@ bool has_pieces(const Volume& volume, const RunContext& context)
 
 std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunContext& context)
 {
-    return volume.along && volume.along->full_turn ? closure::halves_along(*volume.along, context)
-                                                   : closure::cut_into_pieces(volume.volume, context);
+    if (volume.along && volume.along->full_turn) return closure::halves_along(*volume.along, context);
+    std::vector<closure::StepPiece> pieces = closure::cut_into_pieces(volume.volume, context);
+    if (pieces.size() == 1 && pieces.front().volume.model.faces.size() > volume.volume.model.faces.size())
+        log_line(context, kRimsDivided);
+    return pieces;
 }
 
 Volume sealed_whole(const Volume& volume, const RunContext& context)
