@@ -146,8 +146,8 @@ local model, volume = room(20, 25, 6, 0, 0)
 local void = model:open_volume { source = { "floor", "top", "round_top" }, target = "lid", walls = "auto" }
 check.near(void:sweep { size = 5 }:quality().volume / volume, 1, 0.01)
 
--- A cup without its brim: the round at its floor is divided, which shares the angle at which end and wall meet
--- between them. Undivided, the least values were 0.54, 0.30 and 0.15. Both halves keep the name.
+-- A cup without its brim: the round at its floor is divided between end and wall; undivided, the least values
+-- were 0.54, 0.30 and 0.15. Both halves keep the name.
 local cup, floor, up = lacuna.model(), 12, { { 15, 3 }, { 15, 10 } }
 local fillet = {}
 for k = 0, arc do

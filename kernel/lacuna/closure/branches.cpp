@@ -7,6 +7,7 @@
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/shared/cut.h>
+#include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/number_text.h>
@@ -676,6 +677,8 @@ std::vector<StepPiece> cut_into_pieces(const OpenVolume& volume, const RunContex
     for (const StepPiece& arm : cut_branches(volume, context)) {
         for (StepPiece& piece : cut_steps(arm.volume, context)) result.push_back(std::move(piece));
     }
+    // A round that is shared by two pieces must stay whole.
+    if (result.size() == 1) split_round_rims(result.front().volume, context);
     std::ranges::stable_sort(result, {}, &StepPiece::level);
     return result;
 }

@@ -112,7 +112,7 @@ private:
         return sets;
     }
 
-    /// Whether a face is flatter than 45° in places and steeper in others, is not a part of a divided face, and
+    /// Whether a face is flatter than 45° in places and steeper in others, is no part of a divided face, and
     /// has no given quads.
     [[nodiscard]] bool is_round(FaceId face) const
     {

@@ -4,12 +4,12 @@
 #include <lacuna/closure/detail/end_holes.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/pieces.h>
-#include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/detail/void_faces.h>
 #include <lacuna/closure/shared/cut.h>
+#include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
@@ -594,10 +594,7 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
 {
     OpenVolume volume = whole;
     face_away(volume, context);
-    if (!has_steps(volume, context)) {
-        split_round_rims(volume, context);
-        return {{volume.model.faces.size() > whole.model.faces.size() ? std::move(volume) : whole, 0}};
-    }
+    if (!has_steps(volume, context)) return {{whole, 0}};
     close_brim(volume, context);
     cover_step_holes(volume, context);
     split_round_rims(volume, context);
