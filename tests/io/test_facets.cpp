@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/edit_model.h"
 #include "support/folder.h"
+#include "support/value_at.h"
 #include "support/volumes.h"
 
 #include <lacuna/closure/close.h>
@@ -68,15 +69,6 @@ double check_watertight(const Places<Number>& facets)
     CHECK(lone == 0);
     CHECK(volume > 0);
     return volume;
-}
-
-template <class Value>
-Value at(const std::string& bytes, std::size_t place)
-{
-    Value value;
-    REQUIRE(place + sizeof value <= bytes.size());
-    std::memcpy(&value, bytes.data() + place, sizeof value);
-    return value;
 }
 
 std::size_t facet_count(const topology::OpenVolume& volume)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/blocks.h"
 #include "support/folder.h"
+#include "support/value_at.h"
 #include "support/write_vtk.h"
 
 #include <doctest/doctest.h>
@@ -21,15 +22,6 @@ mesh::HexMesh crooked_block()
                              }});
     mesh.patches[2].tag = 70;
     return mesh;
-}
-
-template <class Value>
-Value at(const std::string& bytes, std::size_t place)
-{
-    Value value;
-    REQUIRE(place + sizeof value <= bytes.size());
-    std::memcpy(&value, bytes.data() + place, sizeof value);
-    return value;
 }
 
 /// What the cells of a file must be: nodes of each, hexahedra first, and the entity they belong to.
