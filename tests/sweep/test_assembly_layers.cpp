@@ -113,7 +113,8 @@ TEST_CASE("rows that end on one edge of two volumes and are unlike are refused, 
     members.options[0].boundary_layers = {rows_on(2, 0.02, 1.5, 3)};
     members.options[1].boundary_layers = {rows_on(2, 0.03, 1.5, 3)};
     CHECK(test::refusal([&] { sweep::sweep_assembly(members.list()); },
-                        {"part_1", "part_2", "side_2", "the same table"}) == "assembly.layers_differ");
+                        {"part_1", "part_2", "side_2", "same boundary_layers table"}) ==
+          "assembly.layers_differ");
     members.options[1].boundary_layers = members.options[0].boundary_layers;
     test::check_assembly(sweep::sweep_assembly(members.list()), 2);
 }
@@ -124,8 +125,8 @@ TEST_CASE("more rows on an edge than a neighbour's layers leave sides for are re
     members.add(brick({.low = {0, 0, 0}, .high = {1, 1, 1}}), 0.25);
     members.add(brick({.low = {1, 0, 0}, .high = {2, 1, 1}, .axis = 1}), 0.25, 3);
     members.options[0].boundary_layers = {rows_on(2, 0.02, 1.5, 4)};
-    CHECK(test::refusal([&] { sweep::sweep_assembly(members.list()); }, {"part_1", "side_2", "4", "3"}) ==
-          "assembly.layers_rows");
+    CHECK(test::refusal([&] { sweep::sweep_assembly(members.list()); },
+                        {"part_1", "side_2", "at least 5 sides", "3"}) == "assembly.layers_rows");
     members.options[1].layers.count = 6;
     test::check_assembly(sweep::sweep_assembly(members.list()), 2);
 }
