@@ -678,7 +678,7 @@ std::vector<StepPiece> cut_into_pieces(const OpenVolume& volume, const RunContex
         for (StepPiece& piece : cut_steps(arm.volume, context)) result.push_back(std::move(piece));
     }
     // A round that is shared by two pieces must stay whole.
-    if (result.size() == 1) split_round_rims(result.front().volume, context);
+    if (result.size() == 1) split_round_rims(result.front().volume, RoundsOf::walls, context);
     std::ranges::stable_sort(result, {}, &StepPiece::level);
     return result;
 }

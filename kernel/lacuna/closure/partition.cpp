@@ -270,7 +270,7 @@ std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const Ca
         check_cancelled(context);
         OpenVolume divided = away;
         set_ends_along(divided, axis);
-        split_round_rims(divided, context);
+        split_round_rims(divided, RoundsOf::ends_and_walls, context);
         if (divided.model.faces.size() > away.model.faces.size() && !has_steps(divided, context) &&
             can_sweep(divided))
             return divided;

@@ -41,10 +41,11 @@ Slope slope_of(const Model& model, const Triangle& t, const Vec3& out, const Vec
 class RoundRims {
 public:
     RoundRims(OpenVolume& volume, const std::vector<FaceId>& part, const std::vector<double>& turns,
-              const RunContext& context)
+              RoundsOf of, const RunContext& context)
         : volume_(volume),
           part_(part),
           turns_(turns),
+          of_(of),
           context_(context),
           end_(volume.role[part.front().index()]),
           out_(area_vector_of(volume.model, part).stableNormalized())
@@ -85,12 +86,15 @@ private:
     std::vector<std::vector<FaceId>> rounds_at_rim() const
     {
         const std::set<FaceId> own(part_.begin(), part_.end());
+        const auto may_be_own = [&](FaceId face) {
+            return of_ == RoundsOf::ends_and_walls && own.contains(face);
+        };
         const auto neighbours = [&](FaceId face, double largest_turn) {
             std::vector<FaceId> found;
             for (const EdgeUse& use : uses_of(volume_.model[face]))
                 if (std::abs(turns_[use.edge.index()]) <= largest_turn)
                     for (const FaceUse& user : volume_.model.uses_of_edge(use.edge))
-                        if ((own.contains(user.face) || volume_.role[user.face.index()] == Role::wall) &&
+                        if ((may_be_own(user.face) || volume_.role[user.face.index()] == Role::wall) &&
                             is_round(user.face))
                             found.push_back(user.face);
             return found;
@@ -99,7 +103,7 @@ private:
         std::set<FaceId> seen;
         for (const FaceId face : part_) {
             std::vector<FaceId> seeds = neighbours(face, kCreaseAngle);
-            if (is_round(face)) seeds.push_back(face);
+            if (may_be_own(face) && is_round(face)) seeds.push_back(face);
             for (const FaceId seed : seeds) {
                 if (!seen.insert(seed).second) continue;
                 std::vector<FaceId> set{seed};
@@ -155,6 +159,7 @@ private:
     OpenVolume& volume_;
     const std::vector<FaceId>& part_;
     const std::vector<double>& turns_;
+    RoundsOf of_;
     const RunContext& context_;
     Role end_;
     Vec3 out_; ///< away from the opposite end
@@ -162,13 +167,13 @@ private:
 
 } // namespace
 
-void split_round_rims(OpenVolume& volume, const RunContext& context)
+void split_round_rims(OpenVolume& volume, RoundsOf of, const RunContext& context)
 {
     face_away(volume, context);
     std::vector<double> turns = concave_turns(volume, context);
     for (const Role end : {Role::source, Role::target})
         for (const std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(end)))
-            if (RoundRims(volume, part, turns, context).run()) turns = concave_turns(volume, context);
+            if (RoundRims(volume, part, turns, of, context).run()) turns = concave_turns(volume, context);
 }
 
 } // namespace lacuna::closure

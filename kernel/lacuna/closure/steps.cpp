@@ -597,7 +597,7 @@ std::vector<StepPiece> cut_steps(const OpenVolume& whole, const RunContext& cont
     if (!has_steps(volume, context)) return {{whole, 0}};
     close_brim(volume, context);
     cover_step_holes(volume, context);
-    split_round_rims(volume, context);
+    split_round_rims(volume, RoundsOf::ends_and_walls, context);
     const std::array<Steps, 2> steps = steps_of(volume, context);
     std::vector<FaceId> risers = steps[0].risers;
     risers.insert(risers.end(), steps[1].risers.begin(), steps[1].risers.end());

@@ -95,7 +95,7 @@ Volume with_rims_divided(const Volume& volume, const RunContext& context)
     Volume divided = volume;
     if (divided.closure) reopen(divided, context);
     const std::size_t faces = divided.volume.model.faces.size();
-    closure::split_round_rims(divided.volume, context);
+    closure::split_round_rims(divided.volume, closure::RoundsOf::walls, context);
     if (divided.volume.model.faces.size() == faces) return volume;
     log_line(context, kRimsDivided);
     divided.match.reset();

@@ -6,6 +6,9 @@
 
 namespace lacuna::closure {
 
+/// Whether rounds that are faces of the ends themselves, such as domes, are divided too.
+enum class RoundsOf { walls, ends_and_walls };
+
 /// Divide rounds between an end and walls that lead away from the opposite end, such as the fillet round the
 /// top of a product in a box. They are divided where they are inclined by 45 degrees, and the flatter part
 /// becomes part of the end. Layers then meet the remaining walls at 45 degrees or more; they would be tangent
@@ -15,6 +18,6 @@ namespace lacuna::closure {
 /// other side steeper. A round that the plane does not divide all round is left as it is.
 /// The skin is oriented away from the void.
 /// @note  O(facets) for each part of the ends that has such rounds.
-void split_round_rims(topology::OpenVolume& volume, const RunContext& context);
+void split_round_rims(topology::OpenVolume& volume, RoundsOf of, const RunContext& context);
 
 } // namespace lacuna::closure
