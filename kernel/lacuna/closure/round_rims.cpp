@@ -52,6 +52,8 @@ public:
     {
     }
 
+    [[nodiscard]] bool has_rounds() const { return !rounds_at_rim().empty(); }
+
     /// @return  whether a round was divided
     bool run()
     {
@@ -121,17 +123,17 @@ private:
     [[nodiscard]] bool is_round(FaceId face) const
     {
         const Face& own = volume_.model[face];
-        const auto is_part = [&](const Face& other) {
-            return other.tag == own.tag && other.origin == own.origin;
-        };
-        if (std::ranges::count_if(volume_.model.faces, is_part) > 1) return false;
         double least = 1, most = -1;
-        for (const Triangle& t : volume_.model[face].triangles) {
+        for (const Triangle& t : own.triangles) {
             const double cosine = slope_of(volume_.model, t, out_, out_).cosine;
             least = std::min(least, cosine);
             most = std::max(most, cosine);
         }
-        return least < kHalfway && most > kHalfway && volume_.model[face].given_quads.empty();
+        const auto is_part = [&](const Face& other) {
+            return other.tag == own.tag && other.origin == own.origin;
+        };
+        return least < kHalfway && most > kHalfway && own.given_quads.empty() &&
+               std::ranges::count_if(volume_.model.faces, is_part) == 1;
     }
 
     /// The height with the fewest facets on the wrong side, if facets below it should be inclined to the end
@@ -169,10 +171,19 @@ private:
 
 void split_round_rims(OpenVolume& volume, RoundsOf of, const RunContext& context)
 {
+    const auto parts = [&](Role end) { return connected_parts(volume.model, volume.faces(end)); };
+    // As if all edges were smooth: finding their turns costs more than to see that there are no rounds.
+    const std::vector<double> smooth(volume.model.edges.size(), 0);
+    const auto has_rounds = [&](const std::vector<FaceId>& part) {
+        return RoundRims(volume, part, smooth, of, context).has_rounds();
+    };
+    if (std::ranges::none_of(parts(Role::source), has_rounds) &&
+        std::ranges::none_of(parts(Role::target), has_rounds))
+        return;
     face_away(volume, context);
     std::vector<double> turns = concave_turns(volume, context);
     for (const Role end : {Role::source, Role::target})
-        for (const std::vector<FaceId>& part : connected_parts(volume.model, volume.faces(end)))
+        for (const std::vector<FaceId>& part : parts(end))
             if (RoundRims(volume, part, turns, of, context).run()) turns = concave_turns(volume, context);
 }
 

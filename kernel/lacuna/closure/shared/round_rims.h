@@ -16,8 +16,8 @@ enum class RoundsOf { walls, ends_and_walls };
 ///
 /// The dividing plane is normal to the direction of the end: facets on one side of it are flatter, on the
 /// other side steeper. A round that the plane does not divide all round is left as it is.
-/// The skin is oriented away from the void.
-/// @note  O(facets) for each part of the ends that has such rounds.
+/// If there are rounds, the skin is oriented away from the void.
+/// @note  O(facets) for each part of the ends; without rounds, only the walls at the ends are visited.
 void split_round_rims(topology::OpenVolume& volume, RoundsOf of, const RunContext& context);
 
 } // namespace lacuna::closure
