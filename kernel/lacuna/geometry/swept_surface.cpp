@@ -12,7 +12,7 @@ namespace {
 
 /// Limit on the steps of a projection. It starts on the nearest facet, which differs from the surface by the
 /// sag of a chord; three to five steps then reach rounding.
-constexpr int kMostSteps = 20;
+constexpr int kMostNewtonSteps = 20;
 /// Step of central differences, as a share of a parameter's range: the cube root of the rounding error.
 constexpr double kDifference = 1e-5;
 
@@ -60,7 +60,7 @@ void SweptSurface::project(std::span<Vec3> points, std::span<Vec2> uv, const Run
     const auto inside = [&](const Vec2& p) -> Vec2 { return p.cwiseMax(low).cwiseMin(high); };
     const std::size_t n = points.size();
     for (Vec2& p : uv) p = inside(p);
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostNewtonSteps; ++step) {
         check_cancelled(context);
         // The place itself, and one place before and after it in each parameter.
         std::vector<Vec2> around(uv.begin(), uv.end());

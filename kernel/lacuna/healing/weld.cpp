@@ -10,7 +10,7 @@
 namespace lacuna::healing {
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
+using GridCell = std::array<std::int64_t, 3>;
 
 std::uint64_t mix(std::uint64_t h)
 {
@@ -21,7 +21,7 @@ std::uint64_t mix(std::uint64_t h)
     return h ^ (h >> 33);
 }
 
-std::uint64_t hash_of(const Cell& cell)
+std::uint64_t hash_of(const GridCell& cell)
 {
     std::uint64_t h = 0;
     for (const std::int64_t c : cell) h = mix(h + 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(c));
@@ -37,20 +37,20 @@ public:
     {
     }
 
-    void add(const Cell& cell, Index point)
+    void add(const GridCell& cell, Index point)
     {
         Index& head = first_[slot(cell)];
         next_[static_cast<std::size_t>(point)] = head;
         head = point;
     }
     template <class Visit>
-    void each_near(const Cell& cell, const Visit& visit) const
+    void each_near(const GridCell& cell, const Visit& visit) const
     {
         for (Index p = first_[slot(cell)]; p >= 0; p = next_[static_cast<std::size_t>(p)]) visit(p);
     }
 
 private:
-    [[nodiscard]] std::size_t slot(const Cell& cell) const { return hash_of(cell) & (first_.size() - 1); }
+    [[nodiscard]] std::size_t slot(const GridCell& cell) const { return hash_of(cell) & (first_.size() - 1); }
 
     std::vector<Index> first_, next_;
 };
@@ -63,7 +63,7 @@ std::vector<Index> weld_equal(std::span<const Vec3> points)
     std::vector<Index> result(points.size());
     CellTable table(points.size(), points.size() / kRepeats);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        Cell bits;
+        GridCell bits;
         for (std::size_t k = 0; k < 3; ++k) {
             bits[k] = std::bit_cast<std::int64_t>(points[i][static_cast<Eigen::Index>(k)] + 0.0); // −0 hashes
                                                                                                   // like 0
@@ -95,7 +95,7 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
     const double width = std::max(kCellWidth * tolerance, box.sizes().maxCoeff() * std::ldexp(1.0, -52));
     const auto cell_at = [&](const Vec3& p) {
         const Eigen::Array3d cell = ((p - box.min()) / width).array().floor();
-        return Cell{static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
+        return GridCell{static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
                     static_cast<std::int64_t>(cell.z())};
     };
     std::size_t different = 0;
@@ -104,8 +104,8 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (i % kBetweenPolls == 0) check_cancelled(context);
         if (result[i] != static_cast<Index>(i)) continue;
-        const Cell least = cell_at(points[i].array() - tolerance);
-        const Cell most = cell_at(points[i].array() + tolerance);
+        const GridCell least = cell_at(points[i].array() - tolerance);
+        const GridCell most = cell_at(points[i].array() + tolerance);
         Index best = -1;
         double best_distance = tolerance * tolerance;
         const auto consider = [&](Index p) {

@@ -21,7 +21,7 @@ namespace lacuna::quads {
 namespace {
 
 /// Limit of sides tried.
-constexpr std::size_t kMostSides = 4;
+constexpr std::size_t kSidesTried = 4;
 /// Number of quads of a row, counted from the boundary, that may become the triangle. It limits how far
 /// inside the triangle may lie.
 constexpr std::size_t kMostSteps = 8;
@@ -418,7 +418,7 @@ PlanarQuads fill_odd_region(const PlanarRegion& region, const PlanarQuadMesher& 
     std::optional<Closed> best;
     const std::vector<RegionSide> sides = sides_by_length(region);
     const auto middle = static_cast<Index>(region.points.size());
-    for (std::size_t s = 0; s < std::min(sides.size(), kMostSides); ++s) {
+    for (std::size_t s = 0; s < std::min(sides.size(), kSidesTried); ++s) {
         const PlanarRegion divided = divide(region, std::span(&sides[s], 1));
         const PlanarQuads filled = mesher(divided, context);
         if (std::optional<Closed> closed = close_best(filled, divided, middle, best, kRounds, context))

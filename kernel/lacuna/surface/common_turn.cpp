@@ -16,14 +16,14 @@ namespace lacuna::surface {
 namespace {
 
 /// Corresponding points of source and target, with the rim length that each represents.
-struct RimPair {
+struct RimPlaces {
     Vec3 source, target;
     double weight;
 };
 
-std::vector<RimPair> pairs_of(std::span<const LinkingSurface> links)
+std::vector<RimPlaces> pairs_of(std::span<const LinkingSurface> links)
 {
-    std::vector<RimPair> pairs;
+    std::vector<RimPlaces> pairs;
     for (const LinkingSurface& link : links) {
         if (link.lines.empty()) {
             pairs.push_back({geometry::mean_point(round_points(link.source)),
@@ -41,7 +41,7 @@ std::vector<RimPair> pairs_of(std::span<const LinkingSurface> links)
 
 /// The rotation that maps the pairs' source points to their target points. It first turns one area vector
 /// onto the other, then by the best angle about that vector.
-std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, const Vec3& source_area,
+std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPlaces>& pairs, const Vec3& source_area,
                                            const Vec3& target_area)
 {
     if (!(source_area.norm() > 0) || !(target_area.norm() > 0)) return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, co
 
     Vec3 from = Vec3::Zero(), to = Vec3::Zero();
     double weight = 0;
-    for (const RimPair& pair : pairs) {
+    for (const RimPlaces& pair : pairs) {
         from += pair.weight * pair.source;
         to += pair.weight * pair.target;
         weight += pair.weight;
@@ -58,7 +58,7 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPair>& pairs, co
     from /= weight;
     to /= weight;
     double along = 0, across = 0;
-    for (const RimPair& pair : pairs) {
+    for (const RimPlaces& pair : pairs) {
         Vec3 a = upright * (pair.source - from), b = pair.target - to;
         a -= a.dot(normal) * normal;
         b -= b.dot(normal) * normal;

@@ -23,7 +23,7 @@ namespace {
 
 /// Maximum number of rounds of moves. Each round corrects errors that the previous round left where cells
 /// bend. Tapered, twisted and bulging walls never needed more.
-constexpr int kRounds = 8;
+constexpr int kMostCorrections = 8;
 /// A row has converged if its relative thickness error is below this: a tenth of the tolerance.
 constexpr double kMet = kThicknessOff / 10;
 
@@ -60,7 +60,7 @@ public:
         if (columns_.empty() && end_table_[0] < 0 && end_table_[1] < 0) return kept;
         kept.held.assign(nodes_.size(), 0);
         quads_at_ = mesh::quads_at_nodes(quads(), count_);
-        for (int round = 0; round < kRounds && furthest_off() > kMet; ++round) {
+        for (int round = 0; round < kMostCorrections && furthest_off() > kMet; ++round) {
             check_cancelled(context_);
             move_layers();
             move_rows();

@@ -43,7 +43,7 @@ constexpr double kLaid = 1.5;
 /// A face counts as covered entirely if at least this share of it is covered.
 constexpr double kWhole = 0.98;
 /// Number of sample points on an edge.
-constexpr int kAsked = 64;
+constexpr int kPlacesAsked = 64;
 
 /// Vertices of a face's rim, except those at which closed edges start.
 std::vector<Vec3> corners_of(const Model& model, FaceId face)
@@ -230,17 +230,17 @@ private:
             const double sag = geometry::sag(line);
             double within = 0, most = 0, all = 0, least = kInfinity;
             FaceId nearest;
-            for (int i = 0; i < kAsked; ++i) {
-                const Vec3 p = geometry::point_at(line, arc, arc.back() * (i + 0.5) / kAsked);
+            for (int i = 0; i < kPlacesAsked; ++i) {
+                const Vec3 p = geometry::point_at(line, arc, arc.back() * (i + 0.5) / kPlacesAsked);
                 const auto hit = tree->closest(p, around * around);
                 if (hit.triangle < 0) continue;
                 const FaceId face = face_of[index(hit.triangle)];
                 const double distance = std::sqrt(hit.distance2);
-                all += arc.back() / kAsked;
+                all += arc.back() / kPlacesAsked;
                 if (distance > pair_.window || shared_[there][face.index()] ||
                     distance <= pair_.tolerance + sag + sag_[there][face.index()])
                     continue;
-                within += arc.back() / kAsked;
+                within += arc.back() / kPlacesAsked;
                 if (distance < least) nearest = face;
                 least = std::min(least, distance);
                 most = std::max(most, distance);
