@@ -66,9 +66,9 @@ public:
     using Region = std::vector<std::vector<Vec2>>;
 
     /// @param suits  whether to cut a region of the plane inside the volume; empty: cut all.
-    /// @param least  for a cut found by a search, the least distance from edges beside it. The inner points of
-    ///               its lines across flat faces are removed, because the sizes of the pieces are not known
-    ///               yet.
+    /// @param least  for a cut found by a search, the least distance from edges beside it. The inner points
+    ///               of its lines across flat faces are removed, because the sizes of the pieces are not
+    ///               known yet.
     std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits, std::optional<double> least)
     {
         find_walks();
