@@ -19,7 +19,7 @@ namespace {
 std::vector<StepPiece> divided(const OpenVolume& volume, const RunContext& context = {})
 {
     return closure::partition(
-        volume, [](const OpenVolume&) { return true; }, context);
+        volume, [](const OpenVolume&) { return true; }, 0, context);
 }
 
 /// Blocks are watertight, have six faces with four sides each, fill the volume, keep its faces, and share

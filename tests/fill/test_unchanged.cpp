@@ -178,3 +178,32 @@ TEST_CASE("seconds of improving are one limit for all that a sweep tries")
     }
     CHECK(found > 0);
 }
+
+TEST_CASE("work of improving is one limit for all volumes of a call")
+{
+    // Bent bars whose cells can always be a little better. The first bar uses up the work, and no node of the
+    // second bar moves.
+    Recipe recipe(test::kShapes);
+    recipe.run("local function bar(to) return skin(box(3, 3, 9), function(x, y, z) "
+               "local r, a = 2 + x + 0.3 * math.sin(z + y), z / 4 "
+               "return { r * math.cos(a), to + y + 0.3 * math.sin(z + x), r * math.sin(a) } end) end\n"
+               "first, second = bar(0), bar(20)\nfirst:describe()\nsecond:describe()");
+    std::vector<fill::Volume> volumes;
+    for (const char* name : {"first", "second"})
+        volumes.push_back(fill::open(recipe.object<lua::ModelState>(name)->model, {}));
+    std::vector<fill::Member> members(2);
+    for (std::size_t m = 0; m < 2; ++m) {
+        members[m].volume = &volumes[m];
+        members[m].options.size = [](const Vec3&) { return 0.5; };
+        members[m].options.improving.good_enough = 0.999;
+        members[m].options.improving.work = 1e5;
+    }
+    const fill::Filled both = fill::sweep(members);
+    const std::regex moved(R"(least scaled Jacobian (-?[0-9.]+) before, (-?[0-9.]+) after)");
+    std::vector<bool> better;
+    for (const std::string& line : fill::report(std::get<fill::FilledParts>(both.mesh))) {
+        std::smatch found;
+        if (std::regex_search(line, found, moved)) better.push_back(found[1] != found[2]);
+    }
+    CHECK(better == std::vector<bool>{true, false});
+}

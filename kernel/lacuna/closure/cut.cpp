@@ -10,12 +10,14 @@
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/closure/shared/straighten_lines.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/edge_key.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/point_tree.h>
+#include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
@@ -29,6 +31,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 
 namespace lacuna::closure {
@@ -62,15 +65,17 @@ public:
     /// A region of the plane by its loops, in plane coordinates.
     using Region = std::vector<std::vector<Vec2>>;
 
-    /// @param suits     whether to cut a region of the plane inside the volume; empty: cut all.
-    /// @param straight  whether to remove the inner points of cut lines across flat faces. Cuts found by a
-    ///                  search do this, because the sizes of their pieces are not known yet.
-    std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits, bool straight)
+    /// @param suits  whether to cut a region of the plane inside the volume; empty: cut all.
+    /// @param least  for a cut found by a search, the least distance from edges beside it. The inner points
+    ///               of its lines across flat faces are removed, because the sizes of the pieces are not
+    ///               known yet.
+    std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits, std::optional<double> least)
     {
         find_walks();
         if (suits) choose(suits);
+        if (least) refuse_thin(*least);
         const WalkImprint made = imprint(parted_.volume, walks_, plane_, context_);
-        if (straight) straighten_flat_faces(made);
+        if (least) straighten_flat_faces(made);
         parted_.plane = plane_;
         add_partitions(made);
         if (parted_.partitions.empty()) refuse_miss();
@@ -151,6 +156,44 @@ private:
                         "the face lies outside the volume, and only the rest of its plane cuts the volume")
                     .remedy("cut by the plane instead"));
         walks_ = std::move(kept);
+    }
+
+    /// Refuse a cut that leaves a thin strip beside an edge.
+    void refuse_thin(double least) const
+    {
+        std::vector<char> joined(model_.vertices.size(), 0); // by an edge that meets the plane
+        std::vector<std::pair<EdgeId, Vec3>> near;           // edges with their places next to the plane
+        for (std::size_t e = 0; e < model_.edges.size(); ++e) {
+            const Edge& edge = model_.edges[e];
+            double low = kInfinity, high = -kInfinity, next = least;
+            Vec3 place;
+            for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+                const Vec3 &a = model_.at(edge.points[i]), &b = model_.at(edge.points[i + 1]);
+                const double from = geometry::height(plane_, a), to = geometry::height(plane_, b);
+                low = std::min({low, from, to});
+                high = std::max({high, from, to});
+                if (std::abs(from + to) / 2 >= next) continue;
+                next = std::abs(from + to) / 2;
+                place = (a + b) / 2;
+            }
+            if (low <= tolerance_ && high >= -tolerance_)
+                joined[edge.from.index()] = joined[edge.to.index()] = 1;
+            else if (next < least)
+                near.emplace_back(e, place);
+        }
+        if (near.empty()) return;
+        std::vector<std::vector<Vec2>> loops;
+        for (const SectionWalk& walk : walks_) loops.push_back(outline(walk));
+        for (const auto& [edge, place] : near) {
+            if (joined[model_[edge].from.index()] != 0 || joined[model_[edge].to.index()] != 0) continue;
+            const Vec2 foot = geometry::to_plane(plane_, place);
+            const auto is_round = [&](const std::vector<Vec2>& loop) {
+                return geometry::lies_inside(loop, foot);
+            };
+            if (std::ranges::count_if(loops, is_round) % 2 != 0)
+                throw NotSweepable("closure.cut_thin", "the plane passes {} at a distance of {:.2g}",
+                                   entity_of(model_, edge), found(std::abs(geometry::height(plane_, place))));
+        }
     }
 
     /// Remove the inner points of cut lines across flat faces.
@@ -379,16 +422,16 @@ std::optional<OpenVolume> sealed(const OpenVolume& volume, const RunContext& con
 using Suits = std::function<bool(const std::vector<std::vector<Vec2>>&)>;
 
 std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plane& plane, const Suits& suits,
-                                  const RunContext& context, bool straight = false)
+                                  const RunContext& context, std::optional<double> least = std::nullopt)
 {
     const auto walks = section_walks(volume.model, all_faces(volume.model), plane, volume.model.tolerance);
     if (std::ranges::any_of(walks, [](const SectionWalk& walk) { return !walk.closed; })) {
         // Close the whole volume first, so that the missing faces of the pieces have its shape, including its
         // corners.
         if (const std::optional<OpenVolume> whole = sealed(volume, context))
-            return PlaneCutter(*whole, plane, context).run(suits, straight);
+            return PlaneCutter(*whole, plane, context).run(suits, least);
     }
-    return PlaneCutter(volume, plane, context).run(suits, straight);
+    return PlaneCutter(volume, plane, context).run(suits, least);
 }
 
 /// Whether a region contains some of the facets.
@@ -428,7 +471,7 @@ std::vector<StepPiece> cut_by_plane(const OpenVolume& volume, const geometry::Pl
 }
 
 std::vector<StepPiece> cut_at_edges(const OpenVolume& volume, const geometry::Plane& plane,
-                                    const std::vector<EdgeId>& edges, const RunContext& context)
+                                    const std::vector<EdgeId>& edges, double least, const RunContext& context)
 {
     std::vector<Vec2> middles;
     for (const EdgeId edge : edges) {
@@ -448,7 +491,7 @@ std::vector<StepPiece> cut_at_edges(const OpenVolume& volume, const geometry::Pl
             return false;
         });
     };
-    return cut_within(volume, plane, edges.empty() ? Suits() : runs_along, context, true);
+    return cut_within(volume, plane, edges.empty() ? Suits() : runs_along, context, least);
 }
 
 std::vector<StepPiece> cut_by_face(const OpenVolume& volume, const Model& model, FaceId face,

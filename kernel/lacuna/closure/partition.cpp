@@ -3,6 +3,7 @@
 
 #include <lacuna/closure/detail/cut_planes.h>
 #include <lacuna/closure/detail/midpoint.h>
+#include <lacuna/closure/detail/pieces.h>
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_sweeps.h>
@@ -13,9 +14,12 @@
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_plane.h>
+#include <lacuna/topology/shared/face_radius.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -89,6 +93,23 @@ std::vector<StepPiece> divided_at_middle(const OpenVolume& volume, std::size_t m
     return made;
 }
 
+/// Parts that are given ends or divided at their middles; empty if that fails for one of them, or if there
+/// would be more than `most` pieces.
+std::vector<StepPiece> finished(std::vector<StepPiece> parts, std::size_t most, const CanSweep& can_sweep,
+                                const RunContext& context)
+{
+    std::vector<StepPiece> made;
+    for (StepPiece& part : parts) {
+        std::vector<StepPiece> own{std::move(part)};
+        if (!find_ends(own.front(), can_sweep, context))
+            own = divided_at_middle(own.front().volume, most, can_sweep, context);
+        if (own.empty()) return {};
+        std::ranges::move(own, std::back_inserter(made));
+    }
+    if (made.size() > most) return {};
+    return made;
+}
+
 /// Cut a volume across an edge between coplanar faces, where an earlier cut ended, into parts that have ends
 /// or are divided at their middles; empty if no such edge has such parts.
 std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_t most,
@@ -104,28 +125,123 @@ std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_
         const geometry::Plane across = geometry::plane_across(from,
                                                               plane->normal.cross(to - from).normalized());
         // Refused: the edge is bent, or the volume stays in one piece.
-        auto parts = unless_refused([&] { return cut_at_edges(volume, across, {EdgeId(e)}, context); });
-        std::vector<StepPiece> made;
-        for (std::size_t p = 0; parts && p < parts->size(); ++p) {
-            std::vector<StepPiece> own{std::move((*parts)[p])};
-            if (!find_ends(own.front(), can_sweep, context))
-                own = divided_at_middle(own.front().volume, most, can_sweep, context);
-            if (own.empty()) parts.reset();
-            std::ranges::move(own, std::back_inserter(made));
-        }
-        if (parts && parts->size() > 1 && made.size() <= most) return made;
+        auto parts = unless_refused([&] { return cut_at_edges(volume, across, {EdgeId(e)}, 0, context); });
+        if (!parts || parts->size() < 2) continue;
+        std::vector<StepPiece> made = finished(std::move(*parts), most, can_sweep, context);
+        if (!made.empty()) return made;
     }
     return {};
 }
 
-/// Divide a part without ends at its middle or, if nothing is left to cut, at an edge between coplanar
-/// faces. @return  the number of additional pieces
+/// Normals of the flat faces of a volume, without parallel ones, those with the largest area first.
+/// @param both  only those along which faces face in both directions
+std::vector<Vec3> axes_of(const OpenVolume& volume, bool both)
+{
+    struct Axis {
+        Vec3 way;
+        double ahead = 0, behind = 0; ///< area of flat faces [model length²]
+    };
+    std::vector<Axis> axes;
+    for (const FaceId face : all_faces(volume.model)) {
+        if (!plane_of(volume.model, face)) continue;
+        const Vec3 area = face_area_vector(volume.model, face);
+        const Vec3 way = area.stableNormalized();
+        const auto known = std::ranges::find_if(
+            axes, [&](const Axis& axis) { return std::abs(axis.way.dot(way)) > 1 - kFlatShare; });
+        Axis& axis = known != axes.end() ? *known : axes.emplace_back(way);
+        (axis.way.dot(way) > 0 ? axis.ahead : axis.behind) += area.norm();
+    }
+    if (both) std::erase_if(axes, [](const Axis& axis) { return !(axis.ahead > 0 && axis.behind > 0); });
+    std::ranges::stable_sort(axes, std::greater{}, [](const Axis& axis) { return axis.ahead + axis.behind; });
+    std::vector<Vec3> ways;
+    for (const Axis& axis : axes) ways.push_back(axis.way);
+    return ways;
+}
+
+/// Centres of the spheres and apexes of the cones of a skin, without repetition.
+std::vector<Vec3> centres_of(const Model& model)
+{
+    std::vector<Vec3> centres;
+    const auto add = [&](const Vec3& centre) {
+        if (std::ranges::none_of(centres, [&](const Vec3& own) {
+                return (own - centre).norm() <= kSamePlace * model.diagonal;
+            }))
+            centres.push_back(centre);
+    };
+    for (const FaceId face : all_faces(model)) {
+        if (const auto round = round_shape(model, face); round && round->is_sphere())
+            add(round->centre);
+        else if (const auto cone = cone_shape(model, face))
+            add(cone->apex);
+    }
+    return centres;
+}
+
+/// Three directions at right angles to each other. They are normals of flat faces, the way from one centre to
+/// the next, or else ways to points of edges, so that no cut runs closely beside a seam.
+std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& centres,
+                                  const OpenVolume& volume)
+{
+    const Model& model = volume.model;
+    std::vector<Vec3> axes = axes_of(volume, false);
+    for (const Vec3& other : centres)
+        if (other != centre) axes.push_back((other - centre).normalized());
+    std::vector<Vec3> out; // to vertices, then to points of edges
+    for (const Vertex& vertex : model.vertices) out.push_back(model.at(vertex.point) - centre);
+    for (const Edge& edge : model.edges)
+        for (const Index p : edge.points) out.push_back(model.at(p) - centre);
+    const auto way_beside = [&](const Vec3& axis) {
+        for (const Vec3& way : out) {
+            const Vec3 beside = way - axis.dot(way) * axis;
+            if (beside.norm() > kVisible * model.diagonal) return Vec3(beside.normalized());
+        }
+        return axis.isZero() ? Vec3(Vec3::UnitZ()) : Vec3(axis.unitOrthogonal());
+    };
+    const Vec3 first = axes.empty() ? way_beside(Vec3::Zero()) : axes.front();
+    const auto across = std::ranges::find_if(
+        axes, [&](const Vec3& axis) { return std::abs(axis.dot(first)) < kParallel; });
+    const Vec3 second = across == axes.end() ? way_beside(first)
+                                             : Vec3((*across - first.dot(*across) * first).normalized());
+    return {first, second, first.cross(second)};
+}
+
+/// Cut a volume by three planes at right angles through the centre of a sphere or the apex of a cone, such as
+/// a ball into octants, into parts that have ends or are divided at their middles; empty if no centre has
+/// such parts.
+std::vector<StepPiece> divided_at_centre(const OpenVolume& volume, std::size_t most,
+                                         const CanSweep& can_sweep, const RunContext& context)
+{
+    const std::vector<Vec3> centres = centres_of(volume.model);
+    for (const Vec3& centre : centres) {
+        check_cancelled(context);
+        std::vector<StepPiece> parts{{volume}};
+        // Refused: a plane passes closely beside an edge, or a part is not cut in two.
+        const auto cut = unless_refused([&] {
+            for (const Vec3& normal : directions_at(centre, centres, volume)) {
+                const geometry::Plane plane = geometry::plane_across(centre, normal);
+                parts = cut_each(std::move(parts), plane, [&](const OpenVolume& part) {
+                    return cut_at_edges(part, plane, {}, 0, context);
+                });
+            }
+            return parts.size() > 1;
+        });
+        if (!cut || !*cut) continue;
+        std::vector<StepPiece> made = finished(std::move(parts), most, can_sweep, context);
+        if (!made.empty()) return made;
+    }
+    return {};
+}
+
+/// Divide a part without ends at its middle or, if nothing is left to cut, at an edge between coplanar faces
+/// or at the centre of a round face. @return  the number of additional pieces
 std::size_t divide(CutPart& part, std::size_t most, const CanSweep& can_sweep, const RunContext& context)
 {
     std::ranges::fill(part.piece.volume.role, Role::wall);
     part.blocks = divided_at_middle(part.piece.volume, most, can_sweep, context);
     if (part.blocks.empty() && !(part.left > 0))
         part.blocks = divided_at_flat_edge(part.piece.volume, most, can_sweep, context);
+    if (part.blocks.empty() && !(part.left > 0))
+        part.blocks = divided_at_centre(part.piece.volume, most, can_sweep, context);
     return part.blocks.empty() ? 0 : part.blocks.size() - 1;
 }
 
@@ -136,15 +252,17 @@ struct CutTried {
 };
 
 /// Cut a piece by each plane that may help. The cuts that leave the least to cut come first.
-std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const RunContext& context)
+std::vector<CutTried> try_cuts(const CutPart& part, double least, std::size_t& tried,
+                               const RunContext& context)
 {
     const OpenVolume& volume = part.piece.volume;
     std::vector<CutTried> cuts;
     for (const auto& [plane, edges] : cut_planes(volume, part.bends, kMostRead)) {
         if (tried == kMostCuts) break;
         ++tried;
-        // A cut is refused if the plane crosses given quads, or leaves the volume in one piece.
-        auto pieces = unless_refused([&] { return cut_at_edges(volume, plane, edges, context); });
+        // A cut is refused if the plane crosses given quads, passes an edge closely, or leaves the volume in
+        // one piece.
+        auto pieces = unless_refused([&] { return cut_at_edges(volume, plane, edges, least, context); });
         if (!pieces || pieces->size() < 2) continue;
         CutTried& cut = cuts.emplace_back();
         for (StepPiece& piece : *pieces) {
@@ -157,11 +275,11 @@ std::vector<CutTried> try_cuts(const CutPart& part, std::size_t& tried, const Ru
 }
 
 /// The best cut of a piece; empty if none reduces the length that is left to cut in pieces without ends.
-std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const CanSweep& can_sweep,
-                              const RunContext& context)
+std::vector<CutPart> best_cut(const CutPart& part, double least, std::size_t& tried,
+                              const CanSweep& can_sweep, const RunContext& context)
 {
     if (!(part.left > 0)) return {};
-    std::vector<CutTried> cuts = try_cuts(part, tried, context);
+    std::vector<CutTried> cuts = try_cuts(part, least, tried, context);
     if (cuts.size() > kMostRead) cuts.resize(kMostRead);
     const auto without_ends = [](const CutTried& cut) {
         return std::ranges::count(cut.parts, false, &CutPart::has_ends);
@@ -187,8 +305,10 @@ std::vector<CutPart> best_cut(const CutPart& part, std::size_t& tried, const Can
 class Cutter {
 public:
     /// @param can_sweep_block  the same for a block of a part that is divided at its middle
-    Cutter(const CanSweep& can_sweep, const CanSweep& can_sweep_block, const RunContext& context)
-        : can_sweep_(can_sweep), can_sweep_block_(can_sweep_block), context_(context)
+    /// @param least            the least distance between a cut and an edge beside it
+    Cutter(const CanSweep& can_sweep, const CanSweep& can_sweep_block, double least,
+           const RunContext& context)
+        : can_sweep_(can_sweep), can_sweep_block_(can_sweep_block), least_(least), context_(context)
     {
     }
 
@@ -198,7 +318,8 @@ public:
     {
         check_cancelled(context_);
         std::vector<CutPart> made;
-        if (tried_ < kMostCuts && pieces_ < kMostPieces) made = best_cut(part, tried_, can_sweep_, context_);
+        if (tried_ < kMostCuts && pieces_ < kMostPieces)
+            made = best_cut(part, least_, tried_, can_sweep_, context_);
         if (made.empty() || pieces_ + made.size() > kMostPieces + 1) return {std::move(part)};
         pieces_ += made.size() - 1;
         std::vector<CutPart> all;
@@ -220,33 +341,10 @@ public:
 
 private:
     const CanSweep &can_sweep_, &can_sweep_block_;
+    double least_;
     const RunContext& context_;
     std::size_t tried_ = 0, pieces_ = 1;
 };
-
-/// Axes along which flat faces of a volume face in both directions, those with the largest area first.
-std::vector<Vec3> axes_of(const OpenVolume& volume)
-{
-    struct Axis {
-        Vec3 way;
-        double ahead = 0, behind = 0; ///< area of flat faces [model length²]
-    };
-    std::vector<Axis> axes;
-    for (const FaceId face : all_faces(volume.model)) {
-        if (!plane_of(volume.model, face)) continue;
-        const Vec3 area = face_area_vector(volume.model, face);
-        const Vec3 way = area.stableNormalized();
-        const auto known = std::ranges::find_if(
-            axes, [&](const Axis& axis) { return std::abs(axis.way.dot(way)) > 1 - kFlatShare; });
-        Axis& axis = known != axes.end() ? *known : axes.emplace_back(way);
-        (axis.way.dot(way) > 0 ? axis.ahead : axis.behind) += area.norm();
-    }
-    std::erase_if(axes, [](const Axis& axis) { return !(axis.ahead > 0 && axis.behind > 0); });
-    std::ranges::stable_sort(axes, std::greater{}, [](const Axis& axis) { return axis.ahead + axis.behind; });
-    std::vector<Vec3> ways;
-    for (const Axis& axis : axes) ways.push_back(axis.way);
-    return ways;
-}
 
 /// Make the faces of a volume that face along an axis its ends, and the others walls.
 void set_ends_along(OpenVolume& volume, const Vec3& axis)
@@ -266,7 +364,7 @@ std::optional<OpenVolume> with_rounds_divided(const OpenVolume& volume, const Ca
 {
     OpenVolume away = volume;
     face_away(away, context);
-    for (const Vec3& axis : axes_of(away)) {
+    for (const Vec3& axis : axes_of(away, true)) {
         check_cancelled(context);
         OpenVolume divided = away;
         set_ends_along(divided, axis);
@@ -286,7 +384,7 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
 {
     OpenVolume away = volume;
     face_away(away, context);
-    std::vector<Vec3> axes = axes_of(away);
+    std::vector<Vec3> axes = axes_of(away, true);
     if (axes.size() > kMostRead) axes.resize(kMostRead);
     for (const Vec3& axis : axes) {
         check_cancelled(context);
@@ -307,7 +405,7 @@ bool has_ends(const OpenVolume& piece)
     return !piece.faces(Role::source).empty() && !piece.faces(Role::target).empty();
 }
 
-std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_sweep,
+std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_sweep, double least,
                                  const RunContext& context)
 {
     const auto are_swept = [](const std::vector<CutPart>& parts) {
@@ -316,12 +414,14 @@ std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_s
     const CanSweep suits = [&](const OpenVolume& piece) {
         return ends_suit_columns(piece) && can_sweep(piece);
     };
-    std::vector<CutPart> parts = Cutter(suits, can_sweep, context).cut(part_of({volume}, context));
+    std::vector<CutPart> parts = Cutter(suits, can_sweep, least, context).cut(part_of({volume}, context));
     std::vector<StepPiece> pieces;
     if (!are_swept(parts)) {
         if (auto divided = with_rounds_divided(volume, can_sweep, context)) return {{std::move(*divided)}};
         pieces = cut_in_steps(volume, can_sweep, context);
         if (pieces.empty()) pieces = divided_at_middle(volume, kMostPieces, can_sweep, context);
+        if (pieces.empty() && parts.size() == 1 && !(parts.front().left > 0))
+            pieces = divided_at_centre(volume, kMostPieces, can_sweep, context);
     }
     if (!pieces.empty()) return pieces;
     std::size_t count = 0;

@@ -12,6 +12,7 @@
 #include <lacuna/fill/detail/tets.h>
 #include <lacuna/io/shared/units.h>
 #include <lacuna/surface/shared/boundary_layers.h>
+#include <lacuna/surface/shared/default_size.h>
 #include <lacuna/surface/shared/walls.h>
 #include <lacuna/sweep/shared/imprinted.h>
 #include <lacuna/topology/shared/left_out.h>
@@ -529,8 +530,12 @@ void report_left_out(const Volume& volume, std::vector<std::string>& report)
 
 std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context)
 {
+    // Strips beside a cut that are thinner than this share of the size would be filled with far smaller cells
+    // than the rest. Not measured.
+    constexpr double kThin = 0.1;
     return closure::partition(
-        sealed, [&](const topology::OpenVolume& piece) { return can_sweep(piece, context); }, context);
+        sealed, [&](const topology::OpenVolume& piece) { return can_sweep(piece, context); },
+        kThin * surface::default_size(sealed).length, context);
 }
 
 FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,

@@ -289,7 +289,6 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
         throw InvalidInput(with_tets_as_remedy(*volume.no_roles, asked.options));
     }
     SweepRequest request = asked;
-    request.options.improving = sweep::with_deadline(request.options.improving);
     std::vector<std::string> failed; // one line for each sweep that failed
     std::exception_ptr first;
     std::optional<Message> why; // message of `first`
@@ -353,9 +352,11 @@ Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& optio
                       options.layered ? "sweep with " : "");
 }
 
-Filled sweep(const Volume& volume, const SweepRequest& request, const RunContext& context)
+Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& context)
 {
-    const sweep::SweepOptions& options = request.options;
+    SweepRequest request = asked;
+    sweep::SweepOptions& options = request.options;
+    options.improving = sweep::with_shared_limits(options.improving);
     if (volume.along && volume.along->on_axis &&
         (options.wedges || options.fallback == sweep::Fallback::wedges))
         return turn_at_axis(volume, request, context);

@@ -48,6 +48,8 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
 }
 
 /// Pave a coarse region in one way; if the result is poor, try all ways of `pave()`.
+/// @throw NotSweepable "surface.pave"  the quads are flat, as between sides that nearly touch. Shorter sides
+///        may be less flat, so the region is then paved at full size.
 PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     check(region);
@@ -58,6 +60,8 @@ PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunC
         report = std::move(attempt.report);
         return std::move(attempt.mesh);
     }
+    if (attempt.worst <= setting.flat)
+        throw NotSweepable("surface.pave", "quads fold near {}", position_text(attempt.where));
     // Patterns are not tried: they stretch many quads to save irregular nodes, which cost little here.
     auto [mesh, other] = pave(region, {.grids = false}, context);
     report = std::move(other);

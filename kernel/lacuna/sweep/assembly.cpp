@@ -889,9 +889,9 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
     std::vector<AssemblyMember> left(members.begin(), members.end());
     for (AssemblyMember& member : left) {
         ImproveOptions& improving = member.options.improving;
-        if (improving.seconds == left.front().options.improving.seconds)
-            improving.deadline = left.front().options.improving.deadline;
-        improving = with_deadline(improving);
+        const ImproveOptions& first = left.front().options.improving;
+        if (improving.work == first.work && improving.seconds == first.seconds) improving.spent = first.spent;
+        improving = with_shared_limits(improving);
     }
     std::vector<std::size_t> place(left.size());
     std::iota(place.begin(), place.end(), std::size_t{0});

@@ -41,7 +41,11 @@ class Improver {
 public:
     Improver(mesh::HexMesh& mesh, const CellRegion& region, const ImproveOptions& options,
              const Sliding& sliding, const RunContext& context)
-        : mesh_(mesh), region_(region), options_(with_deadline(options)), sliding_(sliding), context_(context)
+        : mesh_(mesh),
+          region_(region),
+          options_(with_shared_limits(options)),
+          sliding_(sliding),
+          context_(context)
     {
     }
 
@@ -81,8 +85,11 @@ private:
 
     [[nodiscard]] bool out_of_time() const
     {
-        if (work_ > options_.work) return true;
-        return options_.deadline && options_.deadline->passed();
+        if (options_.spent->work > options_.work) return true;
+        if (!(options_.seconds > 0)) return false;
+        const auto now = std::chrono::steady_clock::now();
+        if (!options_.spent->start) options_.spent->start = now;
+        return std::chrono::duration<double>(now - *options_.spent->start).count() > options_.seconds;
     }
 
     /// Whether a region is better: its minimum is higher or, with the same minimum, its shortfall is smaller.
@@ -111,7 +118,7 @@ private:
         };
         x = geometry::minimise(
             [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
-                work_ += static_cast<double>(region_.cells.size());
+                options_.spent->work += static_cast<double>(region_.cells.size());
                 return energy_(at, gradient);
             },
             std::move(x), how);
@@ -196,22 +203,13 @@ private:
     RegionEnergy energy_{region_, places_of(mesh_, region_), context_};
     std::vector<Vec3> best_ = places_of(mesh_, region_);
     RegionQuality best_quality_ = measure(region_, best_, context_);
-    double work_ = 0; ///< number of cell evaluations
 };
 
 } // namespace
 
-bool ImproveDeadline::passed()
+ImproveOptions with_shared_limits(ImproveOptions options)
 {
-    const auto now = std::chrono::steady_clock::now();
-    if (!start_) start_ = now;
-    return std::chrono::duration<double>(now - *start_).count() > seconds_;
-}
-
-ImproveOptions with_deadline(ImproveOptions options)
-{
-    if (options.seconds > 0 && !options.deadline)
-        options.deadline = std::make_shared<ImproveDeadline>(options.seconds);
+    if (!options.spent) options.spent = std::make_shared<ImproveSpent>();
     return options;
 }
 

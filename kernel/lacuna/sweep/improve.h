@@ -16,15 +16,10 @@
 
 namespace lacuna::sweep {
 
-/// A time limit shared by all improvement steps. It starts when the first step begins.
-class ImproveDeadline {
-public:
-    explicit ImproveDeadline(double seconds) : seconds_(seconds) {}
-    bool passed();
-
-private:
-    double seconds_;
-    std::optional<std::chrono::steady_clock::time_point> start_;
+/// What the improvement steps of one call have spent so far.
+struct ImproveSpent {
+    double work = 0;                                            ///< number of cell evaluations
+    std::optional<std::chrono::steady_clock::time_point> start; ///< when the first step began
 };
 
 struct ImproveOptions {
@@ -34,15 +29,15 @@ struct ImproveOptions {
     double work = 4e7;        ///< maximum number of cell evaluations, > 0; about 20 seconds of one core
     double seconds = 0;       ///< no step begins after this time, >= 0; 0: only `work` limits
     // `work` counts evaluations instead of time, so that the result is the same on every machine.
-    /// State of `seconds`, for copies of these options that share one limit; null: each has its own.
-    std::shared_ptr<ImproveDeadline> deadline{};
+    /// For copies of these options that share the limits `work` and `seconds`; null: each has its own.
+    std::shared_ptr<ImproveSpent> spent{};
 };
 
 /// @throw InvalidInput  an option out of range; names it.
 void check(const ImproveOptions& options);
 
-/// The options with one time limit that all their copies share, if `seconds` is set.
-ImproveOptions with_deadline(ImproveOptions options);
+/// The options with limits of work and time that all their copies share.
+ImproveOptions with_shared_limits(ImproveOptions options);
 
 /// The nodes of the skin that may slide, each along the surface on which its face lies.
 struct Sliding {

@@ -262,7 +262,7 @@ std::string poor_in_words(double least)
 Swept sweep(const OpenVolume& volume, const SweepOptions& asked, const RunContext& context)
 {
     SweepOptions options = asked;
-    options.improving = with_deadline(options.improving);
+    options.improving = with_shared_limits(options.improving);
     Swept swept = search(volume, options, context);
     if (swept.min_scaled_jacobian < kPoorCell)
         swept.notes.push_back(poor_in_words(swept.min_scaled_jacobian));

@@ -34,8 +34,13 @@ std::vector<StepPiece> cut_by_plane(const topology::OpenVolume& volume, const ge
 /// Cut like `cut_by_plane()`, but only in the regions of the plane whose rims run along one of the given
 /// edges; without edges, in all regions. Cut lines across flat faces have no inner points, so that coarse
 /// meshes fold no facets.
+/// @param least  the least distance between the cut and an edge that does not meet its plane, unless another
+///               edge that meets the plane joins both: there, the volume itself is that thin
+///               [model length].
+/// @throw NotSweepable "closure.cut_thin"  an edge is nearer; or the errors of `cut_by_plane()`.
 std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const geometry::Plane& plane,
-                                    const std::vector<EdgeId>& edges, const RunContext& context = {});
+                                    const std::vector<EdgeId>& edges, double least,
+                                    const RunContext& context = {});
 
 /// Cut a volume by a face of a model into pieces that share it.
 ///

@@ -27,15 +27,20 @@ using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 /// undone if each of the resulting pieces lacks ends and cannot be divided at its middle or, with nothing
 /// left to cut, across an edge between coplanar faces.
 ///
-/// If a piece is left without ends, the whole volume is tried in three other ways, in this order:
+/// If a piece is left without ends, the whole volume is tried in four other ways, in this order:
 /// - as one piece with ends along an axis, the rounds at their rims divided (`split_round_rims()`);
 /// - cut in steps between all faces that face along an axis (`cut_steps()`);
-/// - divided at its middle (`midpoint_blocks()`).
+/// - divided at its middle (`midpoint_blocks()`);
+/// - with nothing left to cut, cut by three planes at right angles through the centre of a sphere or the apex
+///   of a cone, into parts that have ends or are divided at their middles.
 ///
-/// If none of these succeeds, each piece without ends is divided at its own middle where that is possible.
+/// If none of these succeeds, each piece without ends is divided at its own middle or, with nothing left to
+/// cut, at such a centre, where that is possible.
+/// @param least  the least distance between a cut and an edge beside it, unless the volume itself is that
+///               thin there [model length].
 /// @return  pieces with their ends; those without ends cannot be swept. The volume itself if no cut helps.
 /// @note  Cutting stops after 200 trial cuts or at 64 pieces. O(facets log facets) for each cut.
-std::vector<StepPiece> partition(const topology::OpenVolume& volume, const CanSweep& can_sweep,
+std::vector<StepPiece> partition(const topology::OpenVolume& volume, const CanSweep& can_sweep, double least,
                                  const RunContext& context = {});
 
 /// Whether a piece has a source and a target.

@@ -1,0 +1,54 @@
+-- SPDX-License-Identifier: MIT
+-- Bodies without concave edges around a sphere or a cone: cut through its centre by three planes at right
+-- angles, into parts that are divided at their middles.
+-- usage: lacuna balls.lua scratch=FOLDER
+local lacuna = require "lacuna"
+local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
+local params = lacuna.params { scratch = "." }
+
+--- Bodies by name: a function of random() that returns geometry for Open CASCADE and the volume.
+local bodies = {
+  ball = function(random)
+    local r = random(0.5, 2)
+    return ("Sphere(1) = {%.15g, 1, 2, %.15g};"):format(random(-1, 1), r), 4 / 3 * math.pi * r ^ 3
+  end,
+  lens = function(random)
+    local r, apart = random(0.8, 1.2), random(0.7, 1.1)
+    local high = r - apart / 2
+    return ("Sphere(1) = {0, 0, 0, %.15g}; Sphere(2) = {0, 0, %.15g, %.15g};\n"):format(r, apart, r) ..
+        "BooleanIntersection{ Volume{1}; Delete; }{ Volume{2}; Delete; }",
+        2 * math.pi * high ^ 2 * (r - high / 3)
+  end,
+  cone = function(random)
+    local r, high = random(0.6, 1.2), random(1, 2)
+    return ("Cone(1) = {0, 0, 0, 0, 0, %.15g, %.15g, 0};"):format(high, r), math.pi * r ^ 2 * high / 3
+  end,
+  dent = function(random)
+    local r, high = random(0.4, 0.7), random(1.2, 2)
+    return ("Box(1) = {0, 0, 0, 2, 2, %.15g}; Sphere(2) = {%.15g, 1, %.15g, %.15g};\n"):format(
+        high, random(0.9, 1.1), high, r) .. "BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }",
+        4 * high - 2 / 3 * math.pi * r ^ 3
+  end,
+}
+
+local names = {}
+for name in pairs(bodies) do names[#names + 1] = name end
+table.sort(names)
+for _, name in ipairs(names) do
+  for number = 1, check.whole and 10 or 1 do
+    local random = check.random(7919 * number + #name)
+    for _ = 1, 5 do random(0, 1) end
+    local geo, volume = bodies[name](random)
+    -- Turned, so that no plane of the cuts is one of coordinates.
+    local turned = ("\nRotate{ {1, 2, 3}, {0, 0, 0}, %.15g }{ Volume{1}; }\n"):format(random(0, 1))
+    local file = ("%s/%s%d.geo"):format(params.scratch, name, number)
+    check.write(file, 'SetFactory("OpenCASCADE");\n' .. geo .. turned)
+    local mesh = lacuna.load(file):open_volume {}:sweep {}
+    local quality = mesh:quality()
+    check.that(quality.certified and mesh.tets == 0 and mesh.wedges == 0, name)
+    check.near(quality.volume, volume, 0.02 * volume)
+    check.that(quality.min_scaled_jacobian > 0.2, name .. ": " .. quality.min_scaled_jacobian)
+  end
+end
+
+check.done()
