@@ -47,9 +47,6 @@ while members < (check.whole and 150 or 12) do
     local u, v, thick = whole(x + 1, math.min(x + 2, side)), whole(y + 1, math.min(y + 2, side)), whole(1, 2)
     local low, level = height[x + 1][y + 1], true
     for i = x + 1, u do for j = y + 1, v do level = level and height[i][j] == low end end
-    for _, other in ipairs(boards) do -- a face of both would be given once
-      level = level and not (x == other[1] and y == other[2] and u == other[4] and v == other[5])
-    end
     if level and low + thick < deep then
       for i = x + 1, u do for j = y + 1, v do height[i][j] = low + thick end end
       boards[#boards + 1] = { x, y, low, u, v, low + thick }
@@ -67,7 +64,15 @@ while members < (check.whole and 150 or 12) do
     local roles = { source = { "tray 5" }, target = {}, walls = members % 3 == 1 and "auto" or {} }
     if not open then roles.target[1] = "tray 6" end
     for n = 0, #boards do
-      if n > 0 then table.insert(roles.source, ("board %d 6"):format(n)) end
+      local covered = false -- by a board of the same outline: both share one face
+      for _, above in ipairs(boards) do
+        local own = boards[n]
+        covered = covered or own and above[3] == own[6] and above[1] == own[1] and above[2] == own[2]
+            and above[4] == own[4] and above[5] == own[5]
+      end
+      if n > 0 and not (covered and roles.walls == "auto") then
+        table.insert(roles.source, ("board %d 6"):format(n))
+      end
       for k = 1, roles.walls ~= "auto" and 4 or 0 do
         table.insert(roles.walls, (n > 0 and "board " .. n or "tray") .. " " .. k)
       end

@@ -232,6 +232,10 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
                                       : request.faces ? *request.faces
                                                       : topology::all_faces(model);
     report_progress(context, "roles");
+    if (const auto left = leave_out_shared_faces(model, named, request.find_walls)) {
+        log_line(context, left->note);
+        return open(left->model, joined_request(request, *left), context);
+    }
     const auto joined = join_touching_parts(model, named, request.find_walls, context);
     if (!joined) return open_apart(model, request, context);
     log_line(context, joined->note);

@@ -332,6 +332,30 @@ private:
 
 } // namespace
 
+std::optional<JoinedParts> leave_out_shared_faces(const Model& model, const std::vector<FaceId>& named,
+                                                  bool all_follow)
+{
+    std::vector<int> uses(model.edges.size(), 0);
+    for (const FaceId face : all_follow ? all_faces(model) : named)
+        for (const EdgeUse& use : uses_of(model[face])) ++uses[use.edge.index()];
+    JoinedParts result;
+    result.faces_of.resize(model.faces.size());
+    std::vector<FaceId> kept, shared;
+    for (const FaceId face : all_faces(model)) {
+        const bool is_end = all_follow && std::ranges::find(named, face) != named.end();
+        const bool is_shared = !is_end && std::ranges::all_of(uses_of(model[face]), [&](const EdgeUse& use) {
+            return uses[use.edge.index()] == 3;
+        });
+        if (!is_shared) result.faces_of[face.index()].emplace_back(kept.size());
+        (is_shared ? shared : kept).push_back(face);
+    }
+    if (shared.empty()) return std::nullopt;
+    result.model = extract(model, kept);
+    result.note = formatted("note: {} lies between two solids and does not bound the volume",
+                            entity_of(model, shared.front()));
+    return result;
+}
+
 std::optional<JoinedParts> join_touching_parts(const Model& model, const std::vector<FaceId>& named,
                                                bool all_follow, const RunContext& context)
 {
