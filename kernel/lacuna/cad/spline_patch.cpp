@@ -66,7 +66,7 @@ std::size_t sides_for(const std::function<std::vector<std::vector<Vec3>>(std::sp
 {
     for (std::size_t sides = 1; sides < kMostSides; sides = sides == 1 ? 4 : 2 * sides) {
         const std::vector<double> at = evenly(sides);
-        // A side counts as straight only if its quarter points lie on the chord as well.
+        // A single interval suffices only if the quarter points lie on its chord as well.
         std::vector<double> probes;
         for (std::size_t i = 0; i < sides; ++i) probes.push_back((at[i] + at[i + 1]) / 2);
         if (sides == 1) probes = evenly(4);

@@ -16,9 +16,9 @@ struct SolidSources {
     std::vector<const CadSource*> order;
     std::vector<cad_protocol::SolidSource> wanted; ///< one for each model
 };
-/// Load all CAD models of a volume into one process. Before, several processes may hold them, and some of
-/// these may have ended.
-/// @throw BackendError  a file has changed since, or cannot be read. Cancelled.
+/// Load all CAD models of a volume into one process. Until then, several processes may hold them, and some
+/// of these processes may have ended.
+/// @throw BackendError  a file has changed since it was loaded, or cannot be read. Cancelled.
 SolidSources sources_of(const topology::Model& model, const RunContext& context);
 
 /// How a sealed volume is made into a solid. Each face becomes an exact face, a plane, spline patches or a
