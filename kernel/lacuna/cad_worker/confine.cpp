@@ -54,7 +54,7 @@ const Offered* find_offered(const char* path)
 /// could only open files for reading, within the limits of Landlock.
 std::uint64_t own_mark;
 
-/// Flags that an open for reading only does not have.
+/// Flags of open() that are all absent if a file is opened for reading only.
 constexpr int kWriting = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND | (O_TMPFILE & ~O_DIRECTORY);
 
 long own_call(long number, long a, long b, long c, long d, long e = 0)
