@@ -228,7 +228,7 @@ LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3],
 
 /// Divide a polynomial by 1 - t along a direction; it must be a multiple of 1 - t. Its degree along the
 /// direction falls by one.
-/// @param degree  before, along the direction; the coefficients beyond it are not used
+/// @param degree  degree along the direction before the division; higher coefficients are not used
 void divide(Bezier& bezier, std::size_t stride, std::size_t degree)
 {
     for (std::size_t at = 0; at < kAll; ++at) {
@@ -402,7 +402,7 @@ std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3> place
 
 namespace {
 
-/// The cells without a property, ascending. Parallel.
+/// The cells for which `is(cell)` is false, ascending. Parallel.
 template <class Is>
 std::vector<std::size_t> cells_that_are_not(std::size_t count, const RunContext& context, const Is& is)
 {

@@ -36,8 +36,8 @@ struct MeasuredLayers {
 MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& context = {},
                        const Team* team = nullptr);
 
-/// Mean cell volume of such a mesh. If it is passed to `metric_values()` for some layers, the values are bit
-/// for bit those of the whole mesh. A team shares the work as in `measure()`.
+/// Mean cell volume of such a mesh. If it is passed to `metric_values()` for some of the layers, their values
+/// have the same bits as in the whole mesh. A team shares the work as in `measure()`.
 /// @throw Cancelled; TeamFailed
 double mean_volume(const mesh::LayeredMesh& layered, const RunContext& context = {},
                    const Team* team = nullptr);
