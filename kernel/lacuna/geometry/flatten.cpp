@@ -219,8 +219,8 @@ void align(Positions& positions, const Positions& model)
 }
 
 /// Whether facets form a tube between two loops: the total geodesic curvature of the outer loop is less than
-/// π, half of that of a flat ring. A cylinder has 0, and a cone whose wall is inclined by 60° to its base has
-/// π. A rolled-up sheet with a hole is not a tube.
+/// π. The curvature is 0 for a cylinder, π for a cone whose wall is inclined by 60° to its base, and 2π for a
+/// flat ring. A rolled-up sheet with a hole is not a tube.
 bool is_tube(const Facets& facets)
 {
     if (facets.loops.size() != 2) return false;

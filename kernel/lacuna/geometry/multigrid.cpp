@@ -13,8 +13,8 @@ namespace {
 using Matrix = Multigrid::Matrix;
 using Vector = Eigen::VectorXd;
 
-/// Couplings weaker than this, relative to the diagonals, are not used for
-/// aggregation: 0.08 as in Vaněk et al.
+/// Couplings weaker than this, relative to the diagonals, are not used for aggregation: 0.08 as in Vaněk et
+/// al.
 constexpr double kStrong = 0.08;
 /// Damped Jacobi step that smooths the aggregates: 4/3 divided by the largest eigenvalue of D⁻¹A, which is at
 /// most 2 for diagonally dominant rows.

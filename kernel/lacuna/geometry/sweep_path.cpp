@@ -117,7 +117,7 @@ private:
     std::vector<double> at_;
     std::vector<Vec3> tangents_;
     std::vector<Eigen::Matrix3d> frames_;
-    double start_ = 0; ///< length of the path before it
+    double start_ = 0; ///< length of the path before this part
 };
 
 /// The projection, along a direction, of a section normal to it onto the plane that halves a corner.
