@@ -20,11 +20,10 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Largest number of steps in the search for choices. A hundred sheets that meet in threes need about as
-/// many.
+/// Limit on the steps of the search for choices. A hundred sheets that meet in threes need about this many.
 constexpr std::size_t kMostSteps = 100000;
 
-/// Every face connected to some faces over shared edges without crossing the excluded ones.
+/// All faces connected to the faces `from` over shared edges, without crossing the faces `without`.
 std::vector<FaceId> reachable_from(const Model& model, const std::vector<FaceId>& from,
                                    const std::vector<FaceId>& without)
 {
@@ -78,8 +77,8 @@ public:
     [[nodiscard]] bool crowded() const { return crowded_; }
     [[nodiscard]] const std::vector<std::vector<FaceId>>& sheets() const { return sheets_; }
 
-    /// All maximal choices; empty if there are too many, or if a sheet cannot be taken as a whole because an
-    /// edge would be used more than twice by it and the ends.
+    /// All maximal choices. Empty if there are too many, or if a sheet cannot be taken as a whole because the
+    /// sheet and the ends together use an edge more than twice.
     std::optional<std::vector<Choice>> choices()
     {
         for (std::size_t s = 0; s < sheets_.size(); ++s)

@@ -190,8 +190,8 @@ private:
         return found == move_.end() ? point : found->second;
     }
 
-    /// If an edge's inner point and the corners beside it moved onto the edge, the facets on both sides are
-    /// folded onto it; they are removed together with the point.
+    /// Remove facets that have collapsed onto an edge: their corners are three successive points of the edge.
+    /// If there is one for each use of the edge, they are removed together with the middle point.
     void drop_folded(EdgeId id)
     {
         std::vector<Index>& points = model_[id].points;
@@ -218,7 +218,8 @@ private:
         }
     }
 
-    /// Surface parameter differences along the facet sides of a face, from the lower point to the higher.
+    /// Surface parameter differences along the facet sides of a face, from the point with the lower number to
+    /// the one with the higher.
     static std::unordered_map<std::uint64_t, Vec2> steps_of(const Face& face)
     {
         std::unordered_map<std::uint64_t, Vec2> steps;
@@ -232,7 +233,7 @@ private:
         return steps;
     }
 
-    /// Change of the surface parameters where points of the edges move to their nodes.
+    /// Change of the surface parameters at each point of an edge that moves to a node.
     [[nodiscard]] std::unordered_map<Index, Vec2> shifts_of(const Face& face) const
     {
         std::unordered_map<Index, Vec2> shifts;
@@ -467,7 +468,7 @@ private:
         remesher_.add(use.edge, at, nodes);
     }
 
-    /// A given mesh of another face at the edge must have the same nodes.
+    /// Check that given meshes of other faces at the edge have the same number of nodes on it.
     void check_other_meshes(EdgeId edge, const std::vector<RimNode>& nodes) const
     {
         const std::vector<Index>& old = model_[edge].points;

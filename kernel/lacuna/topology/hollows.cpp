@@ -78,10 +78,10 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
     return most;
 }
 
-/// Faces that stand in a cavity. Without the cavity, the skin falls into parts that its rims bound. The
-/// largest part is the outside, and the cavity's rims on it are its mouths. A part that reaches up to a mouth
-/// does not stand in the cavity. A through bore is a part of its own and connects no others; it stands in the
-/// cavity if none of its rims is on the outside.
+/// Faces that stand in a cavity. Without the faces of the cavity, the skin falls into parts, bounded by the
+/// cavity's rims. The largest part is the outside, and the rims between it and the cavity are the mouths. A
+/// part that reaches up to a mouth does not stand in the cavity. A through bore is a separate part and does
+/// not connect other parts; it stands in the cavity if none of its rims is on the outside.
 /// @pre oriented
 std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity,
                                 const std::vector<Hollow>& hollows)

@@ -100,7 +100,7 @@ private:
     friend class Model;
     friend class ModelBuilder;
     std::vector<FaceUse> uses_;          ///< uses of all edges, in the order of the edges
-    std::vector<std::size_t> first_use_; ///< for each edge, and the end; empty before `finish()`
+    std::vector<std::size_t> first_use_; ///< start of each edge's uses, then the end; empty before `finish()`
 };
 
 /// Parts that no longer change, and the faces at each edge. Made by `ModelBuilder::finish()`. A variable can

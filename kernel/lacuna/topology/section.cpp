@@ -201,7 +201,7 @@ private:
 
     const Model& model_;
     const geometry::Plane& plane_;
-    std::vector<signed char> side_; ///< by point: behind -1, on it 0, in front 1
+    std::vector<signed char> side_; ///< for each point: -1 behind the plane, 0 on it, 1 in front of it
     std::vector<Step> steps_;
     std::map<std::uint64_t, std::pair<Index, Index>> behind_; ///< sides in the plane whose facets are behind
                                                               ///< it

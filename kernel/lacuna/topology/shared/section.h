@@ -41,7 +41,7 @@ std::vector<SectionWalk> section_walks(const Model& model, const std::vector<Fac
 /// Result of `imprint_walks()`.
 struct WalkImprint {
     std::vector<std::vector<EdgeUse>> lines; ///< the edges of each walk, in its direction
-    std::vector<FaceId> parent;              ///< by face: the face it was part of; itself if not split
+    std::vector<FaceId> parent;              ///< for each face, the face that it was part of, or itself
 };
 
 /// Split the faces and edges of a model along walks of `section_walks()`.
