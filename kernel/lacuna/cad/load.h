@@ -55,10 +55,11 @@ quads::PlanarQuads recombine(const quads::PlanarRegion& region, const RunContext
 /// @pre   every point is a corner of a face.
 /// @post  the nodes are the skin's points, then the apexes of its quads in order, then the inner nodes. The
 ///        cells are the pyramids in the order of the quads, then the tetrahedra. All cells are positive.
-/// @throw InvalidInput  the skin is open, inside out or in several parts ("cad.skin_open"). NotSweepable  its
-///                      faces cross ("cad.skin_crosses"), a quad is not convex ("cad.skin_quad"), Gmsh fails
-///                      ("cad.fill_skin"), or more than 1e7 tetrahedra are needed ("cad.tet_count").
-///                      BackendError  as load().
+/// @throw InvalidInput  the skin is open, inside out or in several parts ("cad.skin_open").
+/// @throw NotSweepable  faces of the skin cross ("cad.skin_crosses"), a quad is not convex
+///                      ("cad.skin_quad"), Gmsh fails ("cad.fill_skin"), or more than 1e7 tetrahedra are
+///                      needed ("cad.tet_count").
+/// @throw BackendError  as for load().
 mesh::TetMesh fill_skin(const mesh::ClosedSkin& skin, const RunContext& context = {});
 
 /// Version of Gmsh in the CAD process, and the confinement features that this system lacks; "none" if the

@@ -26,7 +26,8 @@ std::vector<double> evenly(std::size_t sides)
     return parameters;
 }
 
-/// Interpolate several curves with the same axis: one column for each coordinate.
+/// The poles of several splines with the same axis that interpolate values at equidistant parameters. Values
+/// and poles have one column for each coordinate.
 Eigen::MatrixXd poles_through(const SplineAxisData& axis, const Eigen::MatrixXd& values)
 {
     const std::vector<double> at = evenly(static_cast<std::size_t>(values.rows()) - 1);

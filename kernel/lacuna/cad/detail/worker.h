@@ -58,8 +58,9 @@ public:
     Worker& operator=(const Worker&) = delete;
 
     /// Send a request and wait for the reply.
-    /// @throw InvalidInput, NotSweepable, BackendError  the error that the process reports. BackendError  the
-    ///        process ended. Cancelled.
+    /// @throw InvalidInput, NotSweepable, BackendError  the error that the process reports.
+    /// @throw BackendError  the process ended.
+    /// @throw Cancelled
     template <class Reply, class Request>
     Reply ask(cad_protocol::Opcode opcode, const Request& request, const Task& task,
               const std::vector<int>& descriptors = {})
