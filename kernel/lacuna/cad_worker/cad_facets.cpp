@@ -25,7 +25,7 @@ constexpr double kClearance = 0.5;
 /// A curve in the parameter rectangle of a face.
 struct BorderChain {
     std::vector<Vec2> uv;
-    std::vector<Vec2> other;   ///< the other image of the curve, on a seam; empty if there is only one
+    std::vector<Vec2> other;   ///< second image of the curve, if the surface has a seam there; else empty
     std::vector<Index> points; ///< model points
     bool pole = false;         ///< the curve is a single point
     bool slit = false;         ///< the face is on both sides of the curve, with the same parameters

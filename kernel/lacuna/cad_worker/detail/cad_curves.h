@@ -43,7 +43,7 @@ struct CadEdge {
 struct CadVertex {
     int tag = 0;
     Vec3 at = Vec3::Zero();
-    Index point = -1; ///< model point; vertices closer than the tolerance have the same one
+    Index point = -1; ///< model point; vertices closer than the tolerance share a model point
 };
 
 /// The curves around a face, each listed once.

@@ -14,7 +14,7 @@ namespace lacuna::cad_worker {
 /// Edges that share a vertex are not compared. Curved faces need no refinement: narrow ones, such as fillets,
 /// are seldom next to the void.
 /// @param wire  `divide()` has divided its edges.
-/// @cost  O(n log n) in the segments of a face, if few of them are close to each other.
+/// @note  O(n log n) in the segments of a face, if few of them are close to each other.
 std::vector<double> narrow_refinement(const CadWire& wire);
 
 } // namespace lacuna::cad_worker
