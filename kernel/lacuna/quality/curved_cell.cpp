@@ -287,8 +287,9 @@ constexpr bool is_high(std::size_t c, std::size_t d)
     return ((d == 0 ? c + 1 : c) & (d == 2 ? 4u : 2u)) != 0;
 }
 
-/// For each edge, the vector from its middle to its middle node. Last, for the centre of the base, the vector
-/// from the place that the corners and middle nodes of the base give it; 0 if there is no such node.
+/// For each edge, the vector from the midpoint of its ends to its middle node. Last, for the node at the
+/// centre of the base, the vector to it from the place interpolated between the other nodes of the base; 0 if
+/// there is no such node.
 std::array<Vec3, 13> deviations(std::span<const Vec3> nodes)
 {
     std::array<Vec3, 13> all;

@@ -146,7 +146,7 @@ private:
         Index node;
         Vec3 place;
     };
-    /// Most entries held at once: 64 MB.
+    /// Limit on the entries held at once: 64 MB.
     static constexpr std::size_t kMost = std::size_t(1) << 21;
 
     /// Call `visit(node, point)` for the nodes of a slab that lie in the box of another slab.

@@ -47,8 +47,8 @@ LACUNA_INLINE bool all_positive(const Part& part)
     return least_of(least) > 0;
 }
 
-/// The direction, among those with bisections left, in which the smallest coefficient is in the middle, so
-/// that a bisection raises it; -1 if no bisection is left.
+/// The direction to bisect, among the directions with bisections left: the one whose middle coefficients
+/// contain the smallest value, because a bisection raises it. -1 if no bisection is left.
 LACUNA_INLINE int best_cut(const Part& part, const CutsLeft& cuts_left)
 {
     const Row* row = part.row;

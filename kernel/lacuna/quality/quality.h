@@ -30,8 +30,8 @@ bool certified_positive(std::span<const Vec3, 8> corners, int max_depth = 6);
 /// an equilateral triangle.
 double wedge_scaled_jacobian(std::span<const Vec3, 6> corners);
 
-/// As `certified_positive()`, for a wedge: its Jacobian is linear over the triangle and quadratic along the
-/// height, with nine Bernstein coefficients.
+/// Whether the Jacobian of a wedge is positive everywhere, decided as by `certified_positive()`. The Jacobian
+/// is linear over the triangle and quadratic along the height; it has nine Bernstein coefficients.
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 6);
 
 /// The scaled Jacobian of a pyramid with the base 0-1-2-3 and the apex 4. At each corner of the base, the
@@ -138,8 +138,8 @@ struct Proof {
     std::optional<Finding> finding; ///< the first fault found; none: the mesh is valid
 };
 
-/// Prove that a mesh is valid: conforming (each side used once or twice), skin closed and equal to the
-/// patches, no coincident or unused nodes, every Jacobian certified positive. O(cells).
+/// Prove that a mesh is valid. It is conforming (each side is used once or twice), its skin is closed and
+/// equal to the patches, no nodes coincide or are unused, and every Jacobian is certified positive. O(cells).
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
 
 /// Throw the finding of a proof, if there is one.

@@ -53,7 +53,7 @@ double mean_volume(const mesh::LayeredMesh& layered, const RunContext& context =
 std::optional<Finding> find_misplaced(const mesh::LayeredMesh& layered, std::span<const SlabPlace> slabs,
                                       const RunContext& context = {}, const Team* team = nullptr);
 
-/// As `prove()`, for such a mesh: the same checks.
+/// Prove that such a mesh is valid, with the checks of `prove()`.
 /// @param measured   the quality from `measure()`
 /// @param misplaced  the result of `find_misplaced()`
 Proof prove(const mesh::LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,

@@ -41,7 +41,7 @@ CurvedCell judge(std::span<const Vec3, 27> nodes, int max_depth = 4);
 /// shape of a cell of order 1.
 bool is_straight(std::span<const Vec3, 27> nodes);
 
-/// Coordinates of all nodes of a cell as those of a hex27, for a mesh of any order.
+/// The node coordinates of a cell of any order, converted to those of a hex27.
 std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell);
 
 /// Cells of a mesh whose Jacobian is not proved positive everywhere, ascending. Parallel.
@@ -57,7 +57,7 @@ std::optional<CurvedCell> judge_listed(std::span<const Vec3> nodes, const mesh::
 std::vector<std::size_t> invalid_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
                                        const RunContext& context = {});
 
-/// Measure a list of cells of order 1 and 2; straight cells as cells of order 1, the others with
+/// Measure a list of cells of order 1 and 2: straight cells by their corners, curved cells with
 /// `judge_listed()`.
 /// @param columns  as for `measure_cells()` of hexahedra.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
