@@ -25,9 +25,9 @@ struct AffineFit {
 ///
 /// Minimises the mean of |y − (L x + c)|², plus |n′ − L n|² for a pair of pseudo-normals if area vectors are
 /// given @cite roca_2010_sweep. A pseudo-normal is n·√|area|. Its length scales with the width of the rim, so
-/// a rotation with a uniform scale maps one pseudo-normal onto the other. It determines the direction normal
-/// to a planar rim, which the points alone leave open. The map then has full rank, preserves orientation, and
-/// does not flatten or flip points outside the plane.
+/// a rotation with a uniform scale maps one pseudo-normal onto the other. The pair determines the image of
+/// the direction normal to a planar rim, which the points alone leave open. The map then has full rank,
+/// preserves orientation, and does not flatten or flip points outside the plane.
 ///
 /// The data do not determine a direction whose spread is below √ε of the largest spread. If one direction is
 /// missing, its image is normal to the images of the other two, and its length is the square root of the area

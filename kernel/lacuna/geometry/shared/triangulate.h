@@ -22,7 +22,7 @@ struct Triangulation {
 struct TriangulateOptions {
     bool interior_points = true; ///< false: use the given points only
     std::function<double(const Vec2&)>
-        size{}; ///< target edge length, > 0; the smaller of it and the length graded from the rim is used
+        size{}; ///< target edge length, > 0; an upper limit of the length that is graded from the rim
     /// Growth of edges with the distance from the rim [length per length, >= 0]. The target length at x is
     /// the minimum of (spacing at p) + grading × |x − p| over all rim points p. With 0 it is the smallest
     /// spacing everywhere; with infinity only `size` counts.
