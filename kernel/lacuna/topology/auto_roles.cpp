@@ -61,8 +61,8 @@ struct Reading {
     double cost = 0;
     std::size_t step = kNoIndex; ///< index in `Readings::stepped_` if its ends consist of several patches
 
-    /// Cheapest first. At equal costs, candidates without ends come first, then those with steps, then the
-    /// others by the numbers of their ends.
+    /// Cheapest first. At equal costs, candidates without ends come first, then candidates with stepped ends,
+    /// then the others by the patch numbers of their ends.
     friend bool operator<(const Reading& x, const Reading& y)
     {
         if (x.cost != y.cost) return x.cost < y.cost;
@@ -322,8 +322,8 @@ private:
     }
 
     /// Find the candidates with ends at several heights: one end consists of all flat patches that face one
-    /// way, the other of all those that face the opposite way. Both together have at least three patches. If
-    /// one end is a single patch, it is the source.
+    /// way, the other of all flat patches that face the opposite way. The two ends together have at least
+    /// three patches. If one end is a single patch, it is the source.
     void find_stepped()
     {
         std::vector<std::size_t> flat;

@@ -183,7 +183,7 @@ private:
     const RunContext& context_;
     std::vector<FaceId> ends_;
     std::vector<std::vector<FaceId>> sheets_;
-    std::vector<std::vector<EdgeId>> edges_; ///< by sheet: the edge of each use
+    std::vector<std::vector<EdgeId>> edges_; ///< for each sheet, the edges of its uses
     std::vector<int> count_;                 ///< uses of each edge by the ends and the chosen sheets
     std::vector<bool> chosen_;
     std::vector<Choice> found_;

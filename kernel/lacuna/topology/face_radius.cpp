@@ -62,8 +62,8 @@ std::optional<double> face_radius(const Model& model, FaceId id)
 std::optional<RoundShape> round_shape(const Model& model, FaceId id)
 {
     const Face& face = model[id];
-    for (const char* other : {"plane", "cone", "torus"}) // the CAD file's word: a piece of such a face may
-                                                         // look round
+    // The CAD file declares the kind. A small piece of such a face may look like a cylinder or sphere.
+    for (const char* other : {"plane", "cone", "torus"})
         if (face.kind == other) return {};
     const auto [normals, areas] = facet_normals(model, id);
     if (normals.empty()) return {};

@@ -24,7 +24,7 @@ enum class Geometry {
     newell,      ///< Algorithm 4: triangulated in its Newell plane
     transfinite, ///< Algorithm 6
     annular,     ///< Algorithm 5: between two closed edges
-    followed,    ///< transfinite, blended along the given walls
+    followed,    ///< transfinite, following the motion of the given walls
     parallel,    ///< the shape of the given end, moved to the rim of the walls
 };
 

@@ -138,7 +138,7 @@ long quarter_turns(double angle)
 }
 
 /// Sum up a patch's facets: the spread of their normals, and the turns of its rims.
-/// @param is_vertex  by point of the model, whether a vertex is there
+/// @param is_vertex  for each model point, whether a vertex is there
 void measure_facets(const Model& model, const std::vector<bool>& is_vertex, SmoothPatch& patch)
 {
     std::unordered_map<Index, double> inside; // interior angle at the rims' vertices, by their points

@@ -561,7 +561,7 @@ private:
     std::map<SectionPlace, Index> made_; ///< points inserted on sides
     SidePoints sides_;
     std::unordered_set<std::uint64_t> walked_;     ///< sides along the walks
-    std::vector<bool> on_walk_;                    ///< by point
+    std::vector<bool> on_walk_;                    ///< for each point, whether a walk contains it
     std::unordered_set<std::uint64_t> edge_sides_; ///< sides on previous edges
     std::set<Index> vertex_points_;                ///< points that become vertices
     std::map<Index, VertexId> vertex_at_;

@@ -44,7 +44,7 @@ public:
     [[nodiscard]] long at_most(std::size_t p) const;
     /// Whether Euler numbers permit that walls join two ends, which have no common vertex.
     [[nodiscard]] bool can_hold(std::size_t a, std::size_t b) const;
-    /// The same for one end, whose walls are rings.
+    /// Whether Euler numbers permit that all walls of a single end are rings.
     [[nodiscard]] bool can_hold(std::size_t p) const;
 
 private:
@@ -61,7 +61,7 @@ private:
     [[nodiscard]] std::pair<long, long> euler_without(std::size_t p) const;
 
     const PatchMap& map_;
-    std::vector<Taken> taken_; ///< by patch
+    std::vector<Taken> taken_; ///< for each patch
     Taken whole_;              ///< totals over all patches; its `contacts` is the number of free loops
     long euler_ = 0;           ///< sum of the inner Euler numbers of all patches
     std::size_t parts_ = 0;
