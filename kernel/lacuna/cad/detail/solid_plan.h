@@ -27,6 +27,7 @@ struct SolidPlan {
     cad_protocol::MakeSolidRequest request; ///< contains the points, edges, faces and the diagonal
     std::size_t planes = 0, fitted = 0;     ///< number of void faces made as planes, and as fitted surfaces
 };
+/// Plan the solid of a sealed volume.
 /// @param found  the entities of the sources that exist in the CAD process.
 /// @throw InvalidInput  a face is curved and has no exact surface; names it.
 SolidPlan plan_solid(const topology::OpenVolume& volume, const SolidSources& sources,
