@@ -17,8 +17,8 @@ constexpr std::size_t kSide = 6;                    ///< coefficients in each di
 constexpr std::size_t kAll = kSide * kSide * kSide; ///< index of (a, b, c): a + 6 b + 36 c
 using Bezier = std::array<double, kAll>;
 
-/// Distance below which a middle node counts as straight, relative to the size of the cell: rounding with a
-/// margin.
+/// A cell counts as straight if its middle nodes deviate from linear interpolation by at most this, relative
+/// to the size of the cell. It is above rounding, with a margin.
 constexpr double kStraight = 1e-13;
 
 /// Position of each node of a hex27 in the grid of 3³ points, a + 3 b + 9 c.
@@ -304,8 +304,8 @@ std::array<Vec3, 13> deviations(std::span<const Vec3> nodes)
 
 /// The map of a wedge, pyramid or tetrahedron of order 2 at a point of the unit cube, relative to corner 0.
 /// It is linear in the corners. Each edge adds its deviation times 4 a b, where a and b are the shape
-/// functions of its ends in a triangle, a square or along the height. The centre of the base is added
-/// likewise.
+/// functions of its ends in a triangle, a square or along the height. The node at the centre of the base adds
+/// its deviation with such a weight, too.
 Vec3 collapsed_place(CellKind kind, std::span<const Vec3> nodes, const std::array<Vec3, 13>& deviation,
                      const std::array<double, 3>& at)
 {

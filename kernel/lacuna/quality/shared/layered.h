@@ -29,9 +29,9 @@ struct MeasuredLayers {
     std::vector<SlabPlace> slabs; ///< in order from the source
 };
 
-/// As `measure()`, for a mesh whose nodes are computed on demand, some layers at a time. Sums may differ from
-/// those of `measure()` in the last digits. Memory does not depend on the number of layers. A team shares the
-/// layers; each process gets the whole result, which does not depend on the size of the team.
+/// Measure a mesh whose nodes are computed on demand, some layers at a time. The result is that of
+/// `measure()`, but sums may differ in the last digits. Memory does not depend on the number of layers. A team
+/// shares the layers; each process gets the whole result, which does not depend on the size of the team.
 /// @throw Cancelled; TeamFailed
 MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& context = {},
                        const Team* team = nullptr);
