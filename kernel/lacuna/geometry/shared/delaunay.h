@@ -40,7 +40,7 @@ public:
     DelaunayMesh(std::span<const Vec2> points, const std::vector<Index>& used);
 
     /// Insert the constraint a–b by retriangulating the triangles that it crosses.
-    /// @pre both are inserted; no point lies on the segment and no constraint crosses it.
+    /// @pre both points are inserted; no point lies on the segment and no constraint crosses it.
     void fix_segment(Index a, Index b);
 
     /// Set `inside` where an odd number of constraints lies between a triangle and the outside.
