@@ -49,8 +49,8 @@ struct RoleOptions {
 /// @throw InvalidInput  the faces cannot be oriented.
 /// @throw Cancelled
 ///
-/// Pairs of ends are first filtered by Euler numbers, because walls between two ends have no handles. Only
-/// few face pairs of a plate with a thousand holes are therefore checked in full.
+/// Pairs of ends are first filtered by Euler numbers, because walls between two ends have no handles. Of the
+/// pairs of faces of a plate with a thousand holes, only a few are then checked in full.
 /// @note  O(facets + checked pairs of patches + candidates checked · edges between patches); memory for
 ///         candidates is bounded by some 10 MB.
 std::vector<RoleCandidate> role_candidates(const Model& model, const std::vector<FaceId>& faces,

@@ -212,8 +212,8 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
     return result;
 }
 
-/// Faces beside connected walls that run from the end to the rim of the cavity, such as a ledge at a side
-/// wall. Such walls do not enclose a step of the end, so the faces beside them are walls too.
+/// Faces next to connected walls that run from the end to the rim of the cavity. Such walls do not enclose a
+/// step of the end, so faces next to them, such as a ledge at a side wall, are walls too.
 std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>& walls,
                                    const std::vector<FaceId>& end, const std::vector<FaceId>& cavity)
 {
@@ -232,8 +232,8 @@ std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>
     return found;
 }
 
-/// The walls of an end in a cavity; empty if a face of the end, or another end on the same skin, lies outside
-/// the cavity, because the solid itself is then the volume.
+/// The walls of an end in a cavity. Empty if a face of the end, or another end on the same skin, lies outside
+/// the cavity: the solid itself is then the volume.
 std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<FaceId>& source,
                                           const std::vector<FaceId>& target, const RunContext& context)
 {

@@ -110,8 +110,8 @@ public:
     EdgeRemesher(const Model& given, ModelBuilder& model) : given_(given), model_(model) {}
 
     /// @param at     running lengths of the edge's points.
-    /// @param nodes  in the edge's direction, ends included, ascending; those of a closed edge may start
-    ///         anywhere.
+    /// @param nodes  nodes on the edge, in ascending order of their running lengths, both ends included. On a
+    ///               closed edge they may start anywhere.
     void add(EdgeId id, const std::vector<double>& at, const std::vector<RimNode>& nodes)
     {
         const std::vector<Index>& old = model_[id].points;

@@ -46,8 +46,8 @@ bool is_between_regions(const Model& model, const std::vector<FaceId>& shell)
                        [&](FaceId face) { return model[face].regions.size() > 1; });
 }
 
-/// Flip the shells that lie inside an odd number of others: the space inside them is not part of the solid.
-/// @pre each faces outward. @return the flipped shells.
+/// Flip the shells that lie inside an odd number of other shells: the space inside them is not part of the
+/// solid. @pre each shell faces outward. @return the flipped shells.
 std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
                                                    const std::vector<std::vector<FaceId>>& shells,
                                                    const RunContext& context)
@@ -62,8 +62,8 @@ std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
     return turned;
 }
 
-/// The faces' contribution to a volume, with rims closed by cones to the faces' centre: negative if they face
-/// the space between them.
+/// The volume that faces enclose, with their rims closed by cones to the centre of the faces. Negative if the
+/// faces are oriented towards the space between them.
 double capped_volume(const Model& model, const std::vector<FaceId>& faces)
 {
     return volume_integral(model, faces) - centroid_of(model, faces).dot(area_vector_of(model, faces)) / 3;

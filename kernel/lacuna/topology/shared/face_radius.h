@@ -15,8 +15,8 @@ struct RoundShape {
     [[nodiscard]] bool is_sphere() const { return !axis; }
 };
 
-/// The cylinder or sphere of a face from its facets: the axis of a cylinder is normal to all facet normals;
-/// its circle, or the sphere, is fitted to the corners by least squares.
+/// The cylinder or sphere of a face, from its facets. The axis of a cylinder is normal to all facet normals.
+/// The circle across the axis, or the sphere, is fitted to the corners by least squares.
 /// @return empty if the file declares a plane, a cone or a torus, if all normals are equal, if the facets fit
 ///         a cone, if a corner is off the cylinder or sphere by more than a hundredth of the radius, or if
 ///         the facets are too few for the shape, as those of a cube are for a sphere.

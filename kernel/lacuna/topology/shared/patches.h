@@ -35,7 +35,7 @@ std::vector<double> angles_across(const Model& model, const RunContext& context)
 
 /// The patches of all faces of a model, in the order of their first faces. Near linear in the number of
 /// facets.
-/// @param angle  of each edge, by angles_across()
+/// @param angle  angle at each edge, from angles_across()
 /// @pre  the model is oriented.
 /// @throw Cancelled
 std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<double>& angle,

@@ -40,8 +40,8 @@ struct EdgeSplit {
 /// old vertex.
 ///
 /// @param fraction  in (0, 1).
-/// @throw InvalidInput  a fraction not in (0, 1), or within the tolerance of an end; no inner point although
-///         one is needed; names the edge.
+/// @throw InvalidInput  the fraction is not in (0, 1), or the split is within the tolerance of an end; or an
+///         inner point is needed and the edge has none. Names the edge.
 /// @note  O(facets of the adjacent faces).
 EdgeSplit split_edge(Model& model, EdgeId edge, double fraction);
 
