@@ -30,8 +30,8 @@ struct MeasuredLayers {
 };
 
 /// Measure a mesh whose nodes are computed on demand, some layers at a time. The result is that of
-/// `measure()`, but sums may differ in the last digits. Memory does not depend on the number of layers. A team
-/// shares the layers; each process gets the whole result, which does not depend on the size of the team.
+/// `measure()`, but sums may differ in the last digits. Memory does not depend on the number of layers. A
+/// team shares the layers; each process gets the whole result, which does not depend on the team's size.
 /// @throw Cancelled; TeamFailed
 MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& context = {},
                        const Team* team = nullptr);
