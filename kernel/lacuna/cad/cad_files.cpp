@@ -177,10 +177,11 @@ void add_merged(CadFiles& files, std::size_t first, const std::string& folder, c
                 throw InvalidInput("cad.script", "{}, line {}: the script includes more than {} files", own,
                                    wanted.line, needed(kMostContents - 1));
             if (::access((folder + wanted.name).c_str(), F_OK) != 0) {
-                throw InvalidInput(Message("cad.script",
-                                           "{}, line {}: the script includes {}, which is not in its folder",
-                                           own, wanted.line, wanted.name)
-                                       .remedy("put it there"));
+                throw InvalidInput(
+                    Message("cad.script",
+                            "{}, line {}: the script includes {}, which is not in the script's folder", own,
+                            wanted.line, wanted.name)
+                        .remedy("copy it to that folder"));
             }
             add_copy(files, folder, wanted.name, O_NOFOLLOW, context);
         }

@@ -47,7 +47,8 @@ std::string words_for(const ClosedSkin& skin)
 void check_closed(const ClosedSkin& skin, const std::vector<SkinSide>& sides)
 {
     const auto open = [&](Index at) {
-        throw InvalidInput("cad.skin_open", "{} is not closed, or its sides are not oriented alike, near {}",
+        throw InvalidInput("cad.skin_open",
+                           "{} is not closed, or its faces are not oriented consistently, near {}",
                            words_for(skin), place_with_digits(skin.points[index(at)], 6));
     };
     std::map<std::pair<Index, Index>, int> balance;

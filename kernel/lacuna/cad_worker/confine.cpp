@@ -311,9 +311,10 @@ std::string offer(const std::string& folder, const std::string& name, int descri
         file.descriptor = descriptor;
         return path;
     }
-    throw BackendError(
-        Message("cad.too_many_files", "too many files in one request, or too long a file name: {}", name)
-            .remedy("load fewer files at once, or shorten the name"));
+    throw BackendError(Message("cad.too_many_files",
+                               "there are too many files in one request, or a file name is too long: {}",
+                               name)
+                           .remedy("load fewer files at once, or shorten the name"));
 }
 
 void withdraw(const std::string& folder)

@@ -634,12 +634,12 @@ private:
                               source)};
         }
         if (reading.step != kNoIndex && roles.source.size() > 1) {
-            return {formatted("flat faces with the same normal, {}, are one end, and the opposite faces {} "
-                              "are the other: both at several heights",
+            return {formatted("each end consists of flat faces at several heights: one of {}, which have the "
+                              "same normal, and the other of the opposite {}",
                               source, target)};
         }
         if (reading.step != kNoIndex) {
-            return {formatted("the flat faces opposite {} are the other end, at several heights: {}", source,
+            return {formatted("the flat faces opposite {} form the other end, at several heights: {}", source,
                               target)};
         }
         const std::size_t loops = map_.patches[reading.source].rims.size();

@@ -366,8 +366,8 @@ private:
                 (model_.at(cycle[(i + cycle.size() - 1) % cycle.size()]) - p).norm());
             const Nearest place = nearest_on(model_, chain.points, chain.at, p);
             if (place.distance > std::max(model_.tolerance, kOffRim * side)) {
-                refuse("a node of the mesh for {} is {:.3g} off its loops", entity_of(model_, face_),
-                       found(place.distance));
+                refuse("a node of the mesh for {} is {:.3g} away from the face's loops",
+                       entity_of(model_, face_), found(place.distance));
             }
             rim.push_back({cycle[i], place.at});
         }
@@ -478,7 +478,7 @@ private:
                                        "the mesh for {} has {} nodes on {}, but the mesh of {} has {}",
                                        entity_of(model_, face_), found(nodes.size()), entity_of(model_, edge),
                                        entity_of(model_, user.face), needed(old.size()))
-                                   .remedy("mesh both alike"));
+                                   .remedy("give both meshes the same nodes on the edge"));
         }
     }
 

@@ -413,7 +413,7 @@ void orient_consistently(Model& model)
             Message("topology.not_manifold",
                     "{} is shared by {} faces ({}), but the skin of a volume has {} at each edge",
                     entity_of(model, EdgeId(e)), found(uses.size()), faces, needed(2))
-                .remedy("leave out the others"));
+                .remedy("leave the other faces out"));
     }
 
     std::vector<bool> settled(model.faces.size(), false), flipped(model.faces.size(), false);

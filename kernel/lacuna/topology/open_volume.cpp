@@ -69,7 +69,7 @@ void check_walls_touch(const OpenVolume& volume)
         if (!gap)
             throw InvalidInput(Message("topology.wall_apart",
                                        "{} is named as a wall but touches neither source nor target", wall)
-                                   .remedy("check its tag, or name the walls between"));
+                                   .remedy("check its tag, or name the walls between it and an end, too"));
         throw InvalidInput(
             Message("topology.wall_apart",
                     "{} is named as a wall but touches neither source nor target: its {} runs next to {}, at "
@@ -181,7 +181,7 @@ void check_override(const OpenVolume& volume, const Classification& found)
     };
     switch (asked) {
     case VolumeClass::closed:
-        refuse("{} remain", count(found.free_loops.size(), "free loop"));
+        refuse("it must have no free loops, but has {}", count(found.free_loops.size(), "free loop"));
         break;
     case VolumeClass::I:
     case VolumeClass::II:
