@@ -113,7 +113,6 @@ std::vector<std::vector<Triangle>> split_into_shells(const ClosedSkin& skin, con
     return shells;
 }
 
-/// Expected number of tetrahedra.
 double expected_tets(const std::vector<Vec3>& points, const std::vector<std::vector<Triangle>>& shells)
 {
     double volume = 0, sides = 0, weights = 0;

@@ -104,7 +104,7 @@ public:
     [[nodiscard]] const std::vector<double>& breaks_u() const { return on_bottom_.patch; }
     [[nodiscard]] const std::vector<double>& breaks_v() const { return on_left_.patch; }
 
-    /// Points of the patch: one row of u for each v.
+    /// Points of the patch: for each v, one row of points along u.
     [[nodiscard]] std::vector<Vec3> grid(std::span<const double> u, std::span<const double> v) const
     {
         const Sides sides = sides_at(u, v);

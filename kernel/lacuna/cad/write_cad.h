@@ -14,10 +14,9 @@ struct WriteCadOptions {
     /// Largest gap that sewing closes [model length]. With 0, the first attempt uses the tolerance of the
     /// model, and each further attempt ten times as much.
     double tolerance = 0;
-    double deviation =
-        0.05;        ///< allowed relative difference between the volume of the solid and that of the facets
-                     ///< [-]
-    Limits limits{}; ///< limits of the CAD process
+    /// Allowed relative difference between the volume of the solid and that of the facets [-].
+    double deviation = 0.05;
+    Limits limits{};    ///< limits of the CAD process
     std::string unit{}; ///< unit of the model's lengths, which a STEP file states; empty: millimetres
 };
 
