@@ -39,7 +39,7 @@ std::vector<Vec2> parameters_on_face(const CadCurveInfo& curve, const std::vecto
     return values.size() == 2 * params.size() ? unflat<2>(values) : std::vector<Vec2>{};
 }
 
-/// Distance of each point from the point of the surface at its parameters.
+/// Distance of each point `at[i]` from the surface point at `uv[i]`.
 std::vector<double> distances(int face, const std::vector<Vec3>& at, const std::vector<Vec2>& uv)
 {
     const std::vector<Vec3> there = surface_points(face, uv);

@@ -204,7 +204,7 @@ Filter make_filter()
     // Threads are allowed, processes are not. clone3 has its flags in memory; without it, libc uses clone.
     filter.allow_where(SCMP_SYS(clone), 0, CLONE_THREAD, CLONE_THREAD);
     filter.on(SCMP_SYS(clone3), SCMP_ACT_ERRNO(ENOSYS));
-    // Signals only to this process; the SIGSYS handler cannot be replaced.
+    // Allow signals only to this process, and do not let it replace the SIGSYS handler.
     filter.allow_where(SCMP_SYS(tgkill), 0, ~0U, static_cast<std::uint32_t>(::getpid()));
     for (scmp_datum_t signal = 1; signal <= static_cast<scmp_datum_t>(SIGRTMAX); ++signal)
         filter.on(SCMP_SYS(rt_sigaction), signal == SIGSYS ? SCMP_ACT_ERRNO(0) : SCMP_ACT_ALLOW,
