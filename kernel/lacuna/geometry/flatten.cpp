@@ -70,7 +70,7 @@ std::vector<Segment> boundary_sides(std::span<const Triangle> triangles, std::ve
     return boundary;
 }
 
-/// Chain directed sides, sorted by their first point, to cycles.
+/// Chain directed sides, which are sorted by their first point, into cycles.
 std::vector<std::vector<Index>> cycles(const std::vector<Segment>& sides)
 {
     std::vector<std::vector<Index>> loops;

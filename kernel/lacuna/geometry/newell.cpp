@@ -11,7 +11,6 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Unit normal of the least-squares plane.
 Vec3 least_squares_normal(std::span<const std::vector<Vec3>> loops)
 {
     std::vector<Vec3> points;

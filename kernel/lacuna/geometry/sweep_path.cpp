@@ -107,7 +107,7 @@ public:
         return {point, double_reflection(knot(i), {point, tangent.normalized()}) * frames_[i]};
     }
 
-    /// Shear of the section at the start and at the end, by the corners there.
+    /// Shear of the section at the start and at the end of the part, caused by the corners there.
     Eigen::Matrix3d low_mitre = Eigen::Matrix3d::Zero(), high_mitre = Eigen::Matrix3d::Zero();
 
 private:
