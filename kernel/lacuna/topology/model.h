@@ -64,8 +64,8 @@ struct Face {
     std::vector<std::string> groups; ///< all sets, surfaces and properties the face belongs to in the file
     /// Regions on the one or two sides of the face (solids, else shells), each with all its names.
     std::vector<std::vector<std::string>> regions;
-    std::string kind =
-        "discrete"; ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"
+    /// "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete" or "void".
+    std::string kind = "discrete";
     Origin origin = Origin::given;
     Geometry geometry = Geometry::given;
 
