@@ -28,7 +28,7 @@ constexpr std::size_t kHead = 4096; // number of bytes at the beginning by which
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 /// Longest script that is parsed [bytes]; larger than anything written by hand or by Gmsh.
 constexpr std::size_t kLongestScript = std::size_t{64} << 20;
-/// Most files that a script may include and merge, itself included.
+/// Limit on the contents of a script: the script itself and the files that it includes or merges.
 constexpr std::size_t kMostContents = 100;
 
 [[noreturn]] void fail(const std::string& path, int error)
@@ -70,8 +70,8 @@ bool runs_as_script(const std::string& name, const std::string& head)
     return !is_step(head) && !is_brep(head);
 }
 
-/// Append a copy of a regular file to the contents of the last of the files. A script gets a newline at its
-/// end: without one, Gmsh's parser silently drops an incomplete last command.
+/// Copy a regular file and append the copy to the contents of the last entry of `files`. A script gets a
+/// newline at its end: without one, Gmsh's parser silently drops an incomplete last command.
 void add_copy(CadFiles& files, const std::string& folder, const std::string& name, int flags,
               const RunContext& context)
 {
@@ -149,7 +149,8 @@ void skip_commands(CadFiles& files, const Descriptor& script, const std::string&
     write_at(script, text, 0, path);
 }
 
-/// Parse a script, which is the last of the files, and add the files that it merges, recursively.
+/// Parse the script that is the last entry of `files`, and add the files that it includes or merges,
+/// recursively.
 /// @param first  index of the script's descriptor
 void add_merged(CadFiles& files, std::size_t first, const std::string& folder, const RunContext& context)
 {
@@ -176,10 +177,11 @@ void add_merged(CadFiles& files, std::size_t first, const std::string& folder, c
                 throw InvalidInput("cad.script", "{}, line {}: the script includes more than {} files", own,
                                    wanted.line, needed(kMostContents - 1));
             if (::access((folder + wanted.name).c_str(), F_OK) != 0) {
-                throw InvalidInput(Message("cad.script",
-                                           "{}, line {}: the script includes {}, which is not in its folder",
-                                           own, wanted.line, wanted.name)
-                                       .remedy("put it there"));
+                throw InvalidInput(
+                    Message("cad.script",
+                            "{}, line {}: the script includes {}, which is not in the script's folder", own,
+                            wanted.line, wanted.name)
+                        .remedy("copy it to that folder"));
             }
             add_copy(files, folder, wanted.name, O_NOFOLLOW, context);
         }

@@ -14,7 +14,7 @@ using namespace topology;
 
 namespace {
 
-/// Number of samples of an exact edge for measuring its arc length.
+/// Number of samples of an exact edge for each segment of its polyline, for measuring its arc length.
 constexpr std::size_t kParts = 16;
 
 bool collinear(std::span<const Vec3> points, double tolerance)

@@ -17,8 +17,8 @@ constexpr std::size_t kAtOnce = 20'000;
 /// time, the process and the models it holds need not be killed.
 constexpr double kGrace = 0.3;
 
-/// Ask the process that holds a face or curve for points, `kAtOnce` at a time. Overwrites the points, and on
-/// a surface their parameters.
+/// Ask the process that holds a face or curve for points, `kAtOnce` at a time. Overwrites the points and, on
+/// a surface, also their parameters.
 /// @param kind   kind of the entity, for messages
 /// @param doing  as in Task
 /// @param make   `make(handle, from, count)` makes the request for some of the points.

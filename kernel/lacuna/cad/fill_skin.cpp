@@ -25,9 +25,9 @@ namespace {
 
 /// Limit on the number of tetrahedra.
 constexpr double kMostTets = 1e7;
-/// Gmsh's number of tetrahedra, relative to the volume divided by that of a regular tetrahedron. The regular
-/// tetrahedron's side is the mean longest side of the skin's triangles. Measured for balls of 1e3, 1e4 and
-/// 1e5 triangles: 0.79, 0.64 and 0.58.
+/// Ratio of Gmsh's number of tetrahedra to the number of regular tetrahedra that have the skin's volume. The
+/// side of the regular tetrahedra is the mean longest side of the skin's triangles, weighted by area.
+/// Measured for balls of 1e3, 1e4 and 1e5 triangles: 0.79, 0.64 and 0.58.
 constexpr double kTetShare = 0.6;
 /// In the limits of the CAD process, a tetrahedron counts as half a point: 1 kB and 0.25 ms. A ball of 1e5
 /// triangles takes 0.6 kB and 0.06 ms per tetrahedron.
@@ -47,7 +47,8 @@ std::string words_for(const ClosedSkin& skin)
 void check_closed(const ClosedSkin& skin, const std::vector<SkinSide>& sides)
 {
     const auto open = [&](Index at) {
-        throw InvalidInput("cad.skin_open", "{} is not closed, or its sides are not oriented alike, near {}",
+        throw InvalidInput("cad.skin_open",
+                           "{} is not closed, or its faces are not oriented consistently, near {}",
                            words_for(skin), place_with_digits(skin.points[index(at)], 6));
     };
     std::map<std::pair<Index, Index>, int> balance;
@@ -80,7 +81,7 @@ double enclosed(const std::vector<Vec3>& points, const std::vector<Triangle>& fa
     return sum;
 }
 
-/// The facets of each connected part of the skin, the outermost first.
+/// The facets of each connected part of the skin, the outer part first.
 /// @throw InvalidInput  there is more than one outer part, or none.
 std::vector<std::vector<Triangle>> split_into_shells(const ClosedSkin& skin, const PyramidLayer& layer,
                                                      const std::vector<SkinSide>& sides)
@@ -112,7 +113,6 @@ std::vector<std::vector<Triangle>> split_into_shells(const ClosedSkin& skin, con
     return shells;
 }
 
-/// Expected number of tetrahedra.
 double expected_tets(const std::vector<Vec3>& points, const std::vector<std::vector<Triangle>>& shells)
 {
     double volume = 0, sides = 0, weights = 0;

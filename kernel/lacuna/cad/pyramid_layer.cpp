@@ -17,17 +17,17 @@ using mesh::ClosedSkin;
 
 namespace {
 
-/// Height of a pyramid over the side of a square base. Of 0.35, 0.4 and 0.5, measured on 24 distorted blocks,
-/// 0.5 gives the fewest tetrahedra, at the same least scaled Jacobian.
+/// Height of a pyramid divided by the side of its square base. Of 0.35, 0.4 and 0.5, measured on 24 distorted
+/// blocks, 0.5 gives the fewest tetrahedra, at the same minimum scaled Jacobian.
 constexpr double kHeight = 0.5;
 /// Share of an angle or a gap that a pyramid may take. The pyramid on the other side and the tetrahedra
-/// between the two pyramids get the other two thirds.
+/// between the two pyramids get one third each.
 constexpr double kShare = 1.0 / 3;
-/// On a warped quad, a pyramid is valid above a least height; its height is this multiple of that. With 2,
-/// pyramids cross others.
+/// On a warped quad, a pyramid is valid only above a least height. The first height is at least this multiple
+/// of the least height. With 2, pyramids cross others.
 constexpr double kAboveLeast = 1.5;
-/// Number of times that a pyramid is lowered. Each time, the part of its height above the least height is
-/// halved. A pyramid that is 32 times too flat is no better than none.
+/// Limit on the number of times that a pyramid is lowered. Each time, the part of its height above the least
+/// height is halved. A pyramid that is 32 times too flat is no better than none.
 constexpr int kLowerings = 5;
 
 struct Pyramid {
@@ -137,7 +137,7 @@ private:
     geometry::FacetTree tree_;
 };
 
-/// The faces of the skin that cross another face; one of each crossing pair has a pyramid.
+/// For each face of the skin, whether the face or its pyramid crosses another face.
 /// @throw NotSweepable  two faces without pyramids cross.
 std::vector<bool> crossing_faces(const std::vector<Vec3>& points, const std::vector<Triangle>& facets,
                                  const std::vector<Index>& face_of, Index triangles,

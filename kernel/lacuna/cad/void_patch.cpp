@@ -44,8 +44,8 @@ struct BreakMap {
     }
 };
 
-/// Pair the breaks of opposite sides. If both sides have the same number, they are paired in order; otherwise
-/// every break is used on both sides.
+/// Pair the breaks of opposite sides. If both sides have the same number of breaks, they are paired in order.
+/// Otherwise the breaks of each side are also used on the other side.
 std::pair<BreakMap, BreakMap> pair_breaks(const std::vector<double>& a, const std::vector<double>& b)
 {
     BreakMap on_a, on_b;
@@ -85,7 +85,7 @@ std::vector<EdgeUse> backward(std::vector<EdgeUse> uses)
 /// A displacement added to the Coons patch; zero on all four sides.
 struct Correction {
     SplineAxisData u, v;
-    std::array<Eigen::MatrixXd, 3> poles; ///< (number in u) × (number in v); the outermost poles are zero
+    std::array<Eigen::MatrixXd, 3> poles; ///< rows along u, columns along v; the outermost poles are zero
 };
 
 /// A Coons patch over the unit square: bottom and top are curves in u, left and right in v.
@@ -104,7 +104,7 @@ public:
     [[nodiscard]] const std::vector<double>& breaks_u() const { return on_bottom_.patch; }
     [[nodiscard]] const std::vector<double>& breaks_v() const { return on_left_.patch; }
 
-    /// Points of the patch: one row of u for each v.
+    /// Points of the patch: for each v, one row of points along u.
     [[nodiscard]] std::vector<Vec3> grid(std::span<const double> u, std::span<const double> v) const
     {
         const Sides sides = sides_at(u, v);
@@ -122,8 +122,8 @@ public:
         return places;
     }
 
-    /// Fit the patch to the facets, if their points are farther from the patch than their chords are from the
-    /// sides.
+    /// Fit the patch to the facets if one of their points is farther from the patch than twice the largest
+    /// chord error of the sides plus the tolerance.
     void follow(const Model& model, const Face& face);
     [[nodiscard]] bool follows() const { return correction_.has_value(); }
 
@@ -155,7 +155,7 @@ private:
     friend struct Laid;
 };
 
-/// A face cut open along its loop and mapped to the unit square.
+/// The facets of a face, cut open along its seams and mapped to the unit square.
 struct Laid {
     std::vector<Vec3> points;
     std::vector<Vec2> uv;

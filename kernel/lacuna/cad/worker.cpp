@@ -33,7 +33,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 /// Time limit of a request: a constant, plus an amount for each million bytes of files and each thousand
-/// points. The shared CAD cases (10 to 86 kB) take 0.1 to 1 s. A file that hangs must fail within 20 s.
+/// points. CAD files of 10 to 86 kB take 0.1 to 1 s. A file that hangs must fail within 20 s.
 constexpr double kSeconds = 12, kSecondsPerMegabyte = 100, kSecondsPerThousand = 0.5;
 constexpr double kMostSeconds = 3600;
 /// Address space of a request: the libraries take about 0.6 GB, a model of 86 kB less than 0.2 GB.
@@ -109,8 +109,8 @@ double processor_seconds(pid_t process)
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-/// Requests are limited by processor time, so that a good file does not fail on a busy machine. A process
-/// that waits uses none. So elapsed time is limited too, to this multiple.
+/// The processor time of a request is limited, so that a good file does not fail on a busy machine. A process
+/// that waits uses no processor time, so the elapsed time is limited too, to this multiple.
 constexpr double kWallFactor = 4;
 
 Channel::Patience patience_of(const RunContext* context, double seconds, double grace, pid_t worker)
@@ -122,9 +122,9 @@ Channel::Patience patience_of(const RunContext* context, double seconds, double 
     };
 }
 
-/// Environment variables passed to the CAD process: the library paths. FLTK, which is part of Gmsh, writes
-/// preferences to the home folder when it starts, or to /etc if there is none; HOME
-/// below /dev/null prevents this.
+/// Environment variables passed to the CAD process: the library paths, and those of Open CASCADE and the
+/// sanitizers. FLTK, which is part of Gmsh, writes preferences to the home folder when it starts, or to /etc
+/// if there is no home folder. HOME=/dev/null prevents this.
 std::vector<std::string> worker_environment()
 {
     std::vector<std::string> kept{"LC_ALL=C", "HOME=/dev/null"};
@@ -182,7 +182,7 @@ Descriptor raised(int number)
     return number > 3 ? std::move(low) : Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, kFirst));
 }
 
-/// The current process of this host; a child made by fork() gets its own. Never destroyed, because static
+/// The current CAD process of this host; a child made by fork() gets its own. Never destroyed, because static
 /// objects of the host may use it at exit.
 struct Current {
     pid_t owner = ::getpid();
@@ -202,7 +202,7 @@ Current& current_of_process()
     return *current;
 }
 
-/// Whether a process has ended; its exit status can still be read.
+/// Whether a process has ended. Its exit status can still be read afterwards.
 bool has_ended(const Descriptor& process)
 {
     siginfo_t info{};

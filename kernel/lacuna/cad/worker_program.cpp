@@ -17,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "lacuna-cad";
-/// A program or library may lie this number of folders below the root of its installation: four for
-/// lib/<machine>/lua/5.4.
+/// Limit on the number of folders between the root of an installation and a program or library in it;
+/// lib/<machine>/lua/5.4 has four.
 constexpr int kMostLevels = 4;
 
-/// Add the folder of a binary, and libexec of its installation.
+/// Add the places of lacuna-cad that belong to a binary: its folder, and libexec/lacuna of its installation.
 void add_around(const fs::path& binary, std::vector<fs::path>& places)
 {
     std::error_code error;

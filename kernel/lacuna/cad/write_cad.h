@@ -14,10 +14,9 @@ struct WriteCadOptions {
     /// Largest gap that sewing closes [model length]. With 0, the first attempt uses the tolerance of the
     /// model, and each further attempt ten times as much.
     double tolerance = 0;
-    double deviation =
-        0.05;        ///< allowed relative difference between the volume of the solid and that of the facets
-                     ///< [-]
-    Limits limits{}; ///< limits of the CAD process
+    /// Allowed relative difference between the volume of the solid and that of the facets [-].
+    double deviation = 0.05;
+    Limits limits{};    ///< limits of the CAD process
     std::string unit{}; ///< unit of the model's lengths, which a STEP file states; empty: millimetres
 };
 
@@ -41,10 +40,11 @@ struct WrittenCad {
 /// file is read back: it must contain one closed solid.
 ///
 /// @throw InvalidInput  the volume is not sealed (names free edges); a curved face has no exact surface
-///                      (names it; write_facets() can write it); an unknown ending, a missing folder.
+///                      (names it; write_facets() can write it); the file extension is unknown; the folder
+///                      is missing.
 /// @throw BackendError  a surface cannot be made (names the face), the faces cannot be sewn, the file does
-///                      not read back as one closed solid of the right volume, the disk is full. No file is
-///                      left behind.
+///                      not read back as one closed solid of the right volume, or the disk is full. No file
+///                      is left behind.
 /// @note  The same volume gives the same bytes: the time stamp of a STEP file is set to 1970, and its product
 ///        is called "volume".
 WrittenCad write_cad(const topology::OpenVolume& volume, const io::OutputPath& path,

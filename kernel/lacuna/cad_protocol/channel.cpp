@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x4443414c; // "LCAD"
 constexpr std::uint16_t kVersion = 5;        // incremented with every change of a message
-/// Most descriptors of one frame; the kernel allows 253.
+/// Limit on the descriptors of one frame; Linux allows 253.
 constexpr std::size_t kMostDescriptors = 250;
-/// Most bytes of one frame: more than any model that can be meshed.
+/// Limit on the bytes of one frame: more than the largest model that can be meshed.
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 /// Memory grows in steps of this size while a frame arrives, so that a false length allocates little.
 constexpr std::size_t kGrowth = std::size_t{16} << 20;

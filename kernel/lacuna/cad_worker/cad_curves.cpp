@@ -167,7 +167,8 @@ OnCurve closest_on_curve(const CadCurveInfo& curve, const Vec3& p, double low, d
     return {t, (at - p).norm()};
 }
 
-/// Parameters at which vertices of other faces lie on a curve that only one face uses, and these vertices.
+/// Parameters at which ends of other curves lie on a curve that only one face uses, and these ends.
+/// @param loose_points  ends of all curves that only one face uses.
 std::vector<std::pair<double, Index>> cuts_of(const CadWire& wire, const CadCurveInfo& curve,
                                               const std::vector<Index>& loose_points, double tolerance)
 {

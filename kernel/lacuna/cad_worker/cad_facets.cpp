@@ -25,7 +25,7 @@ constexpr double kClearance = 0.5;
 /// A curve in the parameter rectangle of a face.
 struct BorderChain {
     std::vector<Vec2> uv;
-    std::vector<Vec2> other;   ///< the other image of the curve, on a seam; empty if there is only one
+    std::vector<Vec2> other;   ///< second image of the curve, if the surface has a seam there; else empty
     std::vector<Index> points; ///< model points
     bool pole = false;         ///< the curve is a single point
     bool slit = false;         ///< the face is on both sides of the curve, with the same parameters
@@ -39,7 +39,7 @@ std::vector<Vec2> parameters_on_face(const CadCurveInfo& curve, const std::vecto
     return values.size() == 2 * params.size() ? unflat<2>(values) : std::vector<Vec2>{};
 }
 
-/// Distance of each point from the point of the surface at its parameters.
+/// Distance of each point `at[i]` from the surface point at `uv[i]`.
 std::vector<double> distances(int face, const std::vector<Vec3>& at, const std::vector<Vec2>& uv)
 {
     const std::vector<Vec3> there = surface_points(face, uv);

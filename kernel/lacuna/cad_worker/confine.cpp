@@ -54,7 +54,7 @@ const Offered* find_offered(const char* path)
 /// could only open files for reading, within the limits of Landlock.
 std::uint64_t own_mark;
 
-/// Flags that an open for reading only does not have.
+/// Flags of open() that are all absent if a file is opened for reading only.
 constexpr int kWriting = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC | O_APPEND | (O_TMPFILE & ~O_DIRECTORY);
 
 long own_call(long number, long a, long b, long c, long d, long e = 0)
@@ -204,7 +204,7 @@ Filter make_filter()
     // Threads are allowed, processes are not. clone3 has its flags in memory; without it, libc uses clone.
     filter.allow_where(SCMP_SYS(clone), 0, CLONE_THREAD, CLONE_THREAD);
     filter.on(SCMP_SYS(clone3), SCMP_ACT_ERRNO(ENOSYS));
-    // Signals only to this process; the SIGSYS handler cannot be replaced.
+    // Allow signals only to this process, and do not let it replace the SIGSYS handler.
     filter.allow_where(SCMP_SYS(tgkill), 0, ~0U, static_cast<std::uint32_t>(::getpid()));
     for (scmp_datum_t signal = 1; signal <= static_cast<scmp_datum_t>(SIGRTMAX); ++signal)
         filter.on(SCMP_SYS(rt_sigaction), signal == SIGSYS ? SCMP_ACT_ERRNO(0) : SCMP_ACT_ALLOW,
@@ -311,9 +311,10 @@ std::string offer(const std::string& folder, const std::string& name, int descri
         file.descriptor = descriptor;
         return path;
     }
-    throw BackendError(
-        Message("cad.too_many_files", "too many files in one request, or too long a file name: {}", name)
-            .remedy("load fewer files at once, or shorten the name"));
+    throw BackendError(Message("cad.too_many_files",
+                               "there are too many files in one request, or a file name is too long: {}",
+                               name)
+                           .remedy("load fewer files at once, or shorten the name"));
 }
 
 void withdraw(const std::string& folder)

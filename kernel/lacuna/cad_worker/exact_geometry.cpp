@@ -16,9 +16,9 @@ namespace lacuna::cad_worker {
 
 namespace {
 
-/// The first steps of a projection use first derivatives only; after this number, they use second derivatives
-/// too. Near the surface, a step with first derivatives gains a digit or more. Points that are as far away as
-/// the radius of curvature need second derivatives.
+/// Number of steps of a projection that use first derivatives only; later steps use second derivatives too.
+/// Near the surface, a step with first derivatives gains a digit or more. Points that are as far away as the
+/// radius of curvature need second derivatives.
 constexpr int kCheapSteps = 8;
 constexpr int kMaxSteps = 60;
 /// Convergence tolerance, relative to the diagonal of the model.

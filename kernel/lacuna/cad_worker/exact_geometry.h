@@ -37,7 +37,7 @@ struct CadSource {
 /// @param points  replaced by their projections [model length].
 void project_on_face(const CadSource& source, int tag, std::span<Vec3> points, std::span<Vec2> uv);
 
-/// Points of a curve at its own parameters [model length].
+/// Points of a curve at given parameters of the curve [model length].
 std::vector<Vec3> evaluate_curve(const CadSource& source, int tag, const std::vector<double>& params);
 
 // Gmsh's flat arrays as vectors, in file lengths. Call these functions within a session in which the model is

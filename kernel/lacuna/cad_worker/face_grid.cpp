@@ -59,8 +59,8 @@ double turn_between(const SurfaceFrame& a, const SurfaceFrame& b)
     return geometry::angle_between(na, nb);
 }
 
-/// For each interval along an axis: the largest length and the largest turn of all grid lines in that
-/// direction.
+/// For each interval along an axis: over all lattice lines in the direction of the axis, the greatest length
+/// of the line within the interval and the largest turn of the normal along it.
 struct Profile {
     std::vector<double> length, turn;
     [[nodiscard]] double total_length() const { return std::accumulate(length.begin(), length.end(), 0.0); }

@@ -6,7 +6,8 @@
 namespace lacuna::cad_worker {
 
 /// Fill shells of triangles with tetrahedra of about the size of the triangles. The given points are kept.
-/// @throw NotSweepable  two points coincide ("cad.skin_crosses"). BackendError  Gmsh's error.
+/// @throw NotSweepable  two points coincide ("cad.skin_crosses").
+/// @throw BackendError  an error of Gmsh.
 cad_protocol::FillSkinReply fill_skin(const cad_protocol::FillSkinRequest& skin);
 
 } // namespace lacuna::cad_worker

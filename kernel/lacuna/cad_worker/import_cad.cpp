@@ -22,7 +22,7 @@ namespace {
 constexpr double kSidesPerTurn = 48;
 /// Longest segment, relative to the diagonal.
 constexpr double kLongestSide = 1.0 / 20;
-/// Most grid cells of all faces together, and of one face.
+/// Limit on the grid cells of all faces together, and the range of the limit for each face.
 constexpr double kMaxCells = 400'000;
 constexpr double kMaxCellsOfFace = 16'000;
 constexpr double kMinCellsOfFace = 100;

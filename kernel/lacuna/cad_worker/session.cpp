@@ -51,8 +51,9 @@ std::string Gmsh::version()
     return version;
 }
 
-/// Restore an option at the end of the session. @param next  its value until then; none: keep the present
-/// value, which a script may change.
+/// Restore an option at the end of the session.
+/// @param next  value of the option during the session; if empty, it keeps its value, which a script may
+///              change.
 template <class Value>
 void Session::save(const std::string& option, const std::optional<Value>& next)
 {

@@ -63,9 +63,9 @@ public:
         }
     }
 
-    /// @throw BackendError always: the subject and the message of Gmsh.
+    /// @throw BackendError  always; its text is the subject and the message of Gmsh.
     [[noreturn]] void fail(const std::string& message) const;
-    /// @throw BackendError always: the message about the subject.
+    /// @throw BackendError  always; its text is the subject and the message.
     [[noreturn]] void refuse(const Message& message) const;
 
 private:

@@ -18,10 +18,10 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 using Corners = std::array<Vec3, 3>;
 
-/// Most triangles in a leaf.
+/// Limit on the triangles in a leaf.
 constexpr std::uint32_t kLeaf = 4;
-/// Subtrees with fewer triangles are built without checking for cancellation, and checks are this number of
-/// compared pairs of boxes apart: a few milliseconds.
+/// Subtrees with fewer triangles are built without checking for cancellation. A search for overlaps checks
+/// once per this number of compared pairs of boxes. Both take a few milliseconds.
 constexpr std::uint32_t kPolled = 16384;
 /// Subtrees with fewer triangles are built on one thread: 1 ms.
 constexpr std::uint32_t kShared = 4096;
@@ -111,7 +111,7 @@ void halve(std::span<Index> ids, std::span<const Vec3> centres)
     std::transform(keyed.begin(), keyed.end(), ids.begin(), [](const Keyed& k) { return k.id; });
 }
 
-/// Number of nodes over a number of triangles.
+/// Number of nodes of a tree with this number of triangles.
 std::uint32_t node_count(std::uint32_t triangles)
 {
     if (triangles <= kLeaf) return 1;

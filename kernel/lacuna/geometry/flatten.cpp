@@ -70,7 +70,7 @@ std::vector<Segment> boundary_sides(std::span<const Triangle> triangles, std::ve
     return boundary;
 }
 
-/// Chain directed sides, sorted by their first point, to cycles.
+/// Chain directed sides, which are sorted by their first point, into cycles.
 std::vector<std::vector<Index>> cycles(const std::vector<Segment>& sides)
 {
     std::vector<std::vector<Index>> loops;
@@ -219,8 +219,8 @@ void align(Positions& positions, const Positions& model)
 }
 
 /// Whether facets form a tube between two loops: the total geodesic curvature of the outer loop is less than
-/// π, half of that of a flat ring. A cylinder has 0, and a cone whose wall is inclined by 60° to its base has
-/// π. A rolled-up sheet with a hole is not a tube.
+/// π. The curvature is 0 for a cylinder, π for a cone whose wall is inclined by 60° to its base, and 2π for a
+/// flat ring. A rolled-up sheet with a hole is not a tube.
 bool is_tube(const Facets& facets)
 {
     if (facets.loops.size() != 2) return false;

@@ -43,8 +43,8 @@ void check_solved(const Solver& solver)
 
 double signed_area(const Vec2& a, const Vec2& b, const Vec2& c) { return 0.5 * cross(b - a, c - a); }
 
-/// A triangle in its own plane, with its longest side along x; width and height are
-/// limited from below, against rounding.
+/// A triangle in its own plane, with its longest side along x. Width and height are limited from below,
+/// against rounding.
 std::array<Vec2, 3> own_plane(const std::array<Vec3, 3>& p, double extent, bool& thin)
 {
     std::size_t base = 0;

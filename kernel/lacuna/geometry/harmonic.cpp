@@ -260,8 +260,8 @@ Eigen::MatrixXd solve_directly(const std::vector<Eigen::Triplet<double>>& entrie
     return solver.solve(right);
 }
 
-/// If an affine function of position has the fixed values and satisfies all means, its values. This holds for
-/// walls that extend straight up; no system need then be solved.
+/// The values of an affine function of position, if one has the fixed values and satisfies all means;
+/// otherwise empty. Walls that extend straight up have such a function, so no system need be solved.
 /// @param weights  normalised
 std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, std::span<const Index> role,
                                                std::span<const Weight> weights)

@@ -14,8 +14,8 @@ namespace lacuna::geometry {
 namespace {
 
 constexpr int kHalvings = 30; ///< halvings of a step before the search stops: 2^-30 of a step is negligible
-constexpr double kEnough =
-    1e-4; ///< required fraction of the predicted decrease (Armijo condition), the usual value
+/// Required fraction of the predicted decrease (Armijo condition); the usual value.
+constexpr double kEnough = 1e-4;
 
 struct Pair {
     Eigen::VectorXd step, change;

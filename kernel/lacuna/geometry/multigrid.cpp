@@ -13,8 +13,8 @@ namespace {
 using Matrix = Multigrid::Matrix;
 using Vector = Eigen::VectorXd;
 
-/// Couplings weaker than this, relative to the diagonals, are not used for
-/// aggregation: 0.08 as in Vaněk et al.
+/// Couplings weaker than this, relative to the diagonals, are not used for aggregation: 0.08 as in Vaněk et
+/// al.
 constexpr double kStrong = 0.08;
 /// Damped Jacobi step that smooths the aggregates: 4/3 divided by the largest eigenvalue of D⁻¹A, which is at
 /// most 2 for diagonally dominant rows.
@@ -44,8 +44,8 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
     };
     std::vector<Index> of(index(static_cast<Index>(rows)), -1);
     count = 0;
-    for (Eigen::Index row = 0; row < rows; ++row) { // first, rows whose neighbours are all free form
-                                                    // aggregates with them
+    // First, rows whose neighbours are all free form aggregates with these neighbours.
+    for (Eigen::Index row = 0; row < rows; ++row) {
         bool bare = true, any = false;
         if (of[std::size_t(row)] >= 0) continue;
         each_strong(row, [&](Index other, double) {
@@ -57,8 +57,8 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
         each_strong(row, [&](Index other, double) { of[index(other)] = count; });
         ++count;
     }
-    std::vector<Index> joined = of; // then each remaining row joins the aggregate of its most strongly
-                                    // coupled neighbour
+    // Then each remaining row joins the aggregate of its most strongly coupled neighbour.
+    std::vector<Index> joined = of;
     for (Eigen::Index row = 0; row < rows; ++row) {
         if (of[std::size_t(row)] >= 0) continue;
         double strongest = 0;
@@ -69,8 +69,8 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
         });
     }
     of = std::move(joined);
-    for (Eigen::Index row = 0; row < rows; ++row) { // then the remaining rows form aggregates with their
-                                                    // neighbours
+    // Then the remaining rows form aggregates with their neighbours.
+    for (Eigen::Index row = 0; row < rows; ++row) {
         if (of[std::size_t(row)] >= 0) continue;
         bool any = false;
         each_strong(row, [&](Index other, double) {

@@ -11,7 +11,6 @@ namespace lacuna::geometry {
 
 namespace {
 
-/// Unit normal of the least-squares plane.
 Vec3 least_squares_normal(std::span<const std::vector<Vec3>> loops)
 {
     std::vector<Vec3> points;
@@ -19,7 +18,7 @@ Vec3 least_squares_normal(std::span<const std::vector<Vec3>> loops)
     return spread_of(points).axis.col(0);
 }
 
-/// Largest distance of a point from the first one.
+/// Largest distance of a point from `origin`.
 double extent(std::span<const std::vector<Vec3>> loops, const Vec3& origin)
 {
     double largest = 0;

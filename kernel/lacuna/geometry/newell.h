@@ -8,10 +8,10 @@
 
 namespace lacuna::geometry {
 
-/// Area vector of a closed loop (Newell): half the sum of the cross products of successive points. Seen
-/// against its direction, the projected loop runs counter-clockwise and has its largest area; the length of
-/// the vector is this area [model length²]. It does not depend on translation. The first point is not
-/// repeated.
+/// Area vector of a closed loop (Newell): half the sum of the cross products of successive points. The
+/// projection of the loop along this vector has a larger area than all other projections, and runs
+/// counter-clockwise seen from the tip of the vector. The length of the vector is this area [model length²].
+/// The vector does not depend on translation. The first point is not repeated.
 Vec3 newell_vector(std::span<const Vec3> closed_loop);
 
 /// A plane with an orthonormal, right-handed frame `u`, `v`, `normal`.

@@ -107,7 +107,7 @@ public:
         return {point, double_reflection(knot(i), {point, tangent.normalized()}) * frames_[i]};
     }
 
-    /// Shear of the section at the start and at the end, by the corners there.
+    /// Shear of the section at the start and at the end of the part, caused by the corners there.
     Eigen::Matrix3d low_mitre = Eigen::Matrix3d::Zero(), high_mitre = Eigen::Matrix3d::Zero();
 
 private:
@@ -117,7 +117,7 @@ private:
     std::vector<double> at_;
     std::vector<Vec3> tangents_;
     std::vector<Eigen::Matrix3d> frames_;
-    double start_ = 0; ///< length of the path before it
+    double start_ = 0; ///< length of the path before this part
 };
 
 /// The projection, along a direction, of a section normal to it onto the plane that halves a corner.

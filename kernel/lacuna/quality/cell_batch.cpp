@@ -108,8 +108,8 @@ LACUNA_INLINE void find_turns(const Edges<N>& edges, Turns<N>& turns)
     }
 }
 
-/// The volume, the integral of J: from the means of the edges and of their changes. All other terms vanish by
-/// symmetry.
+/// The volume is the integral of J. It follows from the means of the edges and of their changes; all other
+/// terms vanish by symmetry.
 template <int N>
 LACUNA_INLINE void find_volume(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)
 {
@@ -133,13 +133,15 @@ LACUNA_INLINE void find_volume(const Edges<N>& edges, const Turns<N>& turns, Cel
         values.volume[i] = straight[i] * (1.0 / 64) + (u[i] + v[i] + w[i]) * (1.0 / 192);
 }
 
-/// Inexpensive lower bound of the coefficients of all cells. If it is positive, it is stored in `smallest`.
+/// Store an inexpensive lower bound of each cell's coefficients in `smallest`.
 ///
-/// With d = det(edge, change, change), a coefficient at the middle of an edge is the mean of its ends minus
-/// d / 2; at the middle of a side the mean of its corners minus a quarter of the sum of its four d; at the
-/// centre the mean of the corners minus an eighth of the sum of all twelve d. So no coefficient is below the
-/// smallest corner minus 3/2 of the largest |d|, which is bounded by the product of the largest lengths.
-/// Cells of swept meshes change little from layer to layer, so the bound decides most of them.
+/// Let d = det(edge, change, change) for each edge of the cell. The coefficient at the middle of an edge is
+/// the mean of the two at its ends minus d / 2. The coefficient at the middle of a side is the mean of the
+/// four at its corners minus a quarter of the sum of its four d. The coefficient at the centre is the mean of
+/// the eight at the corners minus an eighth of the sum of all twelve d. So no coefficient is below the
+/// smallest one at a corner minus 3/2 of the largest |d|, which is bounded by the product of the largest
+/// lengths. Cells of swept meshes change little from layer to layer, so the bound decides most of them.
+/// @return  whether the bounds of all cells are positive.
 template <int N>
 LACUNA_INLINE bool find_bound(const Edges<N>& edges, const Turns<N>& turns, CellValues<N>& values)
 {

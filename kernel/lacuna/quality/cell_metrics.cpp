@@ -28,7 +28,7 @@ struct Parts {
     Real corner[8];    ///< Jacobian at the corner with bits u, v, w
     Vector a, b, c;
     Real aa, bb, cc; ///< their squared lengths
-    Real centre;     ///< Jacobian at the centre, for a cell of unit size
+    Real centre;     ///< Jacobian at the centre, for the map of the unit cube
 };
 
 /// The three edges at a corner, in the order u, v, w; the corner is encoded in bits.

@@ -17,8 +17,8 @@ constexpr std::size_t kSide = 6;                    ///< coefficients in each di
 constexpr std::size_t kAll = kSide * kSide * kSide; ///< index of (a, b, c): a + 6 b + 36 c
 using Bezier = std::array<double, kAll>;
 
-/// Distance below which a middle node counts as straight, relative to the size of the cell: rounding with a
-/// margin.
+/// A cell counts as straight if its middle nodes deviate from linear interpolation by at most this, relative
+/// to the size of the cell. It is above rounding, with a margin.
 constexpr double kStraight = 1e-13;
 
 /// Position of each node of a hex27 in the grid of 3³ points, a + 3 b + 9 c.
@@ -228,7 +228,7 @@ LACUNA_INLINE double find_coefficients(const std::array<double, 27> (&nodes)[3],
 
 /// Divide a polynomial by 1 - t along a direction; it must be a multiple of 1 - t. Its degree along the
 /// direction falls by one.
-/// @param degree  before, along the direction; the coefficients beyond it are not used
+/// @param degree  degree along the direction before the division; higher coefficients are not used
 void divide(Bezier& bezier, std::size_t stride, std::size_t degree)
 {
     for (std::size_t at = 0; at < kAll; ++at) {
@@ -287,8 +287,9 @@ constexpr bool is_high(std::size_t c, std::size_t d)
     return ((d == 0 ? c + 1 : c) & (d == 2 ? 4u : 2u)) != 0;
 }
 
-/// For each edge, the vector from its middle to its middle node. Last, for the centre of the base, the vector
-/// from the place that the corners and middle nodes of the base give it; 0 if there is no such node.
+/// For each edge, the vector from the midpoint of its ends to its middle node. Last, for the node at the
+/// centre of the base, the vector to it from the place interpolated between the other nodes of the base; 0 if
+/// there is no such node.
 std::array<Vec3, 13> deviations(std::span<const Vec3> nodes)
 {
     std::array<Vec3, 13> all;
@@ -303,8 +304,8 @@ std::array<Vec3, 13> deviations(std::span<const Vec3> nodes)
 
 /// The map of a wedge, pyramid or tetrahedron of order 2 at a point of the unit cube, relative to corner 0.
 /// It is linear in the corners. Each edge adds its deviation times 4 a b, where a and b are the shape
-/// functions of its ends in a triangle, a square or along the height. The centre of the base is added
-/// likewise.
+/// functions of its ends in a triangle, a square or along the height. The node at the centre of the base adds
+/// its deviation with such a weight, too.
 Vec3 collapsed_place(CellKind kind, std::span<const Vec3> nodes, const std::array<Vec3, 13>& deviation,
                      const std::array<double, 3>& at)
 {
@@ -402,7 +403,7 @@ std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3> place
 
 namespace {
 
-/// The cells without a property, ascending. Parallel.
+/// The cells for which `is(cell)` is false, ascending. Parallel.
 template <class Is>
 std::vector<std::size_t> cells_that_are_not(std::size_t count, const RunContext& context, const Is& is)
 {

@@ -146,7 +146,7 @@ private:
         Index node;
         Vec3 place;
     };
-    /// Most entries held at once: 64 MB.
+    /// Limit on the entries held at once: 64 MB.
     static constexpr std::size_t kMost = std::size_t(1) << 21;
 
     /// Call `visit(node, point)` for the nodes of a slab that lie in the box of another slab.
@@ -232,7 +232,9 @@ MeasuredSlab read_slab(Reader& reader)
     return found;
 }
 
-/// @param first  level of the first of the nodes; @param row  number of nodes of a level
+/// The extent of the nodes of a slab.
+/// @param first  the lowest level of the slab
+/// @param row    number of nodes per level
 SlabPlace place_of(std::span<const Vec3> nodes, int first, std::size_t row, const RunContext& context)
 {
     SlabPlace place;

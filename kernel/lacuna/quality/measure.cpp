@@ -18,8 +18,8 @@ struct Partial {
     double volume = 0;
     std::size_t inverted = 0;
     std::size_t uncertified = 0;
-    std::array<std::size_t, 4> count{};      ///< by kind; hexahedra are not counted
-    std::array<double, 4> least{1, 1, 1, 1}; ///< scaled Jacobian by kind
+    std::array<std::size_t, 4> count{};      ///< number of cells of each kind except hexahedra
+    std::array<double, 4> least{1, 1, 1, 1}; ///< smallest scaled Jacobian of each kind
     std::array<std::uint32_t, 20> histogram{};
     WorstList worst;
 };
@@ -52,8 +52,8 @@ void count_bad(Partial& partial, const Values& values, const Signs& signs, int f
     }
 }
 
-/// Add the cells of a batch, the first of which has the number `first`. Tests that most cells pass are made
-/// for the whole batch first.
+/// Add the cells of a batch; `first` is the number of its first cell. Tests that most cells pass are made for
+/// the whole batch before single cells are tested.
 /// @param hexes  whether all cells of the batch are hexahedra
 template <class Cells>
 void add_batch(Partial& partial, const Cells& cells, const Values& values, const Signs& signs,

@@ -156,7 +156,7 @@ struct CellsInRow {
     }
 };
 
-/// Sum over cells of one layer.
+/// Sum of the metric `volume` over cells.
 template <class Cells>
 double sum_of_volumes(const Cells& cells, const RunContext& context)
 {
@@ -179,7 +179,7 @@ double average_volume(const ListedCells& cells, const RunContext& context)
     return mean_volume(std::vector<double>{sum_of_volumes(cells, context)}, cells.columns());
 }
 
-/// Mean volume of the cells, if a metric needs it.
+/// Mean volume of the cells if a metric needs it; otherwise 1.
 template <class Cells>
 double average_volume_of(const Cells& cells, std::span<const Metric> metrics, const RunContext& context)
 {

@@ -47,8 +47,8 @@ LACUNA_INLINE bool all_positive(const Part& part)
     return least_of(least) > 0;
 }
 
-/// The direction, among those with bisections left, in which the smallest coefficient is in the middle, so
-/// that a bisection raises it; -1 if no bisection is left.
+/// The direction to bisect, among the directions with bisections left: the one whose middle coefficients
+/// contain the smallest value, because a bisection raises it. -1 if no bisection is left.
 LACUNA_INLINE int best_cut(const Part& part, const CutsLeft& cuts_left)
 {
     const Row* row = part.row;
@@ -87,7 +87,7 @@ LACUNA_INLINE double split_rows(const Part& whole, Part& low, Part& high)
     return corners[2] < corners[0] ? corners[2] : corners[0];
 }
 
-/// Bisect along rows.
+/// Bisect along rows. @return  as for `split_rows()`.
 LACUNA_INLINE double split_along(const Part& whole, Part& low, Part& high)
 {
     for (int r = 0; r < 9; ++r) {
@@ -137,7 +137,7 @@ bool positive_half(const Part& part, const CutsLeft& cuts_left)
     return with_avx2([&]() LACUNA_INLINE_BODY { return positive_parts(part, cuts_left); });
 }
 
-/// Whether all are finite: x - x is NaN otherwise.
+/// Whether all coefficients are finite: x - x is NaN otherwise.
 LACUNA_INLINE bool all_finite(const Part& part)
 {
     Row off = part.row[0] - part.row[0];

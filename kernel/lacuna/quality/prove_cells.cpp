@@ -11,8 +11,8 @@
 namespace lacuna::quality {
 namespace {
 
-constexpr std::size_t kCheckEvery =
-    1 << 16; ///< cells or groups between two checks for cancellation: some milliseconds
+/// Number of cells or groups between two checks for cancellation: some milliseconds.
+constexpr std::size_t kCheckEvery = 1 << 16;
 
 /// The sides of a kind of cell as corners of `Hex`, oriented outward; the fourth is -1 for a triangle.
 std::vector<Quad> sides_of(CellKind kind)
@@ -86,7 +86,7 @@ private:
                        name_of(nodes_, static_cast<Index>(unused - used.begin())));
     }
 
-    /// A side by its number, 8 × its cell + its place in `sides_of()`.
+    /// The side with a given number: 8 × its cell + its index in `sides_of()`.
     [[nodiscard]] Quad side(std::uint64_t number) const
     {
         const Hex& cell = cells_[number / 8];

@@ -15,23 +15,23 @@
 
 namespace lacuna::quality {
 
-/// Smallest scaled Jacobian over the eight corners of a hexahedron: Verdict's, without the centre. Between -1
-/// and 1; 1 for a cube.
+/// Smallest scaled Jacobian at the eight corners of a hexahedron, as in Verdict but without the centre.
+/// Between -1 and 1; 1 for a cube.
 double scaled_jacobian(std::span<const Vec3, 8> corners);
 
 /// True if the Jacobian of the trilinear map is positive in the whole cell.
 ///
-/// Algorithm: Bézier coefficients of the Jacobian (Johnen, Weill and Remacle 2017). All 27 coefficients
-/// positive: valid. A corner not positive: invalid. Otherwise the cell is subdivided until decided; undecided
-/// at `max_depth`: invalid.
+/// Algorithm: Bézier coefficients of the Jacobian (Johnen, Weill and Remacle 2017). If all 27 are positive,
+/// the cell is valid; if one at a corner is not positive, it is invalid. Otherwise the cell is subdivided. If
+/// `max_depth` subdivisions do not decide, it counts as invalid.
 bool certified_positive(std::span<const Vec3, 8> corners, int max_depth = 6);
 
-/// The scaled Jacobian of a wedge, nodes as in `mesh::Wedge`: Verdict's, times 2/√3, so that a right prism on
-/// an equilateral triangle has 1.
+/// Verdict's scaled Jacobian of a wedge (nodes as in `mesh::Wedge`), times 2/√3. It is 1 for a right prism on
+/// an equilateral triangle.
 double wedge_scaled_jacobian(std::span<const Vec3, 6> corners);
 
-/// As `certified_positive()`, for a wedge: its Jacobian is linear over the triangle and quadratic along the
-/// height, with nine Bernstein coefficients.
+/// Whether the Jacobian of a wedge is positive everywhere, decided as by `certified_positive()`. The Jacobian
+/// is linear over the triangle and quadratic along the height; it has nine Bernstein coefficients.
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 6);
 
 /// The scaled Jacobian of a pyramid with the base 0-1-2-3 and the apex 4. At each corner of the base, the
@@ -40,8 +40,8 @@ bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 
 /// instead takes the scaled Jacobian of the tetrahedra at these corners, and 0 for a folded pyramid.
 double pyramid_scaled_jacobian(std::span<const Vec3, 5> corners);
 
-/// The scaled Jacobian of a tetrahedron, Verdict's: √2 times the determinant of three edges at a corner,
-/// divided by the largest product of the lengths of the edges at a corner. It is 1 for a regular one.
+/// The scaled Jacobian of a tetrahedron, as in Verdict: √2 times the determinant of three edges at a corner,
+/// divided by the largest product of the lengths of the edges at a corner. It is 1 for a regular tetrahedron.
 double tet_scaled_jacobian(std::span<const Vec3, 4> corners);
 
 /// One of the worst cells of a mesh.
@@ -84,8 +84,8 @@ enum class Keep {
 /// @pre  every corner is a valid node number (`prove()` checks it).
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {}, Keep keep = Keep::sums);
 
-/// As above, for a list of hexahedra, and of other cells stored as hexahedra with merged corners: wedges as
-/// `mesh::is_wedge()`, pyramids and tetrahedra as `mesh::has_apex()` says (`mesh/tet_mesh.h`).
+/// Measure a list of cells, as above. Wedges, pyramids and tetrahedra are stored as hexahedra with merged
+/// corners (see `mesh::is_wedge()`, and `mesh::has_apex()` in `mesh/tet_mesh.h`).
 /// @param columns  the column of a sweep for each cell, for `Quality::worst`; empty: unknown.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context = {},
                       std::span<const Index> columns = {});
@@ -101,7 +101,7 @@ enum class Fault {
     patch_tag,        ///< a patch of the skin has no unique positive tag
     no_patch,         ///< a quad of the skin has no patch
     collapsed_side,   ///< a side of a cell has the same node twice
-    not_conformal,    ///< a side is used by more than two cells, or differently in both
+    not_conformal,    ///< a side is used by more than two cells, or two cells do not match at it
     pinched,          ///< quads are connected at one node only
     unused_node,      ///< no cell uses a node
     open_skin,        ///< an edge of the skin does not have two quads
@@ -138,8 +138,8 @@ struct Proof {
     std::optional<Finding> finding; ///< the first fault found; none: the mesh is valid
 };
 
-/// Prove that a mesh is valid: conforming (each side used once or twice), skin closed and equal to the
-/// patches, no coincident or unused nodes, every Jacobian certified positive. O(cells).
+/// Prove that a mesh is valid. It is conforming (each side is used once or twice), its skin is closed and
+/// equal to the patches, no nodes coincide or are unused, and every Jacobian is certified positive. O(cells).
 Proof prove(const mesh::HexMesh& mesh, double min_scaled_jacobian = 0, const RunContext& context = {});
 
 /// Throw the finding of a proof, if there is one.

@@ -24,8 +24,9 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Costs of a bent end, and of fewer ends than the faces allow. Rule of thumb: two flat ends are likelier
-/// than one end, one end is likelier than none, and any flat end is likelier than a bent one.
+/// Costs of a bent end, of a candidate with one end, and of a candidate without ends. Rule of thumb: two flat
+/// ends are likelier than one end, one end is likelier than none, and any flat end is likelier than a bent
+/// one.
 constexpr double kBent = 1.0;
 constexpr double kOneEnd = 0.05;
 constexpr double kNoEnd = 0.1;
@@ -48,20 +49,20 @@ constexpr double kBothSteps = 0.05;
 /// Number of faces listed for each role in a message.
 constexpr std::size_t kMostFaces = 12;
 
-/// Number of candidates kept at once, the likeliest, about 10 MB. If all of them fail, the next ones are
-/// enumerated.
+/// Limit on the candidates kept at once, the likeliest ones: about 10 MB. If all of them fail, the next ones
+/// are enumerated.
 constexpr std::size_t kMostKept = std::size_t{1} << 18;
 
 constexpr std::size_t kGap = kNoIndex - 1; ///< in place of a target rim: the walls end at a free loop
 
-/// The patches that are ends; `kNoIndex` for a missing end.
+/// A candidate: the patches that are its ends, with `kNoIndex` for a missing end.
 struct Reading {
     std::size_t source = kNoIndex, target = kNoIndex;
     double cost = 0;
-    std::size_t step = kNoIndex; ///< index of the candidate if its ends are several patches
+    std::size_t step = kNoIndex; ///< index in `Readings::stepped_` if its ends consist of several patches
 
-    /// Cheapest first. At equal costs, candidates without ends come first, then those with steps, then the
-    /// others by the numbers of their ends.
+    /// Cheapest first. At equal costs, candidates without ends come first, then candidates with stepped ends,
+    /// then the others by the patch numbers of their ends.
     friend bool operator<(const Reading& x, const Reading& y)
     {
         if (x.cost != y.cost) return x.cost < y.cost;
@@ -321,8 +322,8 @@ private:
     }
 
     /// Find the candidates with ends at several heights: one end consists of all flat patches that face one
-    /// way, the other of all those that face the opposite way. Both together have at least three patches. If
-    /// one end is a single patch, it is the source.
+    /// way, the other of all flat patches that face the opposite way. The two ends together have at least
+    /// three patches. If one end is a single patch, it is the source.
     void find_stepped()
     {
         std::vector<std::size_t> flat;
@@ -559,8 +560,8 @@ private:
         return euler;
     }
 
-    /// Count the rim that contains a wall's use; each rim counts once. It is followed as in `rims()`. A rim
-    /// that is entirely free is a window, unless the other end is missing there.
+    /// Count the rim that contains a wall's use; each rim counts once. The rim is traced as in `rims()`. A
+    /// rim whose edges are all free is a window, unless the other end is missing there.
     void count_rim(EdgeUse use, std::vector<WallPart>& parts)
     {
         if (!on_wall(use) || on_wall(opposite(use)) || use_seen_.has(number_of(use))) return;
@@ -633,12 +634,12 @@ private:
                               source)};
         }
         if (reading.step != kNoIndex && roles.source.size() > 1) {
-            return {formatted("flat faces with the same normal, {}, are one end, and the opposite faces {} "
-                              "are the other: both at several heights",
+            return {formatted("each end consists of flat faces at several heights: one of {}, which have the "
+                              "same normal, and the other of the opposite {}",
                               source, target)};
         }
         if (reading.step != kNoIndex) {
-            return {formatted("the flat faces opposite {} are the other end, at several heights: {}", source,
+            return {formatted("the flat faces opposite {} form the other end, at several heights: {}", source,
                               target)};
         }
         const std::size_t loops = map_.patches[reading.source].rims.size();
@@ -651,12 +652,12 @@ private:
     const Model& model_;
     bool flat_alone_;
     const RunContext& context_;
-    std::vector<double> angle_; ///< by edge: angle between its two faces [degrees]
+    std::vector<double> angle_; ///< angle between the two faces at each edge [degrees]
     std::vector<EdgeId> sharp_; ///< edges between two patches
     PatchMap map_;
-    std::vector<SteppedEnds> stepped_; ///< by stepped candidate
+    std::vector<SteppedEnds> stepped_; ///< ends of each candidate with ends at several heights
     std::vector<EdgeUse> free_;        ///< uses whose edge has no other use
-    std::vector<std::size_t> part_of_; ///< by patch in the current candidate; `kNoIndex`: an end
+    std::vector<std::size_t> part_of_; ///< part of each patch in the current candidate; `kNoIndex`: an end
     std::size_t windows_ = 0;          ///< number of windows in the candidate last checked
     Marks vertex_seen_, edge_seen_, use_seen_;
     std::vector<Reading> with_steps_;

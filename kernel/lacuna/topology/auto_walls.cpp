@@ -20,11 +20,10 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Largest number of steps in the search for choices. A hundred sheets that meet in threes need about as
-/// many.
+/// Limit on the steps of the search for choices. A hundred sheets that meet in threes need about this many.
 constexpr std::size_t kMostSteps = 100000;
 
-/// Every face connected to some faces over shared edges without crossing the excluded ones.
+/// All faces connected to the faces `from` over shared edges, without crossing the faces `without`.
 std::vector<FaceId> reachable_from(const Model& model, const std::vector<FaceId>& from,
                                    const std::vector<FaceId>& without)
 {
@@ -78,8 +77,8 @@ public:
     [[nodiscard]] bool crowded() const { return crowded_; }
     [[nodiscard]] const std::vector<std::vector<FaceId>>& sheets() const { return sheets_; }
 
-    /// All maximal choices; empty if there are too many, or if a sheet cannot be taken as a whole because an
-    /// edge would be used more than twice by it and the ends.
+    /// All maximal choices. Empty if there are too many, or if a sheet cannot be taken as a whole because the
+    /// sheet and the ends together use an edge more than twice.
     std::optional<std::vector<Choice>> choices()
     {
         for (std::size_t s = 0; s < sheets_.size(); ++s)
@@ -184,7 +183,7 @@ private:
     const RunContext& context_;
     std::vector<FaceId> ends_;
     std::vector<std::vector<FaceId>> sheets_;
-    std::vector<std::vector<EdgeId>> edges_; ///< by sheet: the edge of each use
+    std::vector<std::vector<EdgeId>> edges_; ///< for each sheet, the edges of its uses
     std::vector<int> count_;                 ///< uses of each edge by the ends and the chosen sheets
     std::vector<bool> chosen_;
     std::vector<Choice> found_;
@@ -213,8 +212,8 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
     return result;
 }
 
-/// Faces beside connected walls that run from the end to the rim of the cavity, such as a ledge at a side
-/// wall. Such walls do not enclose a step of the end, so the faces beside them are walls too.
+/// Faces next to connected walls that run from the end to the rim of the cavity. Such walls do not enclose a
+/// step of the end, so faces next to them, such as a ledge at a side wall, are walls too.
 std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>& walls,
                                    const std::vector<FaceId>& end, const std::vector<FaceId>& cavity)
 {
@@ -233,8 +232,8 @@ std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>
     return found;
 }
 
-/// The walls of an end in a cavity; empty if a face of the end, or another end on the same skin, lies outside
-/// the cavity, because the solid itself is then the volume.
+/// The walls of an end in a cavity. Empty if a face of the end, or another end on the same skin, lies outside
+/// the cavity: the solid itself is then the volume.
 std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<FaceId>& source,
                                           const std::vector<FaceId>& target, const RunContext& context)
 {

@@ -14,8 +14,8 @@ namespace lacuna::topology {
 
 namespace {
 
-/// Least squared spread of the normals about their mean that defines an axis: a turn of a few degrees. Rule
-/// of thumb.
+/// Smallest mean squared spread of the normals about their mean that defines an axis. It corresponds to a
+/// turn of a few degrees. Rule of thumb.
 constexpr double kLeastSpread = 1e-3;
 
 } // namespace

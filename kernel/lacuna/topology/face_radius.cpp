@@ -36,8 +36,8 @@ std::optional<Round> fitted(const Eigen::MatrixXd& points)
     return Round{radius, centre + mean.transpose()};
 }
 
-/// Whether facets are too few for the shape, such as those of a cube, whose corners lie on a sphere: two
-/// that meet turn by a corner.
+/// Whether facets are too few for the shape, so that neighbouring ones meet at a corner. Example: the facets
+/// of a cube, whose corners lie on a sphere.
 bool is_angular(const Model& model, const Face& face, const RoundShape& shape)
 {
     const double least = std::cos(kBendBelow / 2 * std::numbers::pi / 180);
@@ -62,8 +62,8 @@ std::optional<double> face_radius(const Model& model, FaceId id)
 std::optional<RoundShape> round_shape(const Model& model, FaceId id)
 {
     const Face& face = model[id];
-    for (const char* other : {"plane", "cone", "torus"}) // the CAD file's word: a piece of such a face may
-                                                         // look round
+    // The CAD file declares the kind. A small piece of such a face may look like a cylinder or sphere.
+    for (const char* other : {"plane", "cone", "torus"})
         if (face.kind == other) return {};
     const auto [normals, areas] = facet_normals(model, id);
     if (normals.empty()) return {};

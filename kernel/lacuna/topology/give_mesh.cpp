@@ -110,8 +110,8 @@ public:
     EdgeRemesher(const Model& given, ModelBuilder& model) : given_(given), model_(model) {}
 
     /// @param at     running lengths of the edge's points.
-    /// @param nodes  in the edge's direction, ends included, ascending; those of a closed edge may start
-    ///         anywhere.
+    /// @param nodes  nodes on the edge, in ascending order of their running lengths, both ends included. On a
+    ///               closed edge they may start anywhere.
     void add(EdgeId id, const std::vector<double>& at, const std::vector<RimNode>& nodes)
     {
         const std::vector<Index>& old = model_[id].points;
@@ -190,8 +190,8 @@ private:
         return found == move_.end() ? point : found->second;
     }
 
-    /// If an edge's inner point and the corners beside it moved onto the edge, the facets on both sides are
-    /// folded onto it; they are removed together with the point.
+    /// Remove facets that have collapsed onto an edge: their corners are three successive points of the edge.
+    /// If there is one for each use of the edge, they are removed together with the middle point.
     void drop_folded(EdgeId id)
     {
         std::vector<Index>& points = model_[id].points;
@@ -218,7 +218,8 @@ private:
         }
     }
 
-    /// Surface parameter differences along the facet sides of a face, from the lower point to the higher.
+    /// Surface parameter differences along the facet sides of a face, from the point with the lower number to
+    /// the one with the higher.
     static std::unordered_map<std::uint64_t, Vec2> steps_of(const Face& face)
     {
         std::unordered_map<std::uint64_t, Vec2> steps;
@@ -232,7 +233,7 @@ private:
         return steps;
     }
 
-    /// Change of the surface parameters where points of the edges move to their nodes.
+    /// Change of the surface parameters at each point of an edge that moves to a node.
     [[nodiscard]] std::unordered_map<Index, Vec2> shifts_of(const Face& face) const
     {
         std::unordered_map<Index, Vec2> shifts;
@@ -365,8 +366,8 @@ private:
                 (model_.at(cycle[(i + cycle.size() - 1) % cycle.size()]) - p).norm());
             const Nearest place = nearest_on(model_, chain.points, chain.at, p);
             if (place.distance > std::max(model_.tolerance, kOffRim * side)) {
-                refuse("a node of the mesh for {} is {:.3g} off its loops", entity_of(model_, face_),
-                       found(place.distance));
+                refuse("a node of the mesh for {} is {:.3g} away from the face's loops",
+                       entity_of(model_, face_), found(place.distance));
             }
             rim.push_back({cycle[i], place.at});
         }
@@ -395,7 +396,8 @@ private:
         }
     }
 
-    /// The node at a vertex; the nearest one if the vertex may move there.
+    /// The rim node nearest to a vertex, which moves there.
+    /// @throw InvalidInput  the vertex is not there yet, and edges of other faces end at it.
     std::size_t node_at(VertexId vertex, double at, const std::vector<RimNode>& rim, double length)
     {
         const Vec3& place = model_.at(model_[vertex].point);
@@ -467,7 +469,7 @@ private:
         remesher_.add(use.edge, at, nodes);
     }
 
-    /// A given mesh of another face at the edge must have the same nodes.
+    /// Check that given meshes of other faces at the edge have the same number of nodes on it.
     void check_other_meshes(EdgeId edge, const std::vector<RimNode>& nodes) const
     {
         const std::vector<Index>& old = model_[edge].points;
@@ -477,7 +479,7 @@ private:
                                        "the mesh for {} has {} nodes on {}, but the mesh of {} has {}",
                                        entity_of(model_, face_), found(nodes.size()), entity_of(model_, edge),
                                        entity_of(model_, user.face), needed(old.size()))
-                                   .remedy("mesh both alike"));
+                                   .remedy("give both meshes the same nodes on the edge"));
         }
     }
 

@@ -46,8 +46,8 @@ bool is_between_regions(const Model& model, const std::vector<FaceId>& shell)
                        [&](FaceId face) { return model[face].regions.size() > 1; });
 }
 
-/// Flip the shells that lie inside an odd number of others: the space inside them is not part of the solid.
-/// @pre each faces outward. @return the flipped shells.
+/// Flip the shells that lie inside an odd number of other shells: the space inside them is not part of the
+/// solid. @pre each shell faces outward. @return the flipped shells.
 std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
                                                    const std::vector<std::vector<FaceId>>& shells,
                                                    const RunContext& context)
@@ -62,8 +62,8 @@ std::vector<std::vector<FaceId>> turn_inner_shells(Model& model,
     return turned;
 }
 
-/// The faces' contribution to a volume, with rims closed by cones to the faces' centre: negative if they face
-/// the space between them.
+/// The volume that faces enclose, with their rims closed by cones to the centre of the faces. Negative if the
+/// faces are oriented towards the space between them.
 double capped_volume(const Model& model, const std::vector<FaceId>& faces)
 {
     return volume_integral(model, faces) - centroid_of(model, faces).dot(area_vector_of(model, faces)) / 3;
@@ -78,10 +78,10 @@ double reach(const Model& model, const std::vector<FaceId>& faces, const Vec3& w
     return most;
 }
 
-/// Faces that stand in a cavity. Without the cavity, the skin falls into parts that its rims bound. The
-/// largest part is the outside, and the cavity's rims on it are its mouths. A part that reaches up to a mouth
-/// does not stand in the cavity. A through bore is a part of its own and connects no others; it stands in the
-/// cavity if none of its rims is on the outside.
+/// Faces that stand in a cavity. Without the faces of the cavity, the skin falls into parts, bounded by the
+/// cavity's rims. The largest part is the outside, and the rims between it and the cavity are the mouths. A
+/// part that reaches up to a mouth does not stand in the cavity. A through bore is a separate part and does
+/// not connect other parts; it stands in the cavity if none of its rims is on the outside.
 /// @pre oriented
 std::vector<FaceId> enclosed_by(const Model& model, const std::vector<FaceId>& cavity,
                                 const std::vector<Hollow>& hollows)

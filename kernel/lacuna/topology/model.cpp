@@ -61,7 +61,7 @@ public:
 
 private:
     std::unordered_map<std::uint64_t, SegmentOnEdge> at_;
-    std::vector<bool> on_edge_; ///< by point of the model
+    std::vector<bool> on_edge_; ///< for each model point, whether an edge contains it
 };
 
 /// The sides of one face's triangles, and which of them are its border.
@@ -344,8 +344,8 @@ Model ModelBuilder::finish() &&
         for (const EdgeUse& use : uses_of(face)) ++first_use_[use.edge.index() + 2];
     std::partial_sum(first_use_.begin(), first_use_.end(), first_use_.begin());
     uses_.resize(first_use_.back());
-    for (const FaceId face : all_faces(made_)) // first_use_[e + 1] is where edge e's next use goes, so in the
-                                               // end it is the start of edge e + 1
+    // first_use_[e + 1] is where edge e's next use goes, so in the end it is the start of edge e + 1.
+    for (const FaceId face : all_faces(made_))
         for (const EdgeUse& use : uses_of(made_[face]))
             uses_[first_use_[use.edge.index() + 1]++] = {face, use.reversed};
     first_use_.pop_back();
@@ -413,7 +413,7 @@ void orient_consistently(Model& model)
             Message("topology.not_manifold",
                     "{} is shared by {} faces ({}), but the skin of a volume has {} at each edge",
                     entity_of(model, EdgeId(e)), found(uses.size()), faces, needed(2))
-                .remedy("leave out the others"));
+                .remedy("leave the other faces out"));
     }
 
     std::vector<bool> settled(model.faces.size(), false), flipped(model.faces.size(), false);

@@ -24,7 +24,7 @@ enum class Geometry {
     newell,      ///< Algorithm 4: triangulated in its Newell plane
     transfinite, ///< Algorithm 6
     annular,     ///< Algorithm 5: between two closed edges
-    followed,    ///< transfinite, blended along the given walls
+    followed,    ///< transfinite, following the motion of the given walls
     parallel,    ///< the shape of the given end, moved to the rim of the walls
 };
 
@@ -64,8 +64,8 @@ struct Face {
     std::vector<std::string> groups; ///< all sets, surfaces and properties the face belongs to in the file
     /// Regions on the one or two sides of the face (solids, else shells), each with all its names.
     std::vector<std::vector<std::string>> regions;
-    std::string kind =
-        "discrete"; ///< "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete"
+    /// "plane", "cylinder", "cone", "sphere", "torus", "bspline", "surface", "discrete" or "void".
+    std::string kind = "discrete";
     Origin origin = Origin::given;
     Geometry geometry = Geometry::given;
 
@@ -100,7 +100,7 @@ private:
     friend class Model;
     friend class ModelBuilder;
     std::vector<FaceUse> uses_;          ///< uses of all edges, in the order of the edges
-    std::vector<std::size_t> first_use_; ///< for each edge, and the end; empty before `finish()`
+    std::vector<std::size_t> first_use_; ///< start of each edge's uses, then the end; empty before `finish()`
 };
 
 /// Parts that no longer change, and the faces at each edge. Made by `ModelBuilder::finish()`. A variable can

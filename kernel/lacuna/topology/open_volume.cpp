@@ -41,8 +41,8 @@ std::string count(std::size_t n, std::string_view one)
     return formatted("{} {}{}", n, one, n == 1 ? "" : "s");
 }
 
-/// The gap between a wall and its neighbours, seen from the wall's edge; empty if no gap is narrow enough to
-/// be sewn.
+/// The narrowest gap between connected walls and other faces; `Gap::own` is an edge of the walls. Empty if no
+/// gap is narrow enough to be sewn.
 std::optional<Gap> gap_beside(const Model& model, const std::vector<FaceId>& part)
 {
     const std::set<FaceId> own(part.begin(), part.end());
@@ -56,7 +56,7 @@ std::optional<Gap> gap_beside(const Model& model, const std::vector<FaceId>& par
     return gap;
 }
 
-/// A wall that is not connected to the ends is a mistake in the recipe: report it first.
+/// Refuse walls that are not connected to an end: they are a mistake in the recipe.
 void check_walls_touch(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -69,7 +69,7 @@ void check_walls_touch(const OpenVolume& volume)
         if (!gap)
             throw InvalidInput(Message("topology.wall_apart",
                                        "{} is named as a wall but touches neither source nor target", wall)
-                                   .remedy("check its tag, or name the walls between"));
+                                   .remedy("check its tag, or name the walls between it and an end, too"));
         throw InvalidInput(
             Message("topology.wall_apart",
                     "{} is named as a wall but touches neither source nor target: its {} runs next to {}, at "
@@ -109,8 +109,8 @@ bool share_a_vertex(const Model& model, const std::vector<FaceId>& some, const s
     });
 }
 
-/// The ends of a pie slice share its axis, where layers have no height. The slice can be swept along its
-/// axis.
+/// Refuse ends that share an edge, where layers would have no height. Example: two sides of a pie slice,
+/// which share its axis. The slice can be swept along the axis instead.
 void check_no_shared_edge(const OpenVolume& volume)
 {
     const Model& model = volume.model;
@@ -181,7 +181,7 @@ void check_override(const OpenVolume& volume, const Classification& found)
     };
     switch (asked) {
     case VolumeClass::closed:
-        refuse("{} remain", count(found.free_loops.size(), "free loop"));
+        refuse("it must have no free loops, but has {}", count(found.free_loops.size(), "free loop"));
         break;
     case VolumeClass::I:
     case VolumeClass::II:

@@ -26,8 +26,8 @@ struct Roles {
     std::vector<FaceId> source, target, walls;
 };
 
-/// The faces of one void, with their roles. The model is a copy with only the named faces, consistently
-/// oriented, outward if that is defined; closing adds its entities to it.
+/// The faces of one void, with their roles. The model contains only these faces, consistently oriented, and
+/// outward if they enclose a volume. Closing the volume adds void entities to the model.
 struct OpenVolume {
     Model model;
     std::vector<Role> role; ///< for each face of `model`
@@ -36,7 +36,7 @@ struct OpenVolume {
     bool full_turn = false;    ///< a closed ring of walls only, swept round the whole turn onto its own start
 
     [[nodiscard]] std::vector<FaceId> faces(Role wanted) const;
-    /// By vertex of the model: whether it is on a wall.
+    /// For each vertex of the model, whether it is on a wall.
     [[nodiscard]] std::vector<bool> on_wall() const;
 };
 
@@ -51,7 +51,8 @@ Model extract(const Model& model, const std::vector<FaceId>& faces);
 /// The connected parts of the named faces, by shared edges; in the order of their first faces.
 std::vector<std::vector<FaceId>> connected_parts(const Model& model, const std::vector<FaceId>& faces);
 
-/// V − E + F of the faces' facets: 0 for a tube, 1 for a disc; without handles 2 minus the number of rims.
+/// V − E + F of the faces' facets: 0 for a tube, 1 for a disc. For connected faces without handles, it is 2
+/// minus the number of rims.
 long euler_number(const Model& model, const std::vector<FaceId>& faces);
 
 /// Reverse the orientation of faces.
@@ -66,12 +67,12 @@ struct Rim {
     std::vector<EdgeUse> uses;
 };
 
-/// The border of a set of faces as closed chains: edges that the set uses once. Where several chains meet in
-/// a vertex, the fan of facets between them separates them. Longest first.
+/// The border of a set of faces as closed chains of the edges that the set uses once; longest first. Where
+/// several chains meet in a vertex, each chain continues at the other side of the same fan of faces.
 std::vector<Rim> rims(const Model& model, const std::vector<FaceId>& faces);
 
-/// The loops of a face without its seams, which are inside the face. A dome whose loop runs up and down a
-/// seam is a disc; a tube with a seam has two loops. Unchanged if there is no seam.
+/// The loops of a face without its seams, which are inside the face. A tube with a seam has two border loops;
+/// a dome whose loop runs up and down a seam has one. Without a seam, these are the face's own loops.
 std::vector<Loop> border_loops(const Model& model, FaceId face);
 
 /// Edges used once by the faces of the volume, and the loops they form.
@@ -88,7 +89,7 @@ struct Classification {
 };
 
 /// The class of a volume; an override wins.
-/// @throw InvalidInput  an override that contradicts the faces; says which ones.
+/// @throw InvalidInput  the override contradicts the faces; says in what.
 Classification classify(const OpenVolume& volume);
 
 /// A face, an edge or a vertex for a message: `face 12`, `face 12 "lid"`, `edge 3 (vertices 4-9)`,

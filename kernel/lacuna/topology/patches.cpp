@@ -85,7 +85,7 @@ private:
         std::vector<Beside> facets;
     };
 
-    /// The first segment between two points; the number of segments: none.
+    /// The first segment between two points; the number of segments if there is none.
     [[nodiscard]] std::size_t segment(Index a, Index b) const
     {
         const auto [low, high] = std::minmax(a, b);
@@ -95,7 +95,7 @@ private:
     }
 
     const Model& model_;
-    std::vector<std::size_t> start_; ///< by point: its first segment; each segment belongs to its lower point
+    std::vector<std::size_t> start_; ///< first segment of each point; a segment belongs to its lower point
     std::vector<Segment> segments_;
 };
 
@@ -130,15 +130,15 @@ void measure(const Model& model, SmoothPatch& patch, DirectedSides& sides)
                         static_cast<long>(patch.edges.size());
 }
 
-/// Quarter turns of the quads at a rim's vertex, by the interior angle: 1 at a right angle, 0 where the rim
-/// is straight, negative where the interior angle is reflex.
+/// Turn of a rim at a vertex in quarter turns, from the interior angle there: 1 at a right angle, 0 if the
+/// rim is straight, negative if the interior angle is reflex.
 long quarter_turns(double angle)
 {
     return std::clamp(std::lround(2 - angle / (std::numbers::pi / 2)), -2L, 1L);
 }
 
 /// Sum up a patch's facets: the spread of their normals, and the turns of its rims.
-/// @param is_vertex  by point of the model, whether a vertex is there
+/// @param is_vertex  for each model point, whether a vertex is there
 void measure_facets(const Model& model, const std::vector<bool>& is_vertex, SmoothPatch& patch)
 {
     std::unordered_map<Index, double> inside; // interior angle at the rims' vertices, by their points

@@ -201,7 +201,7 @@ private:
 
     const Model& model_;
     const geometry::Plane& plane_;
-    std::vector<signed char> side_; ///< by point: behind -1, on it 0, in front 1
+    std::vector<signed char> side_; ///< for each point: -1 behind the plane, 0 on it, 1 in front of it
     std::vector<Step> steps_;
     std::map<std::uint64_t, std::pair<Index, Index>> behind_; ///< sides in the plane whose facets are behind
                                                               ///< it
@@ -561,7 +561,7 @@ private:
     std::map<SectionPlace, Index> made_; ///< points inserted on sides
     SidePoints sides_;
     std::unordered_set<std::uint64_t> walked_;     ///< sides along the walks
-    std::vector<bool> on_walk_;                    ///< by point
+    std::vector<bool> on_walk_;                    ///< for each point, whether a walk contains it
     std::unordered_set<std::uint64_t> edge_sides_; ///< sides on previous edges
     std::set<Index> vertex_points_;                ///< points that become vertices
     std::map<Index, VertexId> vertex_at_;

@@ -13,7 +13,7 @@ namespace {
 
 /// Split a facet at the points of its first side that is not `whole`, then split the pieces at their other
 /// sides.
-/// @param whole  by side: whether it needs no split.
+/// @param whole  for each side, whether it needs no split.
 void cut(std::span<const Vec3> points, const ParamFacet& facet, std::array<bool, 3> whole,
          const SidePoints& sides, std::vector<ParamFacet>& result)
 {

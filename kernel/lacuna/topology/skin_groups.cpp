@@ -25,7 +25,7 @@ std::string free_name(const std::string& name, const std::set<std::string>& take
     }
 }
 
-/// Whether a name belongs to the face itself: not to its solids, and not a number.
+/// Whether a face's name is its own: not a name of its solids, and not a number.
 bool is_own_name(const Face& face)
 {
     const auto begins = [&](const char* word) { return face.name.starts_with(word); };

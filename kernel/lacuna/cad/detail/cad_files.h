@@ -24,24 +24,25 @@ struct CadOrder {
 /// The names of the files, for messages.
 std::string subject_of(const CadOrder& order);
 
-/// CAD files copied into memory and sent to the CAD process. So the CAD process reads exactly the bytes that
-/// were checked here.
+/// CAD files copied into memory. The copies are sent to the CAD process, so it reads exactly the bytes that
+/// were checked here. The contents of a script are the script and the files that it includes or merges; any
+/// other file has one content.
 struct CadFiles {
-    cad_protocol::LoadRequest request;                 ///< their formats, and the names of their contents
+    cad_protocol::LoadRequest request;                 ///< format of each file, and names of its contents
     std::vector<cad_protocol::Descriptor> descriptors; ///< one for each of the contents
     std::uint64_t bytes = 0;                           ///< size of all contents
     std::uint64_t digest = 0;                          ///< hash of all contents and names
     std::vector<Message> notes;                        ///< script commands that are skipped
 };
 
-/// The first bytes of a file: all, or at most the number `most`.
+/// The first `most` bytes of a file; all of it if it is shorter.
 std::string text_of(const cad_protocol::Descriptor& file, std::size_t most);
 
 /// Open CAD files and check that their contents agree with their file extensions. A script is parsed: files
 /// of its own folder that it includes or merges are copied as well, and commands that mesh or write files are
 /// removed from the copy that Gmsh runs. Any other command that does not make geometry is an error.
-/// @throw InvalidInput  not a regular file, not of the format, or a script with a forbidden command; names
-///                      file and line.
+/// @throw InvalidInput  a file is not regular or does not have the format of its extension, or a script has a
+///                      forbidden command; names file and line.
 /// @throw BackendError  a file cannot be read.
 /// @throw Cancelled
 CadFiles open_cad_files(const CadOrder& order, const RunContext& context);

@@ -12,8 +12,9 @@ namespace lacuna::cad {
 /// The most exact shape that is known for an edge, as a function of its relative arc length (the share).
 class EdgeShape {
 public:
-    /// The shape of a given edge is its exact curve or, without one, its polyline. The shape of a void edge
-    /// is a straight line, or a smooth curve through its points.
+    /// The shape is the exact curve of the edge, if there is one. Otherwise it is a straight line if the
+    /// points of the edge are collinear; else, for a void edge that is not a moved polyline, a smooth curve
+    /// through its points; else the polyline.
     EdgeShape(const topology::Model& model, EdgeId edge);
 
     /// Points at shares in [0, 1] of the length, counted from the edge's `from` to its `to`.

@@ -15,10 +15,10 @@
 namespace lacuna::cad {
 
 /// A model in the CAD process, kept there as long as this object exists. The exact curves and surfaces of the
-/// model share it.
+/// model share this object.
 ///
-/// If that process has ended, the next request loads the files again into the process that replaced it. The
-/// files must not have changed. The facets of the model stay as they are.
+/// If the process has ended, the next request loads the files again into a new process. This fails if the
+/// files have changed. The facets of the model are not read again.
 class CadSource {
 public:
     CadSource(std::shared_ptr<Worker> worker, std::uint64_t handle, CadOrder order, std::uint64_t digest)
@@ -54,8 +54,8 @@ public:
 
     /// The running process that holds the model; null if it has ended.
     [[nodiscard]] std::shared_ptr<Worker> worker() const;
-    /// The handle of the model in `worker`, which loads the files first if it does not hold them. @throw as
-    /// ask()
+    /// The handle of the model in `worker`. If `worker` does not hold the model, it loads the files first.
+    /// @throw as ask()
     std::uint64_t handle_in(const std::shared_ptr<Worker>& worker, const RunContext& context) const;
 
     [[nodiscard]] const std::string& path() const { return path_; }

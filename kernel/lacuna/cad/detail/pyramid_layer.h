@@ -28,9 +28,9 @@ struct PyramidLayer {
 /// Jacobian that was a third as high.
 ///
 /// An apex stands above the centre of its quad. Its height is half the side of a square of the same area. It
-/// is lower where the pyramid would take more than a third of the angle to a neighbouring face or of the
-/// distance to the opposite face. It is higher where a warped quad needs it. Pyramids that still cross
-/// another face are lowered.
+/// is lower where the pyramid would take more than a third of the angle to a neighbouring quad, half the
+/// angle to a neighbouring triangle, or a third of the distance to the opposite face. It is higher where a
+/// warped quad needs it. Pyramids that still cross another face are lowered.
 /// @throw NotSweepable  a quad that is not convex ("cad.skin_quad"), or faces of the skin that cross
 ///                      ("cad.skin_crosses"); both give the place.
 PyramidLayer place_pyramids(const mesh::ClosedSkin& skin, const std::vector<SkinSide>& sides,

@@ -16,9 +16,9 @@ struct SolidSources {
     std::vector<const CadSource*> order;
     std::vector<cad_protocol::SolidSource> wanted; ///< one for each model
 };
-/// Load all CAD models of a volume into one process. Before, several processes may hold them, and some of
-/// these may have ended.
-/// @throw BackendError  a file has changed since, or cannot be read. Cancelled.
+/// Load all CAD models of a volume into one process. Until then, several processes may hold them, and some
+/// of these processes may have ended.
+/// @throw BackendError  a file has changed since it was loaded, or cannot be read. Cancelled.
 SolidSources sources_of(const topology::Model& model, const RunContext& context);
 
 /// How a sealed volume is made into a solid. Each face becomes an exact face, a plane, spline patches or a
@@ -27,6 +27,7 @@ struct SolidPlan {
     cad_protocol::MakeSolidRequest request; ///< contains the points, edges, faces and the diagonal
     std::size_t planes = 0, fitted = 0;     ///< number of void faces made as planes, and as fitted surfaces
 };
+/// Plan the solid of a sealed volume.
 /// @param found  the entities of the sources that exist in the CAD process.
 /// @throw InvalidInput  a face is curved and has no exact surface; names it.
 SolidPlan plan_solid(const topology::OpenVolume& volume, const SolidSources& sources,

@@ -22,7 +22,7 @@ SplineAxisData even_axis(std::size_t count);
 SplineAxisData axis_of_spans(std::size_t spans, int degree);
 /// Values of all basis functions at a parameter: one for each pole.
 Eigen::VectorXd basis(const SplineAxisData& axis, double parameter);
-/// The values of all basis functions at several parameters, one row for each.
+/// The values of all basis functions at several parameters: one row for each parameter.
 Eigen::MatrixXd basis_rows(const SplineAxisData& axis, std::span<const double> parameters);
 Vec3 point_at(const SplineCurveData& curve, double parameter);
 
@@ -33,7 +33,7 @@ SplineSurfaceData interpolate(std::span<const Vec3> grid, std::size_t columns);
 
 /// Evaluates a curve at parameters in [0, 1].
 using CurveFunction = std::function<std::vector<Vec3>(std::span<const double>)>;
-/// Evaluates a surface on a grid: one row of u for each v.
+/// Evaluates a surface on a grid: for each v, one row of points along u.
 using SurfaceFunction =
     std::function<std::vector<Vec3>(std::span<const double> u, std::span<const double> v)>;
 

@@ -15,7 +15,8 @@ namespace lacuna::cad {
 ///
 /// Straight sides between source and target give a ruled surface. For the missing half of a cylinder this is
 /// exactly that half.
-/// @param sides      of the face's loop, in order: source, side, target, side.
+/// @param sides      the four sides of the face's loop, in order; the first lies on the source and the third
+///                   on the target.
 /// @param precision  allowed deviation along the sides [model length].
 std::vector<SplineSurfaceData> void_patches(const topology::Model& model, const topology::Face& face,
                                             const std::vector<std::vector<topology::EdgeUse>>& sides,

@@ -58,7 +58,9 @@ public:
     Worker& operator=(const Worker&) = delete;
 
     /// Send a request and wait for the reply.
-    /// @throw InvalidInput, NotSweepable, BackendError  as the process reports, or how it ended; Cancelled.
+    /// @throw InvalidInput, NotSweepable, BackendError  the error that the process reports.
+    /// @throw BackendError  the process ended.
+    /// @throw Cancelled
     template <class Reply, class Request>
     Reply ask(cad_protocol::Opcode opcode, const Request& request, const Task& task,
               const std::vector<int>& descriptors = {})
@@ -93,7 +95,7 @@ private:
     void flush_released();
     void limit_memory(std::uint64_t bytes) const;
     /// Kill the process if it is running, and record how it ended.
-    /// @param why  the reason, which messages of later calls give; empty: they give the exit status.
+    /// @param why  the reason, quoted in messages of later calls; if empty, they quote the exit status.
     void end(std::string why = {}) noexcept;
     [[nodiscard]] std::string how_it_ended() const;
     [[nodiscard]] std::string last_words() const;
@@ -106,7 +108,7 @@ private:
     cad_protocol::Descriptor words_;   ///< file that receives the output of the process
     cad_protocol::Hello hello_;
     pid_t pid_ = 0;
-    pid_t owner_ = 0;                 ///< the process that started it: the host
+    pid_t owner_ = 0;                 ///< process id of the host, which started the CAD process
     bool ended_ = false;              ///< the process ended by itself or was killed by this object; guarded
                                       ///< by `busy_`
     int status_ = 0;                  ///< exit status of the process, as from wait()

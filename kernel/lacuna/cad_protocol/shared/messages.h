@@ -35,7 +35,7 @@ enum class Opcode : std::uint16_t {
 
 struct Hello {
     std::string gmsh_version;
-    std::string missing; ///< confinement features that this system lacks, for a person; empty: none
+    std::string missing; ///< confinement features that this system lacks, as text; empty: none
 };
 
 struct Progress {
@@ -51,15 +51,15 @@ struct Failure {
 
 /// A file sent with the message as a descriptor.
 struct SentFile {
-    std::string name; ///< without a folder; scripts include the file by this name, and its ending gives Gmsh
-                      ///< the format
+    std::string name; ///< without a folder; scripts include the file by this name, and Gmsh derives the
+                      ///< format from its extension
 };
 
 struct LoadFile {
     enum Format : std::uint8_t { step, iges, brep, script };
     std::uint8_t format = step;
     std::string path;               ///< path as the user gave it, for messages
-    std::vector<SentFile> contents; ///< the file itself, then the files that a script merges
+    std::vector<SentFile> contents; ///< the file itself, then the files that a script includes or merges
 };
 
 struct LoadRequest {
@@ -156,11 +156,11 @@ struct SolidSource {
 /// Three files in memory are sent with this request: two for intermediate results, and one for the result.
 struct BeginSolidRequest {
     std::string subject; ///< the file to be written, for messages
-    std::string result;  ///< its name without a folder; the ending gives the format
+    std::string result;  ///< name of that file without its folder; its extension gives the format
     std::vector<SolidSource> sources;
 };
-/// The requested entities that exist in the CAD process; for each curve its start,
-/// middle and end [model length].
+/// The requested entities that exist in the CAD process, and start, middle and end of each curve
+/// [model length].
 struct BeginSolidReply {
     struct Found {
         std::vector<std::int32_t> faces, curves;
@@ -188,7 +188,7 @@ struct SolidEdge {
     enum Kind : std::uint8_t { exact, lines, spline };
     std::uint8_t kind = lines;
     std::int32_t source = -1, curve = 0; ///< exact
-    std::vector<Index> points;           ///< lines: in SolidRequest::points
+    std::vector<Index> points;           ///< lines: indices in MakeSolidRequest::points
     SplineCurveData curve_data;          ///< spline
 };
 struct SolidFace {
@@ -222,9 +222,9 @@ struct ReleaseRequest {
 
 // --- bytes --------------------------------------------------------------------------------------------
 
-/// Check values that `decode()` does not check. The kernel does not trust the process that replies, so
-/// numbers in replies must be finite and indices in range. In requests, only those values are checked that
-/// the CAD process does not check itself when it uses them.
+/// Check values of a decoded message. The kernel does not trust the CAD process, so numbers in replies must
+/// be finite and indices in range. Values of a request are checked here only if the CAD process does not
+/// check them when it uses them.
 /// @throw ProtocolError
 template <class T>
 void check(const T&)
@@ -249,7 +249,7 @@ std::string encode(const T& message)
     writer(message);
     return std::move(writer).take();
 }
-/// @throw ProtocolError  the bytes are not such a message, or `check()` refuses it.
+/// @throw ProtocolError  the bytes are not a message of type T, or `check()` refuses it.
 template <class T>
 T decode(std::string_view bytes)
 {

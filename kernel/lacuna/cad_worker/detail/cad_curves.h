@@ -43,7 +43,7 @@ struct CadEdge {
 struct CadVertex {
     int tag = 0;
     Vec3 at = Vec3::Zero();
-    Index point = -1; ///< model point; vertices closer than the tolerance have the same one
+    Index point = -1; ///< model point; vertices closer than the tolerance share a model point
 };
 
 /// The curves around a face, each listed once.
@@ -74,8 +74,8 @@ struct Fineness {
 };
 
 /// Read the curves of the current model and sew them. Vertices closer than the tolerance are merged. A curve
-/// used by one face only is split at vertices of other faces that lie on it. Pieces with the same ends that
-/// coincide within the tolerance become one edge.
+/// used by one face only is split where the end of another such curve lies on it. Pieces with the same ends
+/// that coincide within the tolerance become one edge.
 CadWire read_wire(double tolerance);
 
 /// Place points on every edge: `refinement` times as many as the fineness requires, with one factor for each

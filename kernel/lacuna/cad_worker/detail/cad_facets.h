@@ -11,7 +11,8 @@
 
 namespace lacuna::cad_worker {
 
-/// Facets of one face. Points from `first_added` on belong to the face, the others to the wire.
+/// Facets of one face. Point numbers from `first_added` on refer to `added`, lower numbers to the wire's
+/// points.
 struct CadFacets {
     std::vector<Vec3> added;             ///< [file length]
     std::vector<Triangle> triangles;     ///< counter-clockwise in the parameter plane

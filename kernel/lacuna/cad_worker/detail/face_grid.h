@@ -8,8 +8,8 @@
 
 namespace lacuna::cad_worker {
 
-/// Piecewise linear, increasing map from a surface parameter to grid coordinates, in
-/// which grid lines are at integers.
+/// Piecewise linear, increasing map from a surface parameter to a grid coordinate. Grid lines are at integer
+/// grid coordinates.
 class GridAxis {
 public:
     GridAxis() = default;
@@ -42,8 +42,9 @@ struct FaceGrid {
     }
 };
 
-/// Choose the grid lines. The normal must turn no more between neighbouring lines than the fineness allows,
-/// cells must not be too long, and their number must stay below the limit.
+/// Choose the grid lines such that between neighbouring lines the normal turns no more than the fineness
+/// allows, and that cells are neither too long nor too slender. If this takes more than `max_cells` cells,
+/// all cells become larger.
 FaceGrid lay_grid(int tag, bool flat, const ParameterBox& box, const Fineness& fineness, double max_cells);
 
 } // namespace lacuna::cad_worker

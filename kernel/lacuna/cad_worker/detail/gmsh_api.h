@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Wrappers for the differences between versions of Gmsh's API. Only sources of
-/// this folder include this file.
+/// Wrappers for Gmsh's API, which differs between versions. Only sources of this folder include this file.
 
 #include <gmsh.h>
 

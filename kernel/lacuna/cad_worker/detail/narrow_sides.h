@@ -7,14 +7,14 @@
 
 namespace lacuna::cad_worker {
 
-/// Factors >= 1 by which to increase the number of points on each edge. The sag of a segment is then at most
-/// a hundredth of its distance from any other edge of the same planar face. Otherwise the width of a thin
-/// ring would vary visibly, because polygons represent its circles.
+/// Factors, between 1 and a limit, by which to increase the number of points on each edge. Below the limit,
+/// the sag of a segment is then at most a hundredth of its distance from any other edge of the same planar
+/// face. Otherwise the width of a thin ring would vary visibly, because its circles become polygons.
 ///
 /// Edges that share a vertex are not compared. Curved faces need no refinement: narrow ones, such as fillets,
 /// are seldom next to the void.
-/// @param wire  its edges are divided by `divide()`.
-/// @cost  O(n log n) in the segments of a face, if few of them are close to each other.
+/// @param wire  `divide()` has divided its edges.
+/// @note  O(n log n) in the segments of a face, if few of them are close to each other.
 std::vector<double> narrow_refinement(const CadWire& wire);
 
 } // namespace lacuna::cad_worker

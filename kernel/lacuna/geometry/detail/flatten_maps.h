@@ -43,8 +43,8 @@ std::array<double, 2> stretches(const Eigen::Matrix2d& jacobian);
 Positions conformal(const Facets& facets);
 /// As-rigid-as-possible map, starting from `positions`.
 Positions as_rigid_as_possible(const Facets& facets, Positions positions, double settled);
-/// Map of least symmetric Dirichlet energy, starting from `positions`. If these flip a triangle, they are
-/// returned unchanged.
+/// Map of least symmetric Dirichlet energy, starting from `positions` and scaled to the area of the facets.
+/// If `positions` flip a triangle, they are only scaled.
 Positions injective(const Facets& facets, Positions positions, double settled);
 /// Harmonic map to a disc with the area of the facets; holes are filled temporarily.
 Positions convex(const Facets& facets);

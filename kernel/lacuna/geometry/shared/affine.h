@@ -16,7 +16,7 @@ struct AffineFit {
     Vec3 to_centre{0, 0, 0};
     double rms = 0;          ///< root mean square distance of images from targets [model length]
     double max_residual = 0; ///< largest such distance [model length]
-    int rank = 3; ///< directions that the data determine, 0…3; images of the others are completed
+    int rank = 3; ///< number of directions that the data determine, 0…3; the other images are completed
 
     [[nodiscard]] Vec3 operator()(const Vec3& p) const { return to_centre + linear * (p - from_centre); }
 };
@@ -25,14 +25,15 @@ struct AffineFit {
 ///
 /// Minimises the mean of |y − (L x + c)|², plus |n′ − L n|² for a pair of pseudo-normals if area vectors are
 /// given @cite roca_2010_sweep. A pseudo-normal is n·√|area|. Its length scales with the width of the rim, so
-/// a rotation with a uniform scale maps one pseudo-normal onto the other. It determines the direction normal
-/// to a planar rim, which the points alone leave open. The map then has full rank, preserves orientation, and
-/// does not flatten or flip points outside the plane.
+/// a rotation with a uniform scale maps one pseudo-normal onto the other. The pair determines the image of
+/// the direction normal to a planar rim, which the points alone leave open. The map then has full rank,
+/// preserves orientation, and does not flatten or flip points outside the plane.
 ///
-/// A direction whose spread is below √ε of the largest is not determined by the data. If one direction is
-/// missing, its image is normal to the images of the other two, with a length that keeps the shape. If two
-/// are missing, the smallest rotation completes them. Only orthogonal factorisations are used (no normal
-/// equations), so the error is ε times the condition number of the spread.
+/// The data do not determine a direction whose spread is below √ε of the largest spread. If one direction is
+/// missing, its image is normal to the images of the other two, and its length is the square root of the area
+/// that these two images span. If two are missing, their images follow from the smallest rotation of the
+/// remaining direction, with the same scale. Only orthogonal factorisations are used (no normal equations),
+/// so the error is ε times the condition number of the spread.
 class AffineFitter {
 public:
     /// @param from       kept by reference: must outlive the fitter.

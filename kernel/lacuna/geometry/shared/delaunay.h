@@ -31,16 +31,16 @@ struct DelaunayTriangle {
 /// The incremental constrained Delaunay triangulation used by `triangulate()`.
 ///
 /// The triangulation starts from one huge triangle, whose corners are numbered after the given points. The
-/// result is the part inside closed constraints. These separate the result from the huge triangle's corners,
-/// which therefore do not affect it.
+/// result is the part inside closed constraints. The constraints separate it from the corners of the huge
+/// triangle, so these corners do not affect the result.
 class DelaunayMesh {
 public:
     /// The Delaunay triangulation of the points in `used`, inserted along a space-filling curve.
-    /// @throw InvalidInput  two of them coincide.
+    /// @throw InvalidInput  two of the points coincide.
     DelaunayMesh(std::span<const Vec2> points, const std::vector<Index>& used);
 
     /// Insert the constraint a–b by retriangulating the triangles that it crosses.
-    /// @pre both are inserted; no point lies on the segment and no constraint crosses it.
+    /// @pre both points are inserted; no point lies on the segment and no constraint crosses it.
     void fix_segment(Index a, Index b);
 
     /// Set `inside` where an odd number of constraints lies between a triangle and the outside.

@@ -24,7 +24,7 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::Vector
 /// Eigenvalues of a symmetric matrix, ascending.
 Vec3 symmetric_eigenvalues(const Eigen::Matrix3d& matrix);
 
-/// Eigenvalues of a symmetric matrix, ascending, and their unit vectors, a column each.
+/// Eigenvalues of a symmetric matrix, ascending, and one unit eigenvector for each, as columns.
 struct SymmetricEigen {
     Eigen::VectorXd values;
     Eigen::MatrixXd vectors;

@@ -21,7 +21,7 @@ namespace lacuna::geometry {
 class FacetTree {
 public:
     FacetTree() = default;
-    /// Build the tree on the threads of the context, by default on one; it is the same on any number.
+    /// Build the tree on the threads of the context, by default one. The tree does not depend on the number.
     /// @pre every corner is an index into `points`. O(triangles log triangles). @throw Cancelled
     FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles,
               const RunContext& context = {1, nullptr, {}, {}});

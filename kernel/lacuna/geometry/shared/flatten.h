@@ -42,11 +42,11 @@ struct Flattened {
 /// Planar facets are mapped isometrically. A tube (a strip closed between two loops) becomes a ring: a tube
 /// has no nearly rigid map, and minimising its distortion would take a hundred times as long. For other
 /// facets, the least squares conformal map (Lévy et al. 2002) is made as rigid as possible by local and
-/// global steps (Liu et al. 2008). If that map flips a triangle or its boundary crosses itself, two maps
-/// without flips are tried: least symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017),
-/// then the harmonic map to a disc. The first one-to-one map is returned. If there is none, the map with the
-/// fewest flips is returned, and `folded` is set. The result has the area of the facets in space, and is
-/// rotated to agree best with their Newell plane.
+/// global steps (Liu et al. 2008). If that map flips a triangle or its boundary crosses itself, the map of
+/// least symmetric Dirichlet energy by reweighted steps (Rabinovich et al. 2017) is tried, started from the
+/// conformal map and from the harmonic map to a disc; then these two maps themselves. The first one-to-one
+/// map is returned. If there is none, the map with the fewest flips is returned, and `folded` is set. The
+/// result has the area of the facets in space, and is rotated to agree best with their Newell plane.
 ///
 /// @param points     may be all points of a model.
 /// @param triangles  consistently oriented.
@@ -57,8 +57,8 @@ struct Flattened {
 Flattened flatten(std::span<const Vec3> points, std::span<const Triangle> triangles,
                   const FlattenOptions& options = {});
 
-/// Finds the triangle at a point of the plane, to map it back to space. O(1) inside the triangles, O(log
-/// triangles) outside; thread-safe, does not allocate, independent of the `Flattened`.
+/// Finds the triangle at a point of the plane, to map the point back to space. O(1) inside the triangles,
+/// O(log triangles) outside; thread-safe, does not allocate, independent of the `Flattened`.
 class PlanarLocator {
 public:
     PlanarLocator() = default;

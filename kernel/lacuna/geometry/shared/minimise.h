@@ -10,7 +10,7 @@ namespace lacuna::geometry {
 
 struct MinimiseOptions {
     int iterations = 60;
-    double least_gain = 1e-7;     ///< stop when a step reduces the value by less, relatively [-]
+    double least_gain = 1e-7;     ///< stop when a step reduces the value by less than this share [-]
     std::size_t memory = 10;      ///< number of stored steps
     bool start_anew = true;       ///< if no step is found, restart once with steepest descent
     std::function<bool()> stop{}; ///< called before each step; true stops

@@ -59,8 +59,8 @@ struct Distortion {
 
 /// A motion of a distorted section: the section is twisted about a line, scaled from a point of the line, and
 /// then moved.
-/// @param centre     the point of the line. @param direction  direction of the line at the start; of length
-///                   1.
+/// @param centre     the point of the line.
+/// @param direction  direction of the line at the start; of length 1.
 Motion distorted(Motion motion, const Vec3& centre, const Vec3& direction, const Distortion& by);
 
 /// Add rows of facets until, between two neighbouring rows, the motion turns by at most a full turn divided

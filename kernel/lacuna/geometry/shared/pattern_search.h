@@ -25,13 +25,13 @@ inline std::span<const Vec2> all_around()
     return kDirections;
 }
 
-/// Move a point to increase a value by pattern search: try steps in some directions, and
-/// halve the step if none succeeds.
+/// Move a point to increase a value by pattern search: try steps in some directions, and halve the step if
+/// none succeeds.
 /// @param best   the value at `x`.
 /// @param value  called as value(const Vec2&, double floor). If the value does not exceed the floor, any
 ///               number up to the floor may be returned instead.
-/// @param directions  unit vectors along which the value varies. Along others it could increase by rounding
-///                    only.
+/// @param directions  unit vectors along which the value varies. Along other directions it could increase by
+///                    rounding only.
 /// @return the value at the new `x`, at least `best`.
 template <class Value>
 double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value,

@@ -47,7 +47,8 @@ Vec3 point_at(std::span<const Vec3> points, std::span<const double> arc_lengths,
 /// @pre points.size() > 0, pieces > 0
 std::vector<Vec3> even_places(std::span<const Vec3> points, std::size_t pieces);
 
-/// Unit tangent at the last point, in the direction from the first, estimated as for points on an arc.
+/// Unit tangent at the last point, in the direction of the polyline. It is estimated as if the last three
+/// points were equally spaced on an arc.
 /// @pre points.size() > 1
 Vec3 end_tangent(std::span<const Vec3> points);
 

@@ -20,8 +20,8 @@ double orient2d(const Vec2& a, const Vec2& b, const Vec2& c);
 /// Exact in the same sense as `orient2d()`; the sign is reversed if a, b, c are clockwise.
 double incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
-/// Whether a point lies inside a closed polygon of either orientation: counts the
-/// sides that a ray from it crosses.
+/// Whether a point lies inside a closed polygon of either orientation. Counts the sides of the polygon that a
+/// ray from the point crosses.
 ///
 /// Exact in the same sense as `orient2d()`. A point on a side may count as inside or outside.
 bool lies_inside(std::span<const Vec2> polygon, const Vec2& p);

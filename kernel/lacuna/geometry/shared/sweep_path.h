@@ -22,8 +22,8 @@ enum class SectionFrame {
 ///
 /// With minimal frames, the section at a corner lies in the plane that halves the angle between the two
 /// parts, as in a mitre joint. If a part is curved, this shear of the section fades out along the part.
-/// @throw InvalidInput "geometry.path_short"  a part has no length. "geometry.path_corner"  a corner turns by
-///        more than 90° with minimal frames. Both messages give the place.
+/// @throw InvalidInput "geometry.path_short"  successive points of a part coincide. "geometry.path_corner"  a
+///        corner turns by more than 90° with minimal frames. Both messages give the place.
 Motion motion_along_path(std::span<const PathPart> parts, SectionFrame frame);
 
 /// Direction in which a path starts, of length 1. @pre the first part has a length

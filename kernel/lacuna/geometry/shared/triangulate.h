@@ -21,8 +21,8 @@ struct Triangulation {
 /// Options of `triangulate()`. Lengths are in the units of the points.
 struct TriangulateOptions {
     bool interior_points = true; ///< false: use the given points only
-    std::function<double(const Vec2&)>
-        size{}; ///< target edge length, > 0; the smaller of it and the length graded from the rim is used
+    /// Target edge length, > 0; an upper limit of the length that is graded from the rim.
+    std::function<double(const Vec2&)> size{};
     /// Growth of edges with the distance from the rim [length per length, >= 0]. The target length at x is
     /// the minimum of (spacing at p) + grading × |x − p| over all rim points p. With 0 it is the smallest
     /// spacing everywhere; with infinity only `size` counts.

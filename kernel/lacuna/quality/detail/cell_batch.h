@@ -13,12 +13,13 @@
 /// the trilinear map is J = det(U, V, W), quadratic in each of u, v, w. Its 27 Bézier coefficients follow
 /// from 20 determinants (Johnen, Weill and Remacle 2017). At a corner the coefficient is J itself; at the
 /// middle of an edge along u it is (J0 + J1 - det(U, V1 - V0, W1 - W0)) / 2. J has no u²v², u²w² or v²w²
-/// term. So the coefficient at the middle of a side or of the cell is a quarter of (2 · edges - corners) of
-/// the square around it.
+/// term. So the coefficient at the middle of a side or of the cell follows from the square of coefficients
+/// around it: half the sum of the four at the edges of the square, minus a quarter of the sum of the four at
+/// its corners.
 namespace lacuna::quality {
 
-/// Cells processed together: small enough for the first-level cache, and vectorised. Measured with AVX2 and
-/// all coefficients of every cell: 27 ns a cell, against 45 with 16 lanes and 31 with 64.
+/// Number of cells processed together by vector instructions; their data fit into the first-level cache.
+/// Measured with AVX2 and all coefficients of every cell: 27 ns per cell; 45 ns with 16 lanes, 31 ns with 64.
 inline constexpr int kLanes = 32;
 
 /// End corners of each edge, [d][e]: the edge runs in direction d (u, v, w); e encodes its ends in the other
@@ -86,8 +87,8 @@ bool positive_everywhere(const CoefficientsView& bezier, int max_depth);
 /// Result of a test with one subdivision; open: undecided.
 enum class Sign : std::uint8_t { open, positive, not_positive };
 
-/// Test all cells of a batch at once, with one subdivision along u, v or w; the direction does not change the
-/// result. It decides most of the cells that the coefficients leave open.
+/// Test all cells of a batch at once, by one bisection along u, one along v and one along w; it is enough if
+/// one of them decides. This decides most of the cells that the coefficients leave open.
 /// @return consistent with `positive_everywhere()`.
 std::array<Sign, kLanes> signs_after_cut(const CellValues<kLanes>& values);
 

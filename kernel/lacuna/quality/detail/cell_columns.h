@@ -85,7 +85,7 @@ struct Chunks {
     }
 };
 
-/// Corners of one level of at most a batch of columns; unused lanes repeat the last column.
+/// Load the corners of one level of up to N columns; unused lanes repeat the last column.
 template <int N, class Cells>
 void load_level(const Cells& cells, std::size_t first, int filled, std::size_t layer, LevelBatch<N>& corner)
 {

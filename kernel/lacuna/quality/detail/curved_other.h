@@ -13,10 +13,11 @@ namespace lacuna::quality {
 ///
 /// The cell is the image of the unit cube with a side or the top collapsed. On the cube the map is
 /// triquadratic, so the Bézier coefficients of the Jacobian follow as in `judge()`. The Jacobian contains the
-/// factors of the collapse, 1 - v of a triangle and (1 - w)² of an apex. It is divided by them and then
-/// judged as in `judge()`. The scaled Jacobian is that of the corners, with the tangents of the edges there.
-/// @param nodes  of a hex20 with merged corners: middle nodes of merged edges are repeated, those of
-///               collapsed edges are the corner. The centre of a pyramid's base may follow.
+/// factors of the collapse: 1 - v for a triangle, (1 - w)² for an apex. It is divided by them and then judged
+/// as in `judge()`. The scaled Jacobian is that of the corners, with the tangents of the edges there.
+/// @param nodes  the nodes of a hex20 with merged corners. Middle nodes of merged edges are repeated; the
+///               middle node of a collapsed edge is its corner. The centre of a pyramid's base may follow.
+/// @return  empty if the cell has the shape of a cell of order 1.
 std::optional<CurvedCell> judge_other(CellKind kind, std::span<const Vec3> nodes, int max_depth = 4);
 
 } // namespace lacuna::quality

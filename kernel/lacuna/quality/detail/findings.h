@@ -27,7 +27,7 @@ Found check_quality(const Quality& quality, double min_scaled_jacobian, int laye
 /// The first node that is not finite. @pre  there is one
 Index first_not_finite(std::span<const Vec3> nodes);
 
-/// A node of a mesh for a message; numbers for people start at 1.
+/// Number and place of a node for messages, in which numbers start at 1.
 struct NodeName {
     NamedEntity node;
     std::string place; ///< "level 2 of 9, at x y z"

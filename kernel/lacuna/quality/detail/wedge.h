@@ -29,9 +29,9 @@ struct WedgeValues {
 
 WedgeValues evaluate_wedge(std::span<const Vec3, 6> corners);
 
-/// The coefficients as those of a cell over the unit cube, whose square is mapped to the triangle by
-/// collapsing one side to the third corner. The Jacobian is positive everywhere in the one if and only if it
-/// is in the other.
+/// Convert the coefficients to those of a cell over the unit cube. One side of the square is collapsed to the
+/// third corner of the triangle. The Jacobian is positive everywhere in the cube if and only if it is
+/// positive everywhere in the wedge.
 Coefficients over_cube(const WedgeValues& values);
 
 } // namespace lacuna::quality

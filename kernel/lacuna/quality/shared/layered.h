@@ -29,15 +29,15 @@ struct MeasuredLayers {
     std::vector<SlabPlace> slabs; ///< in order from the source
 };
 
-/// As `measure()`, for a mesh whose nodes are computed on demand, some layers at a time. Sums may differ from
-/// those of `measure()` in the last digits. Memory does not depend on the number of layers. A team shares the
-/// layers; each process gets the whole result, which does not depend on the size of the team.
+/// Measure a mesh whose nodes are computed on demand, some layers at a time. The result is that of
+/// `measure()`, but sums may differ in the last digits. Memory does not depend on the number of layers. A
+/// team shares the layers; each process gets the whole result, which does not depend on the team's size.
 /// @throw Cancelled; TeamFailed
 MeasuredLayers measure(const mesh::LayeredMesh& layered, const RunContext& context = {},
                        const Team* team = nullptr);
 
-/// Mean cell volume of such a mesh. If it is passed to `metric_values()` for some layers, the values are bit
-/// for bit those of the whole mesh. A team shares the work as in `measure()`.
+/// Mean cell volume of such a mesh. If it is passed to `metric_values()` for some of the layers, their values
+/// have the same bits as in the whole mesh. A team shares the work as in `measure()`.
 /// @throw Cancelled; TeamFailed
 double mean_volume(const mesh::LayeredMesh& layered, const RunContext& context = {},
                    const Team* team = nullptr);
@@ -53,7 +53,7 @@ double mean_volume(const mesh::LayeredMesh& layered, const RunContext& context =
 std::optional<Finding> find_misplaced(const mesh::LayeredMesh& layered, std::span<const SlabPlace> slabs,
                                       const RunContext& context = {}, const Team* team = nullptr);
 
-/// As `prove()`, for such a mesh: the same checks.
+/// Prove that such a mesh is valid, with the checks of `prove()`.
 /// @param measured   the quality from `measure()`
 /// @param misplaced  the result of `find_misplaced()`
 Proof prove(const mesh::LayeredMesh& layered, Quality measured, std::optional<Finding> misplaced,

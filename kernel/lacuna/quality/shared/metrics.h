@@ -54,8 +54,8 @@ struct Range {
     [[nodiscard]] bool contains(double value) const { return value >= low && value <= high; }
 };
 
-/// Properties of a metric. Acceptable ranges are those of Cubit (15.9, "Metrics for Hexahedral Elements"),
-/// for `oddy` and the Frobenius aspects those of the Verdict manual.
+/// Properties of a metric. Acceptable ranges are from Cubit (15.9, "Metrics for Hexahedral Elements"), except
+/// for `oddy` and the Frobenius aspects, whose ranges are from the Verdict manual.
 struct MetricInfo {
     Metric metric;
     const char* name;
@@ -95,7 +95,7 @@ struct MetricSummary {
 std::vector<MetricSummary> measure_metrics(const mesh::HexMesh& mesh, std::span<const Metric> metrics,
                                            const RunContext& context = {});
 
-/// As above, for a list of cells as for `measure_cells()`.
+/// Measure a list of cells, stored as for `measure_cells()`.
 std::vector<MetricSummary> measure_metrics(std::span<const Vec3> nodes, std::span<const Hex> hexes,
                                            std::span<const Metric> metrics, const RunContext& context = {});
 
@@ -108,8 +108,8 @@ std::vector<double> metric_values(const mesh::HexMesh& mesh, Metric metric, cons
 std::vector<double> metric_values(std::span<const Vec3> nodes, std::span<const Hex> hexes, Metric metric,
                                   const RunContext& context = {});
 
-/// Sum of the cells' `volume` for each layer; the same bits for single layers as for the whole mesh.
-/// Parallel; independent of the number of threads.
+/// Sum of the cells' `volume` for each layer. A layer that is measured alone gives the same bits as in the
+/// whole mesh. Parallel; independent of the number of threads.
 std::vector<double> layer_volumes(const mesh::HexMesh& mesh, const RunContext& context = {});
 /// Mean `volume` of `cells` cells, from the sums of all layers.
 double mean_volume(std::span<const double> layers, std::size_t cells);

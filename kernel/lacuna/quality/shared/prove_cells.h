@@ -16,9 +16,9 @@ struct CellsProof : Proof {
     std::vector<Quad> skin;
 };
 
-/// Prove that cells of any origin are a valid mesh, as `prove()` does for a swept mesh: each side used once
-/// or twice, and then in opposite directions; no quad against triangles; skin closed; no coincident or unused
-/// nodes; every Jacobian certified positive.
+/// Prove that cells of any origin are a valid mesh, as `prove()` does for a swept mesh. Each side is used
+/// once, or twice in opposite directions; no quad lies against triangles; the skin is closed; no nodes
+/// coincide or are unused; every Jacobian is certified positive.
 /// @param cells  hexahedra, and others as for `measure_cells()`.
 /// @throw Cancelled
 /// @note  O(cells) if few sides meet at a node. Independent of the number of threads.

@@ -20,8 +20,8 @@ struct CurvedCell {
     /// Smallest scaled Jacobian at the 27 nodes: the determinant of the derivatives of the map divided by the
     /// product of their lengths; between -1 and 1.
     double scaled_jacobian = 0;
-    /// Smallest Bézier coefficient of the Jacobian divided by their mean, which is the volume of the cell: a
-    /// lower bound of Jacobian / volume [-].
+    /// Smallest Bézier coefficient of the Jacobian divided by the mean of all coefficients, which is the
+    /// volume of the cell: a lower bound of Jacobian / volume [-].
     double bound = 0;
     double volume = 0;     ///< exact [model length³]
     bool positive = false; ///< the Jacobian is positive everywhere
@@ -31,16 +31,17 @@ struct CurvedCell {
 /// hex27 by `mesh::as_hex27()`.
 ///
 /// Algorithm: the Jacobian of a triquadratic map is a polynomial of degree five in each direction. Its 216
-/// Bézier coefficients follow from its values on a grid of 6³ points @cite johnen_2013_curvilinear. All
-/// positive: valid. A corner not positive: invalid. Otherwise the cell is bisected along the most effective
-/// direction until decided, at most `max_depth` times in each direction; undecided: invalid. Coefficients
-/// count as positive above their rounding error.
+/// Bézier coefficients follow from its values on a grid of 6³ points @cite johnen_2013_curvilinear. If all
+/// are positive, the cell is valid; if one at a corner is not positive, it is invalid. Otherwise the cell is
+/// bisected along the most effective direction, at most `max_depth` times in each direction. If this does not
+/// decide, the cell counts as invalid. Coefficients count as positive above their rounding error.
 CurvedCell judge(std::span<const Vec3, 27> nodes, int max_depth = 4);
 
-/// Whether the middle nodes are where linear interpolation puts them, up to rounding: a cell of order 1.
+/// Whether the middle nodes are where linear interpolation puts them, up to rounding. The cell then has the
+/// shape of a cell of order 1.
 bool is_straight(std::span<const Vec3, 27> nodes);
 
-/// Coordinates of all nodes of a cell as those of a hex27, for a mesh of any order.
+/// The node coordinates of a cell of any order, converted to those of a hex27.
 std::array<Vec3, 27> hex27_of(const mesh::HexMesh& mesh, std::size_t cell);
 
 /// Cells of a mesh whose Jacobian is not proved positive everywhere, ascending. Parallel.
@@ -56,7 +57,7 @@ std::optional<CurvedCell> judge_listed(std::span<const Vec3> nodes, const mesh::
 std::vector<std::size_t> invalid_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,
                                        const RunContext& context = {});
 
-/// Measure a list of cells of order 1 and 2; straight cells as cells of order 1, the others with
+/// Measure a list of cells of order 1 and 2: straight cells by their corners, curved cells with
 /// `judge_listed()`.
 /// @param columns  as for `measure_cells()` of hexahedra.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const mesh::CellNodes> cells,

@@ -28,7 +28,7 @@ public:
     [[nodiscard]] Index to(std::size_t side) const { return triangles_[side / 3][(side + 1) % 3]; }
     /// The first side from one point to another; -1: none.
     [[nodiscard]] Index find(Index from, Index to) const;
-    /// The same side in the opposite direction.
+    /// The first side in the opposite direction; -1: none.
     [[nodiscard]] Index across(std::size_t side) const { return find(to(side), from(side)); }
     /// The first side with the same end points as an earlier one; -1: none.
     [[nodiscard]] Index first_repeated() const;

@@ -14,18 +14,19 @@ namespace lacuna::topology {
 /// The patches of a model, indexed for role candidates.
 struct PatchMap {
     std::vector<SmoothPatch> patches;
-    std::vector<std::size_t> of_use;            ///< by use, see `number_of()`; `kNoIndex` for a use without a
-                                                ///< face
+    std::vector<std::size_t> of_use;            ///< patch of each use, at `number_of()` the use; `kNoIndex`
+                                                ///< if no face has the use
     std::vector<EdgeUse> next;                  ///< next use in the face's loop
-    std::vector<std::vector<std::size_t>> at{}; ///< patches by vertex
+    std::vector<std::vector<std::size_t>> at{}; ///< patches at each vertex
 };
 
 inline std::size_t number_of(EdgeUse use) { return 2 * use.edge.index() + (use.reversed ? 1 : 0); }
 
 /// Rules out pairs of ends by Euler numbers, from a few counts of each patch.
 ///
-/// Walls that join ends have no handles, so the Euler number of each part is 2 minus its rims. The Euler
-/// number of the walls that remain when one or two patches become ends lies between two bounds.
+/// Walls that join ends have no handles, so the Euler number of each connected part is 2 minus the number of
+/// its rims. The Euler number of the walls that remain when one or two patches become ends lies between two
+/// bounds.
 class WallTally {
 public:
     /// @param free_loops  number of free loops of all patches.
@@ -41,18 +42,18 @@ public:
     }
     /// Upper bound of a patch's contribution to the sums of `can_hold()`.
     [[nodiscard]] long at_most(std::size_t p) const;
-    /// Whether walls may join two ends without a common vertex.
+    /// Whether Euler numbers permit that walls join two ends, which have no common vertex.
     [[nodiscard]] bool can_hold(std::size_t a, std::size_t b) const;
-    /// The same for one end, whose walls are rings.
+    /// Whether Euler numbers permit that all walls of a single end are rings.
     [[nodiscard]] bool can_hold(std::size_t p) const;
 
 private:
     /// Change of the walls' counts when a patch becomes an end; see `can_hold()`.
     struct Taken {
-        long fans = 0;        ///< reduction of the number of patch fans round vertices
+        long fans = 0;        ///< decrease of the number of fans round vertices; see `count_fans()`
         long vertices = 0;    ///< vertices that no other patch has
         long edges = 0;       ///< edges that no other patch has
-        long contacts = 0;    ///< uses of its edges whose opposite use is another patch's
+        long contacts = 0;    ///< uses of its edges whose opposite use belongs to another patch
         std::size_t part = 0; ///< connected part of the patch
     };
 
@@ -60,7 +61,7 @@ private:
     [[nodiscard]] std::pair<long, long> euler_without(std::size_t p) const;
 
     const PatchMap& map_;
-    std::vector<Taken> taken_; ///< by patch
+    std::vector<Taken> taken_; ///< for each patch
     Taken whole_;              ///< totals over all patches; its `contacts` is the number of free loops
     long euler_ = 0;           ///< sum of the inner Euler numbers of all patches
     std::size_t parts_ = 0;

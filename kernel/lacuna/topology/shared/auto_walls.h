@@ -26,11 +26,12 @@ struct WallChoice {
 /// cavity. Flat faces with the end's normal, such as a ledge or the top of a post, become part of the end,
 /// with a note.
 ///
-/// A void has at most two faces at each edge. Where more than two connected faces share an edge, sheets of
-/// faces (connected by other edges) are taken or left as a whole. Of all maximal choices the one with the
-/// shortest free edges wins, and of equal ones the one that encloses the least volume: the faces nearest to
-/// the void. With one end, free edges must remain for the other. All faces are taken if there are too many
-/// choices to enumerate, if a sheet meets itself at such an edge, or if no choice is valid.
+/// A void has at most two faces at each edge. Where more than two connected faces share an edge, each sheet
+/// (faces connected by other edges) is taken or left as a whole. Of all maximal choices, the one with the
+/// least length of free edges wins. Among equal ones it is the one that encloses the least volume, because
+/// its faces are nearest to the void. If an end is missing, free edges must remain for it. All faces are
+/// taken if there are too many choices to enumerate, if a sheet meets itself at such an edge, or if no choice
+/// is valid.
 /// @throw InvalidInput "topology.walls_ambiguous"  two choices are equally good; names both.
 /// @throw Cancelled
 /// @note  O(faces) if no edge is used more than twice; otherwise exponential in the number of sheets, up to a

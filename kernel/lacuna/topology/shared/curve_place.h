@@ -15,8 +15,8 @@ struct CurvePlace {
 
 /// The point where an edge's exact curve meets the plane that is normal to a chord at a given point of the
 /// chord. Models with different chords thus place a shared vertex at the same point of the exact curve.
-/// @param segment   index of the chord.
-/// @param fraction  of the chord's length, in [0, 1].
+/// @param segment   index of the chord, a segment of the edge's polyline.
+/// @param fraction  position on the chord, in [0, 1].
 /// @pre  the edge has a curve and parameters.
 CurvePlace curve_beside(const Model& model, const Edge& edge, std::size_t segment, double fraction);
 

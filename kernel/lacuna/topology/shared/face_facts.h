@@ -16,7 +16,7 @@ struct FaceFacts {
     std::size_t part = 0;           ///< number of its connected part, from 0
 };
 
-/// By face. O(facets + edges log edges).
+/// The facts of each face. O(facets + edges log edges).
 std::vector<FaceFacts> face_facts(const Model& model);
 
 } // namespace lacuna::topology

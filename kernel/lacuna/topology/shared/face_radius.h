@@ -15,10 +15,11 @@ struct RoundShape {
     [[nodiscard]] bool is_sphere() const { return !axis; }
 };
 
-/// The cylinder or sphere of a face from its facets: the axis of a cylinder is normal to all facet normals;
-/// its circle, or the sphere, is fitted to the corners by least squares.
-/// @return empty if corners are off by more than a hundredth of the radius, as on a plane, a cone or a free
-///         form, if facets meet in a corner, as those of a cube do, and if the file declares another shape.
+/// The cylinder or sphere of a face, from its facets. The axis of a cylinder is normal to all facet normals.
+/// The circle across the axis, or the sphere, is fitted to the corners by least squares.
+/// @return empty if the file declares a plane, a cone or a torus, if all normals are equal, if the facets fit
+///         a cone, if a corner is off the cylinder or sphere by more than a hundredth of the radius, or if
+///         the facets are too few for the shape, as those of a cube are for a sphere.
 std::optional<RoundShape> round_shape(const Model& model, FaceId face);
 
 /// Radius of round_shape() [model length].

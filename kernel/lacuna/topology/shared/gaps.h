@@ -18,7 +18,7 @@ struct Gap {
 /// The gaps between free edges of unconnected parts that are narrow enough to be sewn; the narrowest first,
 /// each pair of edges once. Gaps within one part are not searched.
 /// @throw Cancelled
-/// @note  O(n log n log parts) of n points on free edges.
+/// @note  O(n log n log parts) in the number n of points on free edges.
 std::vector<Gap> gaps(const Model& model, const RunContext& context = {});
 
 /// The loading tolerance that sews a gap: its width rounded up to two digits, with a margin for the rounding

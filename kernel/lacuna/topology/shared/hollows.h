@@ -9,7 +9,7 @@
 
 namespace lacuna::topology {
 
-/// Whether each part of a skin lies inside an odd number of the others. @note O(facets · parts)
+/// For each part of a skin, whether it lies inside an odd number of other parts. @note O(facets · parts)
 std::vector<bool> inner_parts(const Model& model, const std::vector<std::vector<FaceId>>& parts,
                               const RunContext& context = {});
 
@@ -36,9 +36,9 @@ std::vector<Hollow> hollows(const Model& model, const RunContext& context = {});
 /// bore and its counterbore.
 std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows);
 
-/// The faces of the cavity in a closed skin that contains the given faces: their hollows, the hollows that
-/// share a whole rim with these (a counterbore), and faces that stand inside them below the mouths, such as
-/// the top of a post.
+/// The faces of the cavity of a closed skin to which the given faces belong. These are the faces of their
+/// hollows, of hollows joined to them over a whole rim (a counterbore), and faces that stand inside all these
+/// hollows below the mouths, such as the top of a post.
 /// @return ascending; empty if the faces lie in no hollow.
 /// @throw Cancelled
 /// @note  Near linear in facets.

@@ -29,7 +29,7 @@ struct LeftOutBeside {
     std::vector<EdgeId> edges; ///< ascending
 };
 
-/// Faces left out next to `faces`: those with an edge that only one of `faces` uses.
+/// Faces left out next to `faces`: at edges that `faces` use only once.
 /// @return sorted by their first edges.
 /// @note   O(edges). The information is stored with the exact curves, so it also holds in every model that is
 ///         extracted from the loaded one.

@@ -21,11 +21,11 @@ struct SmoothPatch {
     double flatness = 0; ///< length of the summed area vector over the area: 1 for a plane
     double slant = 0;    ///< mean deviation from a right angle to its neighbours, as a share of a right angle
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); ///< sum of area n nᵀ over the facets
-    long corners = 0; ///< sum over its rims, in quarter turns: 4 for a rectangle, 0 for a disc
+    long corners = 0; ///< sum of the turns at its rims' vertices, in quarter turns: 4 for a rectangle
 };
 
-/// Mean angle between the two faces at each edge by their normals, negative at concave edges [degrees]; 0 if
-/// they meet smoothly or are not two. Near linear in the number of facets.
+/// For each edge, the mean angle between the normals of its two faces, negative if the edge is concave
+/// [degrees]; 0 if the edge does not have two different faces. Near linear in the number of facets.
 /// @pre  the model is oriented.
 /// @throw Cancelled
 std::vector<double> folds_across(const Model& model, const RunContext& context);
@@ -35,7 +35,7 @@ std::vector<double> angles_across(const Model& model, const RunContext& context)
 
 /// The patches of all faces of a model, in the order of their first faces. Near linear in the number of
 /// facets.
-/// @param angle  of each edge, by angles_across()
+/// @param angle  angle at each edge, from angles_across()
 /// @pre  the model is oriented.
 /// @throw Cancelled
 std::vector<SmoothPatch> smooth_patches(const Model& model, const std::vector<double>& angle,

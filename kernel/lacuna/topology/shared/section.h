@@ -22,7 +22,7 @@ struct SectionPlace {
 Vec3 place_at(const Model& model, const SectionPlace& place, const geometry::Plane& plane);
 
 /// A chain of places where a plane crosses facets. It is oriented as the boundary of the facets behind the
-/// plane: these are on its left, seen from the side they face.
+/// plane: these facets are on the left of the chain, seen from the side that they face.
 struct SectionWalk {
     std::vector<SectionPlace> places; ///< the first is not repeated in a closed walk
     bool closed = false;
@@ -41,7 +41,7 @@ std::vector<SectionWalk> section_walks(const Model& model, const std::vector<Fac
 /// Result of `imprint_walks()`.
 struct WalkImprint {
     std::vector<std::vector<EdgeUse>> lines; ///< the edges of each walk, in its direction
-    std::vector<FaceId> parent;              ///< by face: the face it was part of; itself if not split
+    std::vector<FaceId> parent;              ///< for each face, the face that it was part of, or itself
 };
 
 /// Split the faces and edges of a model along walks of `section_walks()`.

@@ -13,7 +13,7 @@ namespace lacuna::topology {
 /// Points to be inserted on facet sides, at which facets are then split.
 class SidePoints {
 public:
-    /// Points between `a` and `b`, in that order. If the side already has points, it keeps those.
+    /// Add points between `a` and `b`, in that order. If the side already has points, it keeps them instead.
     void add(Index a, Index b, std::vector<Index> between);
     [[nodiscard]] bool empty() const { return between_.empty(); }
     /// The points between `a` and `b`, in that order; empty if the side is not split.
@@ -36,7 +36,7 @@ struct ParamFacet {
 std::vector<ParamFacet> cut_at_sides(std::span<const Vec3> points, const ParamFacet& facet,
                                      const SidePoints& sides);
 
-/// Remove the facets of a face, with their surface parameters, whose number `gone` accepts.
+/// Remove the facets whose number `gone` accepts from a face, with their surface parameters.
 /// @return whether any was removed.
 bool erase_facets(Face& face, const std::function<bool(std::size_t facet)>& gone);
 

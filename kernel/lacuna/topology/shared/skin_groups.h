@@ -22,8 +22,8 @@ std::vector<std::vector<std::string>> skin_groups(const OpenVolume& volume);
 /// Whether a group is a role group: `source`, `target`, `wall:12` or `void:12`, in any case.
 bool is_role_group(std::string_view group);
 
-/// The groups of a face of one volume among several. Groups of roles get the volume's name in front; others
-/// are listed both with it and without.
+/// The groups of a face of one volume among several. Role groups get the volume's name as a prefix; other
+/// groups are listed with and without the prefix.
 std::vector<std::string> groups_in_assembly(const std::string& volume,
                                             const std::vector<std::string>& groups);
 

@@ -32,16 +32,16 @@ struct EdgeSplit {
 
 /// Split an edge at a fraction of its polyline's length, in the edge's direction.
 ///
-/// The edge keeps its id and tag up to the new vertex. The vertex gets a new point, on the exact curve (if
-/// any) beside that place of its chord, and adjacent facets are split there with interpolated surface
-/// parameters. An inner point of the edge within the tolerance becomes the vertex instead. If an adjacent
-/// face has a given mesh, whose nodes are fixed, the nearest inner point becomes the vertex at any distance.
-/// The loops of all adjacent faces then use both parts, a seam's loop in both directions. A closed edge keeps
-/// its vertex too.
+/// The edge keeps its id and tag up to the new vertex. The vertex gets a new point, that of `curve_beside()`
+/// if the edge has an exact curve, and adjacent facets are split there with interpolated surface parameters.
+/// An inner point of the edge within the tolerance becomes the vertex instead. If an adjacent face has a
+/// given mesh, whose nodes are fixed, the nearest inner point becomes the vertex at any distance. The loops
+/// of all adjacent faces then use both parts, a seam's loop in both directions. A closed edge also keeps its
+/// old vertex.
 ///
 /// @param fraction  in (0, 1).
-/// @throw InvalidInput  a fraction not in (0, 1), or within the tolerance of an end; no inner point although
-///         one is needed; names the edge.
+/// @throw InvalidInput  the fraction is not in (0, 1), or the split is within the tolerance of an end; or an
+///         inner point is needed and the edge has none. Names the edge.
 /// @note  O(facets of the adjacent faces).
 EdgeSplit split_edge(Model& model, EdgeId edge, double fraction);
 
