@@ -350,7 +350,7 @@ private:
                 region.name = "pid:" + std::to_string(region.tag);
     }
 
-    /// Find the sides of elements that segments give by their nodes.
+    /// Find the sides of elements that the segments of sets name by their nodes.
     void find_sides()
     {
         for (const SetCard& card : sets_)
@@ -410,8 +410,8 @@ private:
         return Quad{row[0], row[1], row[2], last};
     }
 
-    /// Call `take(numbers)` for each data line of a set after its head. For a line with other words, no
-    /// numbers are passed.
+    /// Call `take(numbers)` for each data line of a set after its head. A word that is no number is passed as
+    /// -1.
     template <class Take>
     void each_row(const SetCard& card, const Take& take) const
     {

@@ -396,7 +396,7 @@ private:
                  all + numbers_.gap() + "$EndEntities\n";
     }
 
-    /// For each entity and each part that has a share of it, add the entity of that share.
+    /// For each entity and each part that shares it, add an entity for that share.
     void add_part_entities()
     {
         // If entities are numbered over all dimensions together, so are the entities of parts.
@@ -499,7 +499,8 @@ private:
         return out;
     }
 
-    /// Write the elements of a row. Each is its number, the numbers in `middle` and its nodes, of type `Tag`.
+    /// Write the elements of a row. The record of an element consists of its number, the numbers in `middle`,
+    /// and its nodes. Element and node numbers have the type `Tag`.
     template <class Tag>
     void add_elements(const Row& row, const std::vector<int>& middle)
     {

@@ -8,8 +8,8 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kField = 8;       // characters of a small field, which the first and last field of each
-                                        // line always are
+constexpr std::size_t kField = 8;       // characters of a small field; the first and last field of a line are
+                                        // always small
 constexpr std::size_t kLargeField = 16; // characters
 constexpr std::size_t kFields = 8;      // data fields of a line; large ones take two lines
 /// Limit on the number of cards created by replication, plus one for each sixteen bytes of the file. Without

@@ -275,9 +275,10 @@ void WholeFile::reserve(std::uint64_t begin, std::uint64_t end)
 #endif
 }
 
-/// Write some of the bytes. Bypassing the page cache saves a new page for everything that is written. On a
-/// virtual machine that gets its memory piece by piece, each new page costs ten times as much as copying.
-/// Writing 6 GB took 22 s of processor time, and 1.5 s if pages are released as soon as the disk has them.
+/// Write some of the bytes. If a file bypasses the page cache, its pages are reused instead of taking new
+/// ones. On a virtual machine that gets its memory piece by piece, a new page costs ten times as much as
+/// copying one. Writing 6 GB took 22 s of processor time, and 1.5 s if pages are released as soon as the disk
+/// has them.
 ssize_t WholeFile::write_some(std::uint64_t offset, std::string_view bytes)
 {
 #ifdef __linux__
@@ -329,8 +330,8 @@ void WholeFile::publish_unnamed()
     if (link_as(name_)) return;
     if (errno != EEXIST) fail(errno);
     // Linking does not replace an existing file, but renaming does. So the file has a temporary name during
-    // two system calls. Whether an old temporary name was left over is decided by the lock, because process
-    // numbers recur in containers.
+    // two system calls. An old temporary file is left over if it is not locked; process numbers do not tell,
+    // because they recur in containers.
     ::flock(descriptor_, LOCK_EX | LOCK_NB);
     const std::string prefix = replacing_prefix(name_);
     remove_left_over(prefix, [](const LeftOver& file) { return is_abandoned(file.folder, file.name); });
