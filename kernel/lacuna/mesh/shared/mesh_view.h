@@ -191,7 +191,7 @@ struct MeshView {
             }
         }
     };
-    /// One value for each cell, or several.
+    /// A field with one or several values for each cell.
     struct Field {
         std::string name;
         /// Writes the values of the cells [begin, end) of the block with index `block`.
