@@ -10,8 +10,7 @@ namespace lacuna {
 
 namespace {
 
-/// The number of threads is limited to this, or to the number of cores if that is larger. It stops typing
-/// errors.
+/// Limit on the number of threads, or the number of cores if that is larger. It catches typing errors.
 constexpr int kMostThreads = 64;
 
 } // namespace
@@ -23,7 +22,7 @@ void check_cancelled(const RunContext& context)
 
 int thread_count(const RunContext& context)
 {
-    // Querying the number of cores takes longer than a small loop.
+    // Do not query the number of cores if possible: it takes longer than a small loop.
     if (context.threads > 0 && context.threads <= kMostThreads) return context.threads;
     const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return context.threads > 0 ? std::min(context.threads, std::max(cores, kMostThreads)) : cores;

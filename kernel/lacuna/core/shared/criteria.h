@@ -68,8 +68,8 @@ inline constexpr double kFlatShare = kParallel * kParallel / 2;
 /// A quad below this counts as folded (6°). No row may contain one, and no change of connections may create
 /// one.
 inline constexpr double kFoldedQuad = 0.1;
-/// A quad below this counts as flat (9°). Its nodes are moved first, because smoothing hardly improves it
-/// where they are on a boundary.
+/// A quad below this counts as flat (9°). Its nodes are moved before smoothing, which hardly improves a quad
+/// with nodes on a boundary.
 inline constexpr double kFlatQuad = 0.15;
 
 /// A quad below the first value is poor (30°) and gets further attempts; one above the second is good (53°)
@@ -91,8 +91,8 @@ inline constexpr double kVolumeNoted = 2 * kSameVolume;
 
 // Same size, same number
 
-/// Lengths, sizes and numbers of sides count as equal if they differ by less than this share. They then get
-/// the same number of sides.
+/// Lengths, sizes and numbers of sides count as equal if they differ by less than this share. Edges that are
+/// equal in this sense get the same number of sides.
 inline constexpr double kAlikeSizes = 0.01;
 
 /// A number of sides that exceeds a whole number by less than this is rounded down. The value is far above
