@@ -103,7 +103,7 @@ int is_watertight(lua_State* L)
 
 // --- cutting ------------------------------------------------------------------------------------------
 
-/// What cuts a volume.
+/// The surface that cuts a volume: a plane, a face, or one found automatically.
 struct CutArguments {
     const Box<ModelState>* model = nullptr; ///< the volume's own faces; on the stack during the call
     std::optional<geometry::Plane> plane;

@@ -35,8 +35,9 @@ struct ModelState {
     std::vector<std::vector<FaceId>> moves;
 };
 
-/// Bring `model` up to date with what was added.
-/// @throw InvalidInput  the cells of an added face are not connected. Cancelled.
+/// Rebuild `model` if faces were added.
+/// @throw InvalidInput  the cells of an added face are not connected.
+/// @throw Cancelled
 void refresh(ModelState& state, const RunContext& context);
 
 /// The same with the host's context; raises Lua errors.
