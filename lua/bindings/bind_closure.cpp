@@ -129,7 +129,7 @@ void read_cutting_face(lua_State* L, int index, const Where& where, CutArguments
     }
     auto& faces = temporary<std::vector<FaceId>>(L);
     read_faces(L, index, where, *arguments.model, faces);
-    if (faces.size() != 1) fail_option(L, where, "means several faces of the volume; give one");
+    if (faces.size() != 1) fail_option(L, where, "selects several faces of the volume; give one");
     guard(L, [&] {
         arguments.of = *arguments.model;
         arguments.face = faces.front();

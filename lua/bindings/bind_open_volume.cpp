@@ -261,7 +261,7 @@ void read_along_to(lua_State* L, int index, const Where& where, AlongArguments& 
     } else {
         auto& faces = temporary<std::vector<FaceId>>(L);
         read_faces(L, index, where, *roles.model, faces);
-        if (faces.size() != 1) fail_option(L, where, "means several faces; give one");
+        if (faces.size() != 1) fail_option(L, where, "selects several faces; give one");
         guard(L, [&] { roles.of = *roles.model; });
         to.face = faces.front();
     }
