@@ -190,7 +190,7 @@ private:
         if (end) return;
         const std::string name = keyword.value("NAME");
         if (name.empty()) fail("*PART: expected NAME=");
-        if (find_part(name) != nullptr) fail("*PART: a second part {}", shown(name));
+        if (find_part(name) != nullptr) fail("*PART: the part {} is defined twice", shown(name));
         parts_.push_back(std::make_unique<Scope>());
         scope_ = parts_.back().get();
         scope_->name = name;
@@ -215,7 +215,8 @@ private:
         const std::string part = keyword.value("PART");
         instance_part_ = find_part(part);
         if (instance_name_.empty() || instance_part_ == nullptr)
-            fail("*INSTANCE: expected NAME= and the PART= of a part above, found {}", found(shown(part)));
+            fail("*INSTANCE: expected NAME= and, as PART=, a part defined above; found {}",
+                 found(shown(part)));
         rows_.clear();
         mode_ = Mode::instance;
     }
@@ -445,7 +446,7 @@ private:
         // continues on the next line, so each line must be one element, with as many nodes as the first.
         if (further_ < 0) further_ = static_cast<std::ptrdiff_t>(further);
         if (further_ != static_cast<std::ptrdiff_t>(further) || (further > 0 && !from_start))
-            fail("expected {} nodes of {}, or as many in each line as in the first; found another count",
+            fail("expected {} nodes of {}, or the same larger number on each line; found another number",
                  needed(wanted - 1), type_);
         if (further > 0) into_.pass_over_nodes(type_, further);
         if (given_ == wanted) finish_element();
@@ -532,7 +533,7 @@ private:
         Deck& deck = scope.builder.deck();
         for (DeckSet& set : deck.sets) tidy(set);
         const TagPlaces nodes(deck.point_tags, [&](Index, Index second) {
-            main_.fail("{}a second {}", scope.name.empty() ? "" : formatted("part {}: ", scope.name),
+            main_.fail("{}{} is defined twice", scope.name.empty() ? "" : formatted("part {}: ", scope.name),
                        numbered("node", deck.point_tags[index(second)]));
         });
         scope.builder.resolve(
@@ -602,7 +603,8 @@ private:
         deck.instances.push_back({name, scope.name, deck.points.size(), part.points.size(), offset});
         for (std::size_t p = 0; p < part.points.size(); ++p) {
             deck.points.push_back(moved ? Vec3(to * part.points[p]) : part.points[p]);
-            if (!deck.points.back().allFinite()) main_.fail("instance {}: a node is too far away", name);
+            if (!deck.points.back().allFinite())
+                main_.fail("instance {}: coordinates of a node are too large", name);
             deck.point_tags.push_back(part.point_tags[p] + offset);
         }
         const auto first_region = static_cast<Index>(deck.regions.size());

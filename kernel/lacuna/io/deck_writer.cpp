@@ -282,7 +282,7 @@ void check_numbers(const mesh::MeshView& view, DeckTag most, const std::string& 
     };
     if (is_high(view.point_tags, view.points) ||
         std::ranges::any_of(view.blocks, [&](const auto& block) { return is_high(block.tags, block.count); }))
-        throw InvalidInput(Message("io.number_taken", "{} has numbers above {}, more than {} holds",
+        throw InvalidInput(Message("io.number_taken", "{} has numbers above {}, the highest that {} allows",
                                    view.source, needed(most), format)
                                .remedy("{}", remedy));
 }

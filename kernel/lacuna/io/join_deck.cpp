@@ -68,7 +68,7 @@ public:
         const auto [tag, region] = *inside_.begin();
         const std::string name = region >= 0 ? deck_.regions[index(region)].name : std::string();
         log_line(context,
-                 formatted("note: the mesh lies over {} of the deck's elements, such as element {}{}; "
+                 formatted("note: the mesh overlaps {} of the deck's elements, such as element {}{}; "
                            "the option 'without' leaves them out",
                            inside_.size(), tag, name.empty() ? "" : " of " + name));
     }

@@ -330,7 +330,7 @@ private:
         };
         CardReader{[](DeckTag) {}, count}.read(deck_);
         for (const auto& [card, times] : cards)
-            found_.kept.notes.push_back(formatted("note: {}: {} names nodes or elements that are left out, "
+            found_.kept.notes.push_back(formatted("note: {}: {} names nodes or elements that are left out: "
                                                   "{} times. The cards are kept unchanged: edit them by hand",
                                                   deck_.path, card, times));
     }
@@ -407,9 +407,8 @@ Deck close_gap(Deck deck, const RunContext& context)
         for (const DeckSet& set : gone->sets)
             if (std::abs(deck.gap.replaced[{set.kind, set.name}] - 1) > kSameArea) lost.push_back(set.name);
     if (!lost.empty())
-        log_line(context,
-                 formatted("note: {}: these sets lost members that no mesh has replaced, or only in part: {}",
-                           deck.path, listed(lost)));
+        log_line(context, formatted("note: {}: these sets lost members that no mesh fully replaced: {}",
+                                    deck.path, listed(lost)));
     std::erase_if(lost, [&](const std::string& name) {
         return std::ranges::any_of(deck.sets, [&](const DeckSet& set) { return same_word(set.name, name); });
     });

@@ -456,9 +456,8 @@ private:
         if (!cards.empty())
             log_line(
                 context_,
-                formatted(
-                    "note: the numbers of {} stay as they are: no node and no cell of {} is added to them",
-                    listed(cards), volume_));
+                formatted("note: the members of {} are unchanged: no node and no cell of {} is added to them",
+                          listed(cards), volume_));
     }
 
     void tell_names() const
@@ -467,8 +466,8 @@ private:
         for (const auto& [wanted, name] : renamed_)
             names.push_back(formatted("its group {} is called {}", wanted, name));
         if (!names.empty())
-            log_line(context_,
-                     formatted("note: {}: names that other sets have: {}", volume(), listed(names)));
+            log_line(context_, formatted("note: {}: renamed, because other sets have these names: {}",
+                                         volume(), listed(names)));
     }
 
     void add_skin_cells()
@@ -624,8 +623,8 @@ private:
             }
             log_line(
                 context_,
-                formatted("{}{}: its material is {}, that of {} beside it{}; open_volume's material says "
-                          "another",
+                formatted("{}{}: its material is {}, that of {} beside it{}; to use another, set the option "
+                          "material of open_volume",
                           lost.empty() ? "" : "note: ", volume(), material_, added_.neighbour,
                           lost.empty() ? ""
                                        : formatted(", while elements that were left out have {}",

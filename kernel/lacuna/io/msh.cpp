@@ -357,9 +357,10 @@ private:
                    topology::is_role_group(name.substr(name.find(':') + 1));
         });
         if (view_->source.empty() || lost.empty()) return;
-        file_.changed = formatted("an element is in one group, so that {} {} elements that are in others "
-                                  "too; groups = \"all\" keeps them",
-                                  full_list(lost, std::identity()), lost.size() > 1 ? "lack" : "lacks");
+        file_.changed = formatted(
+            "each element is written in one group only: {} {} elements that are also in "
+            "others; groups = \"all\" keeps them",
+            full_list(lost, std::identity()), lost.size() > 1 ? "lack" : "lacks");
     }
 
     void open(const char* version)

@@ -296,7 +296,7 @@ bool BulkData::take_fields(const DeckPlace& place)
         begin_card(name, place);
     } else {
         if (!open_ || (card_use_ != CardUse::keep && is_named(marker_)))
-            place.fail("expected a complete card right above = to repeat");
+            place.fail("expected a complete card right above = for it to repeat");
         begin_replica(place);
         steps_.clear();
     }
