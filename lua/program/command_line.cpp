@@ -36,7 +36,7 @@ const char* const kOptionHelp = R"(
   --quiet                 do not show progress
   --timing FILE           write the seconds of each stage as a line of JSON to FILE; - for standard error
   --traceback             print the calls of the recipe that led to an error
-  --threads N             threads of recipes that set none; default all cores, with -j divided among the recipes
+  --threads N             threads of recipes that set none; default all cores, shared by recipes with -j
   --history FILE          file for the history of the prompt; default $LACUNA_HISTORY, otherwise none
   --sandbox               no os, io or bytecode; memory and time are limited; no file can be written
     --output-dir FOLDER   ... except below this folder
