@@ -10,7 +10,8 @@ namespace lacuna {
 
 namespace {
 
-/// Limit on the number of threads, or the number of cores if that is larger. It catches typing errors.
+/// The number of threads is limited to this, or to the number of cores if that is larger. The limit guards
+/// against mistyped numbers.
 constexpr int kMostThreads = 64;
 
 } // namespace

@@ -650,7 +650,7 @@ private:
             global.sections.clear();
             finish_scope(global);
             if (sections) into_.pass_over("sections of the assembly");
-            // Add the nodes and sets of the assembly itself. The members of its sets already have the raised
+            // Add the nodes and sets of the assembly itself. The members of its sets already have the offset
             // numbers.
             std::vector<DeckSet> sets = std::move(global.builder.deck().sets);
             global.builder.deck().sets.clear();

@@ -19,8 +19,8 @@ namespace {
 /// More than the length of any double with 17 decimals, even after `with_point()` inserts a point.
 constexpr std::size_t kRoom = 400;
 
-/// Convert the output of to_chars() to a number with a point and a short exponent. The exponent follows
-/// `e_letter`, or is only its sign and digits if `e_letter` is 0.
+/// Convert the output of to_chars() to a number with a decimal point and a short exponent. The exponent
+/// follows `e_letter`, or is only its sign and digits if `e_letter` is 0.
 std::size_t with_point(char* text, std::size_t length, std::size_t width, char e_letter)
 {
     std::string_view all(text, length);

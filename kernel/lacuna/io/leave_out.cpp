@@ -30,8 +30,8 @@ bool is_part(const DeckSet& set, std::string_view name)
     return set.kind == DeckSet::Kind::elements && same_word(set.name, name);
 }
 
-/// A Nastran card that names nodes or elements by number. `fields` lists the fields that do, numbered as in
-/// the manuals; 0 stands for the fields of continuation lines.
+/// A Nastran card that refers to nodes or elements. `fields` lists the fields with their numbers, counted as
+/// in the manuals; 0 stands for all fields of continuation lines.
 struct NamingCard {
     std::string_view name, fields;
     bool nodes, elements;

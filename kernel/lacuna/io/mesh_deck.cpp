@@ -472,8 +472,8 @@ private:
 
     void add_skin_cells()
     {
-        // In UNV each skin element needs a property, in MSH one group. In other formats the skin has groups
-        // only.
+        // Region of a skin element. In UNV each skin element needs a property, in MSH exactly one group;
+        // other formats have no region for skin elements.
         const auto region_of = [&](std::size_t i) {
             if (options_.format != DeckFormat::msh) return unv() ? region_ : -1;
             const auto& groups = mesh_.patches[index(parts_.patch(i))].groups;
