@@ -5,8 +5,8 @@ source = { url = "git+file://." }  -- luarocks make lua/lacuna-scm-1.rockspec, i
 description = {
   summary = "Swept hexahedra for open volumes",
   detailed = [[
-Fills open volumes with hexahedra: takes the faces there are, makes those that are missing, and sweeps.
-CAD files are read by the program lacuna-cad, which the environment variable LACUNA_CAD names.]],
+Meshes open volumes with hexahedra: it generates the missing faces, then sweeps the volume.
+CAD files are read by the program lacuna-cad; the environment variable LACUNA_CAD gives its path.]],
   license = "MIT",
 }
 dependencies = { "lua >= 5.4, < 5.5" }

@@ -263,7 +263,8 @@ void read_pair_gap(lua_State* L, int index, const Where& where, Pair& pair)
 }
 void ignore(lua_State*, int, const Where&, Pair&) {}
 
-/// The last ones are what `contacts` tells beside them.
+/// The options from `least` on are ignored. The tables that `contacts()` returns have them, and can be passed
+/// as pairs.
 const Option<Pair> kPairOptions[] = {
     {"a", read_region<0>},
     {"b", read_region<1>},
@@ -293,7 +294,7 @@ void read_pairs(lua_State* L, int index, const Where& where, fill::ContactReques
                });
 }
 
-/// Pairs take the gap and the type that come before them.
+/// `pairs` is read last: a pair without a gap or a type takes those of the request.
 const Option<fill::ContactRequest> kContactOptions[] = {
     {"gap", read_request_gap},
     {"type", word<&fill::ContactRequest::tied, kContactTypes>},

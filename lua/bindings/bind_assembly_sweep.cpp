@@ -15,11 +15,11 @@ namespace lacuna::lua {
 
 namespace {
 
-/// Whether a key is the option that is not one of single volumes.
+/// Whether a key is `contacts`, the only option that single volumes do not have.
 bool is_contacts(lua_State* L, int key) { return std::string_view(lua_tostring(L, key)) == "contacts"; }
 
 /// Push the options of one volume: those for all volumes, which have words as keys, overridden by those at
-/// [volume]. The member learns which options that name faces are its own.
+/// [volume]. `member` records whether the options that name faces are given for this volume itself.
 void push_options_of(lua_State* L, int index, const Box<VolumeState>& volume, fill::Member& member)
 {
     lua_newtable(L);

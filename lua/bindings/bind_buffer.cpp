@@ -18,7 +18,7 @@ static_assert(sizeof(Index) == 4, "hosts are told of int32");
 
 BufferState of_wholes(std::vector<Index> numbers, std::size_t columns)
 {
-    static constexpr Index kNone = 0; // address for an empty buffer: any but null marks whole numbers
+    static constexpr Index kNone = 0; // data of an empty buffer; null would mean real numbers
     const auto kept = std::make_shared<const std::vector<Index>>(std::move(numbers));
     return {kept, nullptr, kept->empty() ? &kNone : kept->data(), kept->size(), columns};
 }
@@ -177,7 +177,7 @@ int field(lua_State* L)
     return 1;
 }
 
-/// As `field()`, by the corners of the cells.
+/// The same for the mesh of an assembly.
 int assembly_field(lua_State* L)
 {
     lua_settop(L, 3);

@@ -45,7 +45,6 @@ int write_cad(lua_State* L)
 
 } // namespace
 
-/// Push the version of Gmsh.
 int gmsh_version(lua_State* L)
 {
     push_text(L, [] { return cad::gmsh_version(); });

@@ -103,7 +103,7 @@ int is_watertight(lua_State* L)
 
 // --- cutting ------------------------------------------------------------------------------------------
 
-/// What cuts a volume.
+/// The surface that cuts a volume: a plane, a face, or one found automatically.
 struct CutArguments {
     const Box<ModelState>* model = nullptr; ///< the volume's own faces; on the stack during the call
     std::optional<geometry::Plane> plane;
@@ -129,7 +129,7 @@ void read_cutting_face(lua_State* L, int index, const Where& where, CutArguments
     }
     auto& faces = temporary<std::vector<FaceId>>(L);
     read_faces(L, index, where, *arguments.model, faces);
-    if (faces.size() != 1) fail_option(L, where, "means several faces of the volume; give one");
+    if (faces.size() != 1) fail_option(L, where, "selects several faces of the volume; give one");
     guard(L, [&] {
         arguments.of = *arguments.model;
         arguments.face = faces.front();

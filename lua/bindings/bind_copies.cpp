@@ -33,7 +33,7 @@ void read_translate(lua_State* L, int index, const Where& where, CopyArguments& 
     set_motion(L, where, arguments, Eigen::Affine3d(Eigen::Translation3d(read_vector(L, index, where))));
 }
 
-/// A point and a direction, the first two of the elements at `index`.
+/// Read a point and a direction: the first two of the `count` elements of the array at `index`.
 std::pair<Vec3, Vec3> read_point_and_direction(lua_State* L, int index, const Where& where, std::size_t count,
                                                const char* expected)
 {

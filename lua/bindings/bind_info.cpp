@@ -32,7 +32,7 @@ std::string place(const Vec3& p, double scale)
     return text + ")";
 }
 
-/// The tags of faces, the first of long lists.
+/// The tags of faces; of a long list the first `most` tags and the number of all.
 std::string tags(const topology::Model& model, const std::vector<FaceId>& faces, std::size_t most)
 {
     std::string text;
@@ -43,7 +43,7 @@ std::string tags(const topology::Model& model, const std::vector<FaceId>& faces,
     return text;
 }
 
-/// "cylinder, radius 3", "discrete, a cylinder of radius 3".
+/// "cylinder of radius 3", "discrete, a cylinder of radius 3".
 std::string shape(const topology::Model& model, const Info& info, std::size_t face)
 {
     const std::string& kind = model.faces[face].kind;
@@ -80,7 +80,7 @@ void write_face(std::ostream& out, const topology::Model& model, const Info& inf
     out << "; " << closure::use_of(info, id) << '\n';
 }
 
-/// Faces alike in shape, size and use, one line a group.
+/// Write the faces with equal shape, size and use as one line.
 void write_groups(std::ostream& out, const topology::Model& model, const Info& info)
 {
     std::map<std::string, std::vector<FaceId>> groups;

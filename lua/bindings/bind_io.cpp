@@ -235,7 +235,7 @@ struct JoinedMesh {
 };
 
 /// The decks of `with` without the parts of `without`, joined with the meshes that fill their voids.
-/// @param before  gets where the meshes are in it
+/// @param before  returns the positions of the meshes in the joined deck
 io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& arguments,
                      io::JoinedBefore& before, const RunContext& context)
 {
@@ -319,7 +319,7 @@ const io::Format& format_of(const std::string& path, const WriteArguments& argum
                            .remedy("leave it out"));
 }
 
-/// The scaled Jacobian of some cells: the value that the proof kept, otherwise computed.
+/// The scaled Jacobian of some cells: the value stored when the mesh was certified, otherwise computed.
 void copy_scaled_jacobians(const sweep::Swept& swept, std::span<const std::uint32_t> cells, double* out)
 {
     const std::vector<float>* kept = swept.quality.of_cells.get();
@@ -374,8 +374,8 @@ int write(lua_State* L)
     return 0;
 }
 
-/// The deck of an assembly's mesh, joined with the decks whose voids it fills. Periodic pairs of `arguments`
-/// are of the deck's points.
+/// The deck of an assembly's mesh, joined with the decks whose voids it fills. The periodic pairs in
+/// `arguments` then refer to points of that deck.
 io::Deck joined_deck(const fill::FilledParts& state, WriteArguments& arguments, const RunContext& context)
 {
     for (const Box<ModelState>& model : arguments.with) refresh(*model, context);

@@ -43,7 +43,7 @@ void read_flip(lua_State* L, int index, const Where& where, MatchOptions& option
     });
 }
 
-// Vertices go by tag, loops by number: loops count from 1 here and from 0 in the kernel.
+// Vertices are given by tag and loops by number. Loops are numbered from 1 here and from 0 in the kernel.
 const Option<MatchOptions> kMatchOptions[] = {
     {"method", word<&MatchOptions::method, kMatchingMethods>},
     {"vertices", read_pairs<&MatchOptions::vertices, 0>},

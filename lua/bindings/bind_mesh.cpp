@@ -76,7 +76,7 @@ int node(lua_State* L)
     return 3;
 }
 
-/// n1, ..., n8 = mesh:hex(i): the corners, of cells of any order
+/// n1, ..., n8 = mesh:hex(i): the corners, also of cells of order 2
 int hex(lua_State* L)
 {
     lua_settop(L, 2);

@@ -167,7 +167,8 @@ void read_along_vector(lua_State* L, int index, const Where& where, AlongArgumen
     set_course<Along::Vector>(L, where, arguments).way = read_vector(L, index, where);
 }
 
-/// Read a path around a line, given by an array of `size` elements: a point, a direction and the others.
+/// Read a path around a line from an array of `size` elements: a point, a direction, and values that the
+/// caller reads.
 template <class Course>
 Course& read_line(lua_State* L, int index, const Where& where, AlongArguments& arguments, std::size_t size,
                   const char* expected)
@@ -260,7 +261,7 @@ void read_along_to(lua_State* L, int index, const Where& where, AlongArguments& 
     } else {
         auto& faces = temporary<std::vector<FaceId>>(L);
         read_faces(L, index, where, *roles.model, faces);
-        if (faces.size() != 1) fail_option(L, where, "means several faces; give one");
+        if (faces.size() != 1) fail_option(L, where, "selects several faces; give one");
         guard(L, [&] { roles.of = *roles.model; });
         to.face = faces.front();
     }
@@ -423,7 +424,7 @@ int free_edges(lua_State* L)
     const topology::Model& model = state.volume.model;
     auto& edges = temporary<std::vector<EdgeId>>(L);
     guard(L, [&] { edges = topology::free_edges(state.volume); });
-    // A finalizer may close the volume, which moves its edges: no reference to one is kept.
+    // Keep no reference to an edge: a finalizer may close the volume, which moves its edges.
     push_array(L, edges, [&](EdgeId edge) { push_edge(L, model, edge); });
     return 1;
 }

@@ -91,7 +91,7 @@ int quad_mesh_node(lua_State* L)
     return 3;
 }
 
-/// n1, ..., n4 = mesh:quad(i): the corners, of quads of any order
+/// n1, ..., n4 = mesh:quad(i): the corners, also of quads of order 2
 int quad_mesh_quad(lua_State* L)
 {
     lua_settop(L, 2);

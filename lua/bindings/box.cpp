@@ -25,7 +25,8 @@ const char kTemporaryKey = 0;
 const char kShareKey = 0;
 
 /// The ring's `__gc`. Lua finalizes objects in the reverse order of their creation, so all other objects of
-/// the bindings were finalized before. Those made meanwhile are still in the ring.
+/// the bindings were finalized before. Objects that their finalizers made are still in the ring and are
+/// destroyed here.
 int empty_ring(lua_State* L)
 {
     auto& ring = *static_cast<Living*>(lua_touserdata(L, 1));
@@ -89,7 +90,8 @@ int call_on_text(lua_State* L)
     return lua_gettop(L);
 }
 
-/// error:find(...) and the like, as if it were its text. Upvalue: the table `string`.
+/// Lets recipes call methods of strings, such as error:find(...), on an error, which then acts as its text.
+/// Upvalue: the table `string`.
 int error_index(lua_State* L)
 {
     lua_settop(L, 2);
@@ -211,7 +213,7 @@ int index_class(lua_State* L)
     lua_settop(L, 2);
     if (lua_type(L, 2) != LUA_TSTRING)
         fail_as(L, "lua.unknown_field", "a %s is not an array", lua_tostring(L, lua_upvalueindex(1)));
-    // The names of both lists, to find the nearest.
+    // Collect the names of methods and fields, to find the nearest one.
     lua_newtable(L);
     for (int list : {lua_upvalueindex(2), lua_upvalueindex(3)}) {
         for (lua_pushnil(L); lua_next(L, list); lua_pop(L, 1)) {

@@ -38,11 +38,11 @@ inline constexpr const char* kClassName = nullptr;
 
 /// Raise the message on top of the stack, a string, with the recipe's file and line.
 [[noreturn]] void raise(lua_State* L, const char* code);
-/// Raise a message put together as by lua_pushfstring, with the code "lua.invalid_input".
+/// Raise a message formatted as by lua_pushfstring, with the code "lua.invalid_input".
 [[noreturn]] void fail(lua_State* L, const char* format, ...);
 /// The same with a code of its own.
 [[noreturn]] void fail_as(lua_State* L, const char* code, const char* format, ...);
-/// Push the words for "what was found": `-3`, `"abc"`, `a table`, `a Face`, `nothing`.
+/// Push a description of the value at `index` for messages: `-3`, `"abc"`, `a table`, `a Face`, `nothing`.
 const char* push_found(lua_State* L, int index);
 
 // --- values of C++ inside userdata --------------------------------------------------------------------
@@ -65,7 +65,7 @@ struct Living {
 };
 
 /// The state's ring, made at its first use, before any object of the bindings that Lua finalizes. Raises an
-/// error once the ring has been emptied; only finalizers older than the bindings run then.
+/// error once the ring has been emptied; then only finalizers that were set before the first use still run.
 Living& ring(lua_State* L);
 void put_in(Living& ring, Living& value) noexcept;
 
@@ -109,7 +109,7 @@ T& push_held(lua_State* L)
     return held->value;
 }
 
-/// A default-made T on the stack that Lua destroys when it collects it.
+/// Push a default-constructed T, which Lua destroys when it collects it.
 template <class T>
 T& temporary(lua_State* L)
 {
@@ -134,10 +134,10 @@ T& temporary_at(lua_State* L, int index)
 
 // --- the guard --------------------------------------------------------------------------------------
 
-/// Thrown out of kernel code by a Lua function it called back; the Lua error waits in the registry.
+/// Thrown through kernel code if a Lua function that it called has failed; the registry keeps the Lua error.
 struct CallbackFailed {};
 
-/// What went wrong inside a guard, kept where no longjmp can lose it.
+/// The error of a guarded call. It is a temporary(), so that a longjmp cannot skip its destructor.
 struct Failure {
     std::string message, code, remedy;
     std::vector<NamedEntity> entities; ///< that the message names
@@ -187,7 +187,7 @@ void guard(lua_State* L, Body&& body)
     lua_pop(L, 1);
 }
 
-/// Push the string `make` returns.
+/// Push the string that `make` returns.
 template <class Make>
 void push_text(lua_State* L, Make&& make)
 {

@@ -35,11 +35,12 @@ struct ModelState {
     std::vector<std::vector<FaceId>> moves;
 };
 
-/// Bring `model` up to date with what was added.
-/// @throw InvalidInput  the cells of an added face are not connected. Cancelled.
+/// Rebuild `model` if faces were added.
+/// @throw InvalidInput  the cells of an added face are not connected.
+/// @throw Cancelled
 void refresh(ModelState& state, const RunContext& context);
 
-/// The same with the host's context; raises Lua errors.
+/// refresh() with the host's context. Raises Lua errors.
 void bring_up_to_date(lua_State* L, ModelState& state);
 /// The Model at `index`, held and brought up to date.
 const Box<ModelState>& hold_model(lua_State* L, int index);
@@ -50,7 +51,7 @@ struct FaceHandle {
     std::size_t moves = 0; ///< number of the model's `moves` at that time
 };
 
-/// The present id of a handle's face; not valid: the face has become part of another.
+/// The current id of a handle's face; invalid if the face has become part of another.
 FaceId face_now(const FaceHandle& handle);
 /// The same, for a face that must exist.
 /// @throw InvalidInput "lua.face_grown_over"  the face has become part of another.

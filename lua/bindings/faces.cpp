@@ -260,7 +260,7 @@ void append(lua_State* L, const Where& where, const topology::Model& model, std:
     });
 }
 
-/// Push " (did you mean ...?)" with the face's name that is nearest; nothing where no name is near.
+/// Push " (did you mean ...?)" with the nearest name of a face; an empty text if no name is near.
 const char* push_meant_name(lua_State* L, const topology::Model& model, const char* wanted)
 {
     push_text(L, [&] {

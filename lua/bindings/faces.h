@@ -34,7 +34,7 @@ struct Selector {
 
 void read_selector(lua_State* L, int index, const char* call, Selector& selector);
 
-/// Faces a selector picks, in the model's order.
+/// The faces that a selector picks, in the model's order.
 std::vector<FaceId> select(const topology::Model& model, const Selector& selector);
 
 /// Mark the empty array on top of the stack as the result of the selector at `selector`. While the array is
@@ -50,8 +50,8 @@ void read_faces(lua_State* L, int index, const Where& where, const Box<ModelStat
 /// A plane { point, normal }.
 geometry::Plane read_plane(lua_State* L, int index, const Where& where);
 
-/// Grow a face by the options of face_from at `index`, which replaces the model. Leaves temporaries on the
-/// stack. @pre the model is up to date.
+/// Grow a face with the options of face_from at `index`, and replace the model by one with that face. Leaves
+/// temporaries on the stack. @pre the model is up to date.
 FaceId grow_face(lua_State* L, int index, const Box<ModelState>& model);
 
 /// Unit mean normal of the facets; zero if they cancel, as around a whole tube.

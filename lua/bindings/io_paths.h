@@ -11,13 +11,14 @@ namespace lacuna::lua {
 
 struct Host;
 
-/// Where a recipe may write `path`: the path itself, or, in the sandbox, the place below the output folder.
-/// @throw InvalidInput  outside the output folder, or the sandbox has none.
+/// The place where a recipe may write `path`: the path itself or, in the sandbox, the place below the output
+/// folder.
+/// @throw InvalidInput  the path leads out of the output folder, or the sandbox has no output folder.
 io::OutputPath output_path(const Host& host, const std::string& path);
-/// Refuse to read scripts, in the sandbox.
+/// In the sandbox, refuse to read scripts.
 void check_input_path(const Host& host, const std::string& path);
 
-/// Read the path at `index`; its output_path() as a temporary.
+/// Push the output_path() of the path at `index`, as a temporary.
 const io::OutputPath& push_output_path(lua_State* L, int index, const char* call);
 
 } // namespace lacuna::lua

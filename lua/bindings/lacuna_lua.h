@@ -17,23 +17,24 @@ extern "C" __attribute__((visibility("default"))) int luaopen_lacuna(lua_State* 
 
 namespace lacuna::lua {
 
-/// What the program around the interpreter lends to the bindings. A stock interpreter lends nothing.
+/// Services that the program around the interpreter provides to the bindings. A stock interpreter provides
+/// none.
 struct Host {
     const std::atomic<bool>* cancel = nullptr;              ///< set by the host to stop kernel work
     std::function<void(std::string_view)> log;              ///< notes of the kernel, a line each
     std::function<void(std::string_view, double)> progress; ///< stage, share in [0, 1]
     std::function<void()> ended;                            ///< called when the stage reported last has ended
     mutable bool in_stage = false;                          ///< a stage was reported and has not ended
-    int threads = 0;                                        ///< default for calls that ask for no number; 0:
-                                                            ///< all cores
+    int threads = 0;                                        ///< default number of threads of a call; 0: all
+                                                            ///< cores
     const Crew* crew = nullptr;                             ///< processes that help; null: there are none
     bool sandboxed = false;                                 ///< files are written below `output_folder` only
     std::shared_ptr<const io::Folder> output_folder;        ///< null with `sandboxed`: nothing is written
 };
 
-/// Lend `host` to the state; the host keeps it alive as long as the state. Call before luaopen_lacuna.
+/// Give the state its host, which must live as long as the state. Call before luaopen_lacuna.
 void set_host(lua_State* L, const Host* host);
-/// The host lent, or one that lends nothing.
+/// The host of the state, or one that provides nothing.
 const Host& host(lua_State* L);
 
 /// Registry field that is true once the recipe has called lacuna.params().

@@ -49,7 +49,7 @@ int found_from_lua(lua_State* L)
     return 1;
 }
 
-/// used_params(): the recipe has read the words of the command line.
+/// used_params(): record that the recipe has read the words of the command line.
 int used_params_from_lua(lua_State* L)
 {
     lua_pushboolean(L, 1);

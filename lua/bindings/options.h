@@ -15,13 +15,14 @@
 
 namespace lacuna::lua {
 
-/// Where a value was handed over: the call, and the option's name (null for an argument by itself).
+/// The source of a value, for messages: the call, and the option's name (null for an argument that is no
+/// option).
 struct Where {
     const char* call;
     const char* key;
 };
 
-/// Push "sweep: option 'layers'", or "sweep: the argument" where there is no key.
+/// Push "sweep: option 'layers'", or "sweep: the argument" if there is no key.
 const char* push_subject(lua_State* L, const Where& where);
 /// "sweep: option 'layers' must be a positive whole number, found -3".
 [[noreturn]] void fail_value(lua_State* L, const Where& where, const char* expected, int index);
@@ -146,7 +147,8 @@ void vector(lua_State* L, int i, const Where& where, Options& o)
 
 // --- nearest names ----------------------------------------------------------------------------------
 
-/// The string nearest to `word` in the array at `index`; equally near ones by alphabet.
+/// The string nearest to `word` in the array at `index`; of equally near ones the first in alphabetical
+/// order.
 const char* nearest_in_table(lua_State* L, int index, const char* word);
 
 } // namespace lacuna::lua

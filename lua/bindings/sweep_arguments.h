@@ -19,7 +19,7 @@ struct SweepArguments : sweep::SweepOptions {
 
 /// Read the options at `index`, nil or a table, of the method `call`, as a temporary. Leaves the functions
 /// that sizes call on the stack.
-/// @param volume  the volume whose faces selectors choose; it outlives what is returned.
+/// @param volume  the volume whose faces selectors choose; must outlive the result.
 SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, const VolumeState& volume);
 
 /// Options of model:quads.

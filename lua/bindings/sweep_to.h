@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the sweeps of volumes and of assemblies share, with and without a file.
+// Common parts of the sweeps of volumes and of assemblies, with and without a file.
 
 #include "bindings/classes.h"
 #include "bindings/write_mesh.h"

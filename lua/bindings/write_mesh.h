@@ -14,8 +14,7 @@ namespace lacuna::lua {
 struct WriteArguments;
 
 /// Read the options of mesh:write at `index`, nil or a table, for a file that is written a layer at a time;
-/// as a temporary.
-/// Refuses endings and options that such files do not have.
+/// as a temporary. Refuses file extensions and options that such files do not have.
 WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath& path);
 
 /// Whether the mesh of an assembly is written a layer at a time; its parts then need not hold their nodes.

@@ -430,8 +430,8 @@ void Interpreter::State::call(int arguments, int results, bool is_run)
     lua_insert(lua, base);
     const int status = lua_pcall(lua, arguments, results, base);
     lua_remove(lua, base);
-    // A stop was requested during the last instructions, or the recipe caught the error: the run is
-    // incomplete.
+    // The run is incomplete: a stop was requested during its last instructions, or the recipe caught the
+    // error.
     if (is_run && (thrown || stop)) {
         lua_settop(lua, base - 1);
         const bool limited = why == Why::instructions;

@@ -63,7 +63,7 @@ typedef struct lacuna_options {
 } lacuna_options;
 
 /* A function of the host that recipes call with `count` numbers, 16 at most: a size function, for example.
- * Returns how many of the `room` for results it has set. Below 0: it failed, an error of the recipe. */
+ * It sets at most `room` results and returns their number; below 0: it failed, an error of the recipe. */
 typedef int (*lacuna_function)(void* user, const double* arguments, size_t count, double* results,
                                size_t room);
 

@@ -29,7 +29,7 @@ end
 -- Limit on the facets of a synthetic volume; more are a mistake, or belong in a file.
 local most_facets = 2e7
 
--- Refuse a rim that alone would exceed the limit, before it is made.
+-- Refuse a boundary that would exceed the limit by itself, before it is generated.
 local function check_rim(call, points, options)
   if not (2 * points <= most_facets) then
     fail(call, "the walls would have %.3g facets, the limit is %.3g; reduce %s", 2 * points,
@@ -238,8 +238,8 @@ local function axis(height, bend)
   end
 end
 
--- Number of rows of facets along a curved axis: as long as the facets of the section, with at most five
--- degrees each.
+-- Number of rows of facets along a curved axis. Each row is as long as the facets of the section, and turns
+-- by at most five degrees.
 local function levels_for(length, segment, turn)
   return math.max(1, math.ceil(length / segment), math.ceil(math.abs(turn) / 5))
 end

@@ -33,16 +33,16 @@ const char* const kHelp = R"(usage: lacuna [option ...] RECIPE [key=value ...]
 
 const char* const kOptionHelp = R"(
   --verbose               print the notes of the kernel on standard error
-  --quiet                 print no progress (by default a line on a terminal, else one every 5 seconds)
-  --timing FILE           write the seconds by stage as a line of JSON to FILE; - for standard error
+  --quiet                 do not show progress
+  --timing FILE           write the seconds of each stage as a line of JSON to FILE; - for standard error
   --traceback             print the calls of the recipe that led to an error
-  --threads N             threads for recipes that set none; default all cores, with -j a share of them
-  --history FILE          keep the lines typed at the prompt; default $LACUNA_HISTORY, else none
+  --threads N             threads of recipes that set none; default all cores, shared by recipes with -j
+  --history FILE          file for the history of the prompt; default $LACUNA_HISTORY, otherwise none
   --sandbox               no os, io or bytecode; memory and time are limited; no file can be written
     --output-dir FOLDER   ... except below this folder
     --memory MB           default 2048
     --seconds S           default 300
-  --version, --help       COMMAND --help explains a command
+  --version, --help       COMMAND --help describes a command
 
 exit codes: 0 done, 1 the recipe failed, 2 bad usage, 130 interrupted, 143 terminated
 )";
@@ -62,32 +62,32 @@ const Command kCommands[] = {
      R"(
 Reads CAD, facets or a finite element mesh, and prints one line for each face: its tag (the same as in
 Gmsh), type, dimensions, area, centre, normal, box, edges, neighbours and likely role. Then it lists free
-edges, gaps and the tolerance that sews them, pockets and bores and, if they can be determined, the roles
+edges, gaps and the tolerance that closes them, pockets and bores and, if they can be determined, the roles
 and the class of the open volume. Recipes name faces by these tags:
 part:open_volume { source = 12, target = 31 }.
 
   --json   print the result of model:info(), with file =, class =, roles = or roles_refused =, for scripts
 )"},
-    {"view", "FILE", 1, "--faces", "make a page of its cells or faces, for a browser",
+    {"view", "FILE", 1, "--faces", "write an HTML page of a file's cells or faces",
      R"(
 Writes FILE.view.html into the current folder, for any file that can be read. The page is self-contained:
-open it in a browser. A mesh or deck with solid cells is shown as cells, which can be cut and coloured; any
+open it in a browser. A mesh or deck with solid elements is shown as cells, which can be cut and coloured; any
 other file as faces, which can be selected and copied as roles.
 
-  --faces  show faces for a mesh or deck too, to fill its voids
+  --faces  show the faces of a mesh or deck, to fill its voids
 )"},
     {"check", "FILE", 1, "--json", "check a mesh; exit code 1 if a cell is invalid",
      R"(
 Reads the solids of a mesh: %MESHES.
 Prints counts, a histogram of the scaled Jacobian and one line for each metric. A cell is valid if its
-Jacobian is proved positive everywhere in it. The exit code is 1 if a cell is invalid.
+Jacobian is proven positive everywhere in it. The exit code is 1 if a cell is invalid.
 
   --json   print all numbers and the worst cells as JSON, for scripts
 )"},
     {"convert", "IN OUT", 2, nullptr, "convert a mesh or deck to another format",
      R"(
 Reads a mesh, %READ, and writes it in the
-format given by the ending of OUT: %WRITTEN. Nodes, elements, their numbers,
+format given by the extension of OUT: %WRITTEN. Nodes, elements, their numbers,
 regions and sets are kept. Data that the format cannot store is listed on standard error.
 )"},
 };

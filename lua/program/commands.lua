@@ -104,8 +104,8 @@ function commands.convert()
   print(("%s: %d nodes, %d elements"):format(second, found.nodes, found.elements))
 end
 
--- List the parameters of the recipe `first`: the first function of lacuna that it calls ends its run, by
--- `second`, and must be lacuna.params.
+-- List the parameters of the recipe `first`. The first function of lacuna that the recipe calls must be
+-- lacuna.params. That call ends the run, by calling `second`.
 function commands.parameters()
   local params = lacuna.params
   local function stop()

@@ -129,7 +129,7 @@ public:
     Lines(const Lines&) = delete;
     Lines& operator=(const Lines&) = delete;
 
-    /// The next line; `given_up`: Ctrl-C was pressed.
+    /// Read the next line; empty at the end of the input or after Ctrl-C, which sets `given_up`.
     [[nodiscard]] std::optional<std::string> next(const char* prompt, bool& given_up) const
     {
         begin_idle();

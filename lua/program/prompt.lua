@@ -71,16 +71,16 @@ end
 local overview = [[
 lacuna.load "part.step"            a Model; model:describe() lists its faces
 model:open_volume { source = 12, target = 31, walls = { 4, 5 } }
-                                   a Volume; with no roles they are found
-volume:close()                     makes what is missing; sweep does it where you did not
+                                   a Volume; without roles, they are detected
+volume:close()                     generates the missing faces; sweep calls it if you did not
 volume:sweep { layers = 12, size = 2 }
                                    a Mesh; print(mesh:quality()), mesh:write "part.msh"
 
 help "sweep"                       a call and its options
 help "Volume"                      the calls and fields of a class
-help "size"                        an option, wherever it is taken
-help(mesh)                         what an object has
-Tab completes fields, calls, options and, in quotes, names of files; exit leaves.]]
+help "size"                        an option, in all calls that have it
+help(mesh)                         the calls and fields of an object
+Tab completes fields, calls, options and, in quotes, file names; exit leaves.]]
 
 local function add_options(lines, class)
   if not class or #class.fields == 0 then return end

@@ -17,15 +17,15 @@ class Contact(Table):
 
     a: str; region
     b: str; region
-    name: str; of the pair; default: a_b
+    name: str; name of the pair; default: a_b
     type: "tie" | "contact"; default "tie"
-    gap: float; within which the faces are looked for [model length]
-    faces: list[list[int]]; tags of the faces that come together
-    least: float; smallest distance within the gap [model length]
-    width: float; largest distance within the gap [model length]
-    area: float; of the faces of `a` within the gap [model length²]
-    slave: str; group of a mesh
-    master: str; group of a mesh
+    gap: float; largest distance of the faces [model length]
+    faces: list[list[int]]; pairs of tags of the faces in contact
+    least: float; smallest distance between the faces [model length]
+    width: float; largest distance between the faces [model length]
+    area: float; area of the faces of `a` that are within the gap [model length²]
+    slave: str; name of the slave group in a mesh
+    master: str; name of the master group in a mesh
     """
 
     __slots__ = ()
@@ -37,11 +37,11 @@ class ModelInfo(Table):
     """source: str
     diagonal: float; [model length]
     tolerance: float; [model length]
-    parts: int; sets of faces that hang together
-    closed_parts: int; those without free edges
+    parts: int; number of connected components of the faces
+    closed_parts: int; number of components without free edges
     faces: list[FaceInfo]
     free_edges: list[Table]
-    gaps: list[Table]; with the tolerance that sews each
+    gaps: list[Table]; `tolerance`: the smallest that closes the gap
     cavities: list[Cavity]
     """
 
@@ -51,29 +51,29 @@ class ModelInfo(Table):
 
 
 class FaceInfo(Table):
-    """tag: int; the one Gmsh shows for the same file
+    """tag: int; the tag that Gmsh gives the face when it opens the same file
     name: str
     kind: str
     area: float; [model length²]
-    normal: list[float]; mean unit normal; zero all round a tube
+    normal: list[float]; mean unit normal; zero for a closed tube
     centroid: list[float]
-    loops: int
+    loops: int; number of boundary loops
     edges: int
     has_mesh: bool
-    radius: float; of the cylinder or sphere that its facets lie on [model length]
-    axis: list[float]; of that cylinder
-    box: list[list[float]]; its lowest and highest coordinates
+    radius: float; radius of the cylinder or sphere fitted to its facets [model length]
+    axis: list[float]; direction of the axis of this cylinder
+    box: list[list[float]]; bounding box: the smallest and the largest coordinates
     neighbours: list[int]; tags of faces that share an edge with it
-    fits: "cylinder" | "sphere" | "cone"; what its facets lie on
-    centre: list[float]; of that cylinder or sphere
-    apex: list[float]; tip of that cone, whose axis leads from it
-    half_angle: float; between axis and surface of that cone [degrees]
-    least_radius: float; of the face on that cone [model length]
-    largest_radius: float; of the face on that cone [model length]
-    free_edges: int; how many
-    part: int; of the sets of faces that hang together
-    cavity: int; a number in `cavities`
-    use: str; a kind of cavity, "outer skin" or "open shell"
+    fits: "cylinder" | "sphere" | "cone"; surface fitted to its facets
+    centre: list[float]; centre of this cylinder or sphere
+    apex: list[float]; apex of this cone; `axis` points from it into the cone
+    half_angle: float; angle between axis and surface of this cone [degrees]
+    least_radius: float; smallest radius of the face on this cone [model length]
+    largest_radius: float; largest radius of the face on this cone [model length]
+    free_edges: int; number of free edges
+    part: int; number of the connected component of faces
+    cavity: int; index in `cavities`
+    use: str; the kind of its cavity, "outer skin" or "open shell"
     """
 
     __slots__ = ()
@@ -86,7 +86,7 @@ class Cavity(Table):
     """kind: "pocket" | "bore" | "slot" | "inner void"
     faces: list[int]; tags, for open_volume(faces=…)
     class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"
-    volume: float; once it is sealed [model length³]
+    volume: float; volume of the sealed cavity [model length³]
     """
 
     __slots__ = ()
@@ -96,9 +96,9 @@ class Cavity(Table):
 
 class Classification(Table):
     """class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"
-    free_loops: int
-    wall_free_source: list[int]; tags of vertices on no wall
-    wall_free_target: list[int]
+    free_loops: int; number of closed loops of free edges
+    wall_free_source: list[int]; tags of the source's vertices that lie on no wall
+    wall_free_target: list[int]; tags of the target's vertices that lie on no wall
     reasons: list[str]
     """
 
@@ -109,9 +109,9 @@ class Classification(Table):
 
 class Match(Table):
     """loops: list[Table]
-    vertices: list[list[int]]; tags: source, target
+    vertices: list[list[int]]; pairs of vertex tags: source, target
     method: str
-    confidence: float; 0 to 1
+    confidence: float; from 0 to 1; 1 where nothing had to be guessed
     notes: list[str]
     """
 
@@ -121,12 +121,12 @@ class Match(Table):
 
 
 class Closure(Table):
-    """void_edges: int; how many were made
-    void_faces: int
+    """void_edges: int; number of generated edges
+    void_faces: int; number of generated faces
     void_edge_tags: list[int]
     void_face_tags: list[int]
     watertight: bool
-    algorithms: list[str]; of the paper, in the order used
+    algorithms: list[str]; names of the paper's algorithms, in the order used
     """
 
     __slots__ = ()
@@ -136,8 +136,8 @@ class Closure(Table):
 
 class FreeEdge(Table):
     """tag: int
-    from_: int; tag of a vertex
-    to: int
+    from_: int; tag of the first vertex
+    to: int; tag of the last vertex
     length: float; [model length]
     """
 
@@ -148,7 +148,7 @@ class FreeEdge(Table):
 
 class LeftOut(Table):
     """region: str
-    code: str; the error's
+    code: str; code of the error
     message: str
     """
 
@@ -158,13 +158,13 @@ class LeftOut(Table):
 
 
 class Fidelity(Table):
-    """The mesh's skin against the sealed skin.
+    """How far the boundary of the mesh is from the boundary of the sealed volume.
 
-    volume: float; of the cells [model length³]
+    volume: float; volume of the cells [model length³]
     sealed_volume: float; [model length³]
     max_distance: float; [model length]
     mean_distance: float; [model length]
-    faces: dict[int | str, FaceFidelity]; by tag, void faces by "void:<n>"
+    faces: dict[int | str, FaceFidelity]; by tag, generated faces by "void:<n>"
     """
 
     __slots__ = ()
@@ -173,10 +173,10 @@ class Fidelity(Table):
 
 
 class FaceFidelity(Table):
-    """quads: int; of the skin that lie on it
-    max_distance: float; [model length]; of a face without quads its width
+    """quads: int; number of the mesh's boundary quads on the face
+    max_distance: float; largest distance [model length]; of a face without quads, its width
     mean_distance: float; [model length]
-    place: list[float]; where skin and face are furthest apart
+    place: list[float]; point of the largest distance
     """
 
     __slots__ = ()
@@ -185,9 +185,9 @@ class FaceFidelity(Table):
 
 
 class AssemblyFidelity(Table):
-    """Sums over the volumes of an assembly, and each volume's.
+    """Fidelity of an assembly: its totals, and each volume's.
 
-    volume: float; of the cells [model length³]
+    volume: float; volume of the cells [model length³]
     sealed_volume: float; [model length³]
     max_distance: float; [model length]
     mean_distance: float; [model length]
@@ -213,14 +213,14 @@ class WorstCell(Table):
 
 class MetricSummary(Table):
     """name: str
-    cells: int; cells for which it is defined
+    cells: int; number of cells for which the metric is defined
     min: float
     mean: float
     max: float
-    deviation: float
-    acceptable: list[float]; after Cubit; None where it depends on the job
-    outside: int; cells outside the acceptable range
-    outside_share: float; of all cells, 0 to 1
+    deviation: float; standard deviation
+    acceptable: list[float]; acceptable range according to Cubit; None where it depends on the application
+    outside: int; number of cells outside the acceptable range
+    outside_share: float; fraction of the cells outside the acceptable range, 0 to 1
     worst: Table
     """
 
@@ -244,95 +244,102 @@ class Model(Shown):
         return self._field("diagonal")
 
     def faces(self, selector=None, /, **keywords):
-        """The faces that fit all that is named; without a selector all of them.
+        """The faces that the selector selects; without one, all faces.
 
         tags: int | list[int]
-        name: str; a physical group, a part (`pid:7`), an element set
+        name: str; name of a physical group, a part (`pid:7`) or an element set
         kind: "plane" | "cylinder" | "cone" | "sphere" | "torus" | "bspline" | "surface" | "discrete"
-        facing: (x, y, z); the mean normal within 30 degrees of it
-        normal_within: float; instead of the 30 degrees of `facing`
-        near: (x, y, z); the one closest face
-        within: float; all faces that close to `near` instead [model length]
-        box: list[(x, y, z)]; two corners of a box that all of the face lies in
-        touching: Face | int | str; a face it shares an edge with
-        region: str; the solid, part or set it bounds
-        free: bool; whether it bounds one region alone
-        radius: list[float]; smallest and largest, of parts of cylinders and spheres [model length]
-        area: list[float]; smallest and largest [model length²]
+        facing: (x, y, z); faces whose mean normal is within 30 degrees of this direction
+        normal_within: float; largest angle from `facing`, instead of 30 [degrees]
+        near: (x, y, z); the one face closest to this point
+        within: float; with `near`: all faces within this distance instead [model length]
+        box: list[(x, y, z)]; two opposite corners of a box that contains the whole face
+        touching: Face | int | str; faces that share an edge with this one
+        region: str; faces that bound this solid, part or set
+        free: bool; True: faces that bound exactly one region; False: faces between two regions
+        radius: list[float]; smallest and largest radius, of faces that are parts of cylinders or spheres
+            [model length]
+        area: list[float]; smallest and largest area [model length²]
         """
         return self._method("faces", options_of(selector, keywords))
 
     def face(self, which=None, /, **keywords):
-        """Exactly one; none or several is an error that lists the candidates.
+        """The one face that `which` selects. If it selects none or several, the error lists the candidates.
 
         tags: int | list[int]
-        name: str; a physical group, a part (`pid:7`), an element set
+        name: str; name of a physical group, a part (`pid:7`) or an element set
         kind: "plane" | "cylinder" | "cone" | "sphere" | "torus" | "bspline" | "surface" | "discrete"
-        facing: (x, y, z); the mean normal within 30 degrees of it
-        normal_within: float; instead of the 30 degrees of `facing`
-        near: (x, y, z); the one closest face
-        within: float; all faces that close to `near` instead [model length]
-        box: list[(x, y, z)]; two corners of a box that all of the face lies in
-        touching: Face | int | str; a face it shares an edge with
-        region: str; the solid, part or set it bounds
-        free: bool; whether it bounds one region alone
-        radius: list[float]; smallest and largest, of parts of cylinders and spheres [model length]
-        area: list[float]; smallest and largest [model length²]
+        facing: (x, y, z); faces whose mean normal is within 30 degrees of this direction
+        normal_within: float; largest angle from `facing`, instead of 30 [degrees]
+        near: (x, y, z); the one face closest to this point
+        within: float; with `near`: all faces within this distance instead [model length]
+        box: list[(x, y, z)]; two opposite corners of a box that contains the whole face
+        touching: Face | int | str; faces that share an edge with this one
+        region: str; faces that bound this solid, part or set
+        free: bool; True: faces that bound exactly one region; False: faces between two regions
+        radius: list[float]; smallest and largest radius, of faces that are parts of cylinders or spheres
+            [model length]
+        area: list[float]; smallest and largest area [model length²]
         """
         return self._method("face", options_of(which, keywords) if keywords else which)
 
     def face_from(self, near, **keywords):
-        """A face grown from the facet closest to a place, taken out of the faces it goes over.
+        """Make a face of the facets around a point. They are removed from the faces they belonged to.
 
-        near: (x, y, z); the facet closest to it is where the face begins [model length]
-        angle: float; the face goes on over sides that turn by no more [degrees]; default 20
-        region: str; only over faces that bound it
-        free: bool; only over faces that bound one region alone, or two
+        near: (x, y, z); point next to the first facet of the face [model length]
+        angle: float; the face grows across edges where neighbouring facets form at most this angle [degrees];
+            default 20
+        region: str; grow only on faces that bound this region
+        free: bool; True: grow only on faces that bound one region; False: only on faces that bound two
         """
         return self._method("face_from", options_of(None, keywords, near=near))
 
     def add_face(self, points, cells, **keywords):
-        """Add a face of triangles and quads to the model. Points count from 1.
+        """Add a face of triangles and quads to the model. Points are numbered from 1.
 
         name: str
         points: list[(x, y, z)] | numpy.ndarray
-        cells: list[list[int]] | numpy.ndarray; triangles and quads: numbers of points from 1
-        keep_mesh: bool; quads are a mesh to be kept, not mere facets; default False
+        cells: list[list[int]] | numpy.ndarray; triangles and quads, as numbers of points, from 1
+        keep_mesh: bool; the quads are kept as a mesh; default False: they only describe the shape
         """
         return self._method("add_face", options_of(None, keywords, points=points, cells=cells))
 
     def open_volume(self, roles=None, /, **keywords):
-        """The volume that faces bound, with the roles that are named. Without roles they are found, for
-        `faces` or all faces.
+        """The volume bounded by the faces with the given roles. Without roles, the roles of `faces`, or of
+        all faces, are detected.
 
         source: Face | int | str | dict | list[Face | int | str | dict]
         target: Face | int | str | dict | list[Face | int | str | dict]
-        walls: Face | int | str | dict | list[Face | int | str | dict] | "auto"; "auto": the source's cavity
-            in a solid, else all that hangs on its rim
-        faces: Face | int | str | dict | list[Face | int | str | dict]; instead of roles: these faces make the
-            volume, and their roles are found
-        reading: int; with roles to be found: which of the voids that were found, from 1
-        full_turn: bool; the walls are a ring, swept round its whole turn; no ends; default False
-        along: dict; with a source alone: the path along which it is swept
-        fill_to: list[(x, y, z)]; point and normal: only the part of the void behind this plane
-        class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"; override
-        name: str; what the cells are called: their group, set or property in files; default "volume"
-        material: str | int; of the cells, in decks; default: as the elements beside them
-        glued: bool; False: in an assembly it has nodes of its own, and ties to what it touches; default True
+        walls: Face | int | str | dict | list[Face | int | str | dict] | "auto"; "auto": in a solid the faces
+            of the source's cavity, otherwise all faces connected to the boundary of the source
+        faces: Face | int | str | dict | list[Face | int | str | dict]; instead of roles: the faces of the
+            volume; their roles are detected
+        reading: int; where roles are detected and several volumes are possible: number of the volume, from 1
+        full_turn: bool; the walls form a closed ring, swept through 360 degrees without ends; default False
+        along: dict; where only a source is given: the path along which it is swept
+        fill_to: list[(x, y, z)]; point and normal of a plane: only the part of the void behind it is filled
+        class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"; class to use instead of the detected one
+        name: str; name of the group, set or property of the cells in files; default "volume"
+        material: str | int; material of the cells, in decks; default: that of the adjacent elements
+        glued: bool; False: in an assembly the volume shares no nodes with the volumes it touches; ties
+            connect them; default True
 
         A dict for `along` has:
-        vector: (x, y, z); straight
-        axis: list[(x, y, z)]; point and direction, turned round by `angle`
-        angle: float; of a turn round `axis`, up to 360 either way [degrees]
+        vector: (x, y, z); translation
+        axis: list[(x, y, z)]; point and direction of the axis of a rotation by `angle`
+        angle: float; angle of the rotation about `axis`, from -360 to 360 [degrees]
         path: list[(x, y, z)] | numpy.ndarray | list[int] | Callable[[float], (x, y, z)]; points with corners,
             tags of edges, or a smooth curve for t from 0 to 1
-        frame: "minimal" | "fixed"; with `path`: whether the source turns with it; default "minimal"
+        frame: "minimal" | "fixed"; with `path`: "minimal": the source rotates with the path's direction,
+            without twist; "fixed": it does not rotate; default "minimal"
         helix: list[(x, y, z) | float]; point, direction, pitch and turns; negative turns: left-handed
         normals: float | Callable[[float, float, float], float] | list[float | Callable[[float, float, float],
             float]]; thickness along the source's normals, or [inside, outside]
-        to: Face | int | str | dict; along the source's mean normal onto this face
-        twist: float | Callable[[float], float]; of the target, or at heights from 0 to 1 [degrees]
-        scale: float | Callable[[float], float]; of the target, or at heights from 0 to 1
+        to: Face | int | str | dict; the source is projected along its mean normal onto this face
+        twist: float | Callable[[float], float]; rotation of the target, or of the section at each height from
+            0 to 1 [degrees]
+        scale: float | Callable[[float], float]; scale of the target, or of the section at each height from 0
+            to 1
         """
         return self._method("open_volume", options_of(roles, keywords))
 
@@ -340,12 +347,15 @@ class Model(Shown):
         """Quads on faces, without layers.
 
         faces: Face | int | str | dict | list[Face | int | str | dict]; default: all
-        size: float | Callable[[float, float, float], float]; edge length; default: the rims' spacing
-        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
-        gap: int; quads asked for across a narrow place; default: none, 3 where there is no size
-        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
-            face was meshed
-        order: 1 | 2; quads of 4, or of 9 nodes with middle nodes on curves and surfaces; default 1
+        size: float | Callable[[float, float, float], float]; edge length; default: that of the faces'
+            boundaries
+        curvature: int; least number of edges per full circle where curves and surfaces bend; default 12; 0:
+            only the size counts
+        gap: int; least number of quads across narrow parts; default: none, 3 where there is no size
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; how faces are meshed; default "auto"; the report
+            names the method for each face
+        order: 1 | 2; 1: quads of 4 nodes; 2: of 9 nodes, with the mid-side nodes on the curves and surfaces;
+            default 1
         serendipity: bool; with order 2: quads of 8 nodes; default False
         threads: int; default: all cores
         """
@@ -354,12 +364,12 @@ class Model(Shown):
     def contacts(self, options=None, /, **keywords):
         """Bodies whose faces touch or face each other.
 
-        gap: float; largest distance of the faces; default 0: they touch [model length]
+        gap: float; largest distance between the faces; default 0: only faces that touch [model length]
         """
         return shaped(self._method("contacts", options_of(options, keywords)), ('list', ('of', 'Contact')))
 
     def describe(self):
-        """Faces, free edges, gaps and cavities, in words."""
+        """Faces, free edges, gaps and cavities, as text."""
         return self._method("describe")
 
     def info(self):
@@ -367,28 +377,28 @@ class Model(Shown):
         return shaped(self._method("info"), ('of', 'ModelInfo'))
 
     def cavities(self):
-        """Pockets, bores and inner voids of closed skins."""
+        """Pockets, bores, slots and inner voids of closed surfaces."""
         return shaped(self._method("cavities"), ('list', ('of', 'Cavity')))
 
     def view(self, path, options=None, /, **keywords):
-        """A page for a browser: the faces, labelled, to be clicked for the roles of a recipe.
+        """Write an HTML page with the labelled faces; clicking on them sets the roles for a recipe.
 
         path: .html
-        title: str; default: what the input is called
+        title: str; title of the page; default: the name of the input
         """
         self._method("view", path, options_of(options, keywords))
 
     def picture(self, path, options=None, /, **keywords):
-        """Drawn without a display: the faces, and their free edges.
+        """Write a picture of the faces and their free edges. No display is needed.
 
         path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
-        facets: bool; sides of the facets are drawn; default False
-        legend: bool; a title, and what the colours mean; default True
-        title: str; default what is shown, counted
-        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
-            the eye; default "iso"
+        facets: bool; draw the edges of the facets; default False
+        legend: bool; show a title and a key to the colours; default True
+        title: str; default: name and numbers of what is shown
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; direction from the
+            object to the viewer; default "iso"
         """
         self._method("picture", path, options_of(options, keywords))
 
@@ -398,7 +408,7 @@ class Face(AnyFace):
 
     @property
     def tag(self):
-        """the one Gmsh shows for the same file"""
+        """the tag that Gmsh gives the face when it opens the same file"""
         return self._field("tag")
 
     @property
@@ -416,7 +426,7 @@ class Face(AnyFace):
 
     @property
     def normal(self):
-        """mean unit normal; zero all round a tube"""
+        """mean unit normal; zero for a closed tube"""
         return self._field("normal")
 
     @property
@@ -425,6 +435,7 @@ class Face(AnyFace):
 
     @property
     def loops(self):
+        """number of boundary loops"""
         return self._field("loops")
 
     @property
@@ -437,17 +448,17 @@ class Face(AnyFace):
 
     @property
     def radius(self):
-        """of the cylinder or sphere that its facets lie on [model length]"""
+        """radius of the cylinder or sphere fitted to its facets [model length]"""
         return self._field("radius")
 
     @property
     def axis(self):
-        """of that cylinder"""
+        """direction of the axis of this cylinder"""
         return self._field("axis")
 
     @property
     def box(self):
-        """its lowest and highest coordinates"""
+        """bounding box: the smallest and the largest coordinates"""
         return self._field("box")
 
     @property
@@ -461,141 +472,146 @@ class Volume(Shown):
 
     @property
     def class_(self):
-        """as the volume was given"""
+        """class of the input, before `close`"""
         return self._field("class")
 
     def classify(self):
-        """Which faces are missing, and why the volume is of its class."""
+        """The class of the volume, the reasons for it, and what is missing."""
         return shaped(self._method("classify"), ('of', 'Classification'))
 
     def override_class(self, class_):
-        """Take the volume as one of another class; what contradicts it is an error."""
+        """Set the class of the volume. It is an error if the faces contradict the class."""
         return self._method("override_class", class_)
 
     def match(self, options=None, /, **keywords):
-        """Pair the loops and vertices of source and target; `close` does it where this was not called.
+        """Pair the loops and vertices of source and target. `close` does this where it was not called.
 
-        vertices: list[list[int]] | numpy.ndarray; tags: source, target
-        loops: list[list[int]] | numpy.ndarray; numbers: source, target
-        flip: list[int]; source loops whose direction on the target is turned round
+        vertices: list[list[int]] | numpy.ndarray; pairs of vertex tags: source, target
+        loops: list[list[int]] | numpy.ndarray; pairs of loop numbers: source, target
+        flip: list[int]; numbers of source loops whose direction on the target is reversed
         method: "aligned" | "nearest"; default "aligned"
         """
         return shaped(self._method("match", options_of(options, keywords)), ('of', 'Match'))
 
     def close(self, options=None, /, **keywords):
-        """Make the edges and faces that are missing. The volume is sealed afterwards; `sweep` does it where
-        this was not called.
+        """Generate the missing edges and faces; afterwards the volume is sealed. `sweep` does this where it
+        was not called.
 
-        edge_shape: "auto" | "straight" | "follow" | "smooth"; how a void edge runs; default "auto"
-        void_edges: list[list[int | list[(x, y, z)] | numpy.ndarray]]; given by hand: vertex tags from and to,
-            points between
+        edge_shape: "auto" | "straight" | "follow" | "smooth"; shape of the missing edges; default "auto"
+        void_edges: list[list[int | list[(x, y, z)] | numpy.ndarray]]; edges given by the user: tags of the
+            first and last vertex, points between them
         cap: "auto" | "flat" | "parallel"; shape of a missing end; default "auto"
-        holes: "cover" | "through"; holes of a given end that have no walls; without it an error where the
-            other end is missing
+        holes: "cover" | "through"; holes of a given end without walls: cover them, or continue them through
+            the volume; required where the other end is missing
         """
         return shaped(self._method("close", options_of(options, keywords)), ('of', 'Closure'))
 
     def is_watertight(self):
-        """Whether nothing is missing."""
+        """Whether the volume's boundary is closed."""
         return self._method("is_watertight")
 
     def free_edges(self):
-        """Edges that have a missing face beside them."""
+        """Edges with a face on only one side."""
         return shaped(self._method("free_edges"), ('list', ('of', 'FreeEdge')))
 
     def tree(self):
-        """Volume, faces, edges and vertices as text, with the geometry of each; void ones are marked."""
+        """Volume, faces, edges and vertices, with the geometry of each, as text. Generated ones are marked."""
         return self._method("tree")
 
     def describe(self):
-        """Roles, class, what is missing and what was paired, as text."""
+        """Roles, class, missing faces and the pairs of vertices, as text."""
         return self._method("describe")
 
     def view(self, path, options=None, /, **keywords):
-        """A page for a browser: roles, void faces, free edges and vertices on no wall.
+        """Write an HTML page with roles, generated faces, free edges and vertices on no wall.
 
         path: .html
-        title: str; default: what the input is called
+        title: str; title of the page; default: the name of the input
         """
         self._method("view", path, options_of(options, keywords))
 
     def picture(self, path, options=None, /, **keywords):
-        """Drawn without a display: given faces, and those that were made.
+        """Write a picture of the given and the generated faces. No display is needed.
 
         path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
-        facets: bool; sides of the facets are drawn; default False
-        legend: bool; a title, and what the colours mean; default True
-        title: str; default what is shown, counted
-        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
-            the eye; default "iso"
+        facets: bool; draw the edges of the facets; default False
+        legend: bool; show a title and a key to the colours; default True
+        title: str; default: name and numbers of what is shown
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; direction from the
+            object to the viewer; default "iso"
         """
         self._method("picture", path, options_of(options, keywords))
 
     def cut(self, options=None, /, **keywords):
-        """By a plane or a face: the pieces, which share what was cut. Without options: the pieces of a volume
-        with branches, or one of whose ends lies at several heights; itself where it has neither.
+        """Cut the volume by a plane or a face into pieces that share the cut. Without options a volume is cut
+        where it branches, or where an end lies at several heights; otherwise the result is the volume itself.
 
         plane: list[(x, y, z)]; point and normal
-        face: Face | int | str | dict; a Face of any model, or one of the volume's own
-        auto: bool; where pieces result that can be swept: planes beside concave edges, or blocks at the
+        face: Face | int | str | dict; a Face of any model, or a face of the volume
+        auto: bool; cut where the pieces can be swept: along planes at concave edges, or into blocks at the
             vertices
         """
         return self._method("cut", options_of(options, keywords))
 
     def model(self):
-        """The volume's faces, void ones included."""
+        """The volume's faces, including the generated ones, as a model."""
         return self._method("model")
 
     def sweep(self, options=None, /, **keywords):
-        """Closes first where the recipe did not. A volume with steps is cut into pieces and meshed as an
-        assembly.
+        """Mesh the volume by sweeping. It is closed first where `close` was not called. A volume with steps
+        is cut into pieces that are meshed as an assembly.
 
-        layers: int | list[float] | dict; a count, rising heights in (0, 1] or a spacing; default as the
-            walls' own meshes have rows, else about as high as the quads are wide
-        size: float | Callable[[float, float, float], float]; edge length on the source; default: the rim's
-            spacing
-        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
-        gap: int; quads asked for across a narrow place of the source; default: none, 3 where there is no size
-        max_deviation: float; how far the skin may be from the sealed skin [model length]; default: a quarter
-            of a quad's side
-        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
-            face was meshed
-        fallback: "wedges" | "leave_out" | "mixed"; what becomes of a volume that cannot be hexahedra alone;
-            default: an error
-        wedges: bool; triangles that an end came with stay, with wedges on them; default False: quads among
-            triangles are an error
-        rows: int; rows of quads from every loop of the source that stay as they are laid; default: what the
-            paver finds good
-        row_height: float | Callable[[float, float, float], float]; of those rows (one at least); default: the
+        layers: int | list[float] | dict; a count, increasing heights in (0, 1] or a spacing; default: the
+            rows of the walls' given meshes, otherwise layers about as high as the quads are wide
+        size: float | Callable[[float, float, float], float]; edge length on the source; default: that of the
+            source's boundary
+        curvature: int; least number of edges per full circle where curves and surfaces bend; default 12; 0:
+            only the size counts
+        gap: int; least number of quads across narrow parts of the source; default: none, 3 where there is no
             size
-        boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
-        intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
-        periodic: list[list[Any]]; faces with the same mesh under a translation or rotation
-        order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+        max_deviation: float; largest distance of the mesh's boundary from the volume's [model length];
+            default: a quarter of a quad's edge
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; how faces are meshed; default "auto"; the report
+            names the method for each face
+        fallback: "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed with
+            hexahedra only; default: an error
+        wedges: bool; triangles of an end's given mesh are kept, and wedges swept from them; default False: an
+            end with both triangles and quads is an error
+        rows: int; rows of quads along every loop of the source that are not moved afterwards; default: chosen
+            by the paving method
+        row_height: float | Callable[[float, float, float], float]; height of these rows, of which there is at
+            least one; default: the size
+        boundary_layers: dict | list[dict]; rows of thin cells along walls and ends
+        intervals: list[list[Any]]; numbers of edges on curves, walls and along the sweep
+        periodic: list[list[Any]]; pairs of faces with the same mesh, up to a translation or rotation
+        order: 1 | 2; 1: hex8; 2: hex27, with the mid-side and mid-face nodes on the curves and surfaces;
+            default 1
         serendipity: bool; with order 2: hex20 instead of hex27; default False
-        min_scaled_jacobian: float; below it the mesh is refused; default 0
-        improve: bool | dict; default True; iterations of each descent, 60
-        interior: "auto" | "affine" | "residual" | "normals"; how layers are placed; all but "auto" for
-            comparison
+        min_scaled_jacobian: float; a mesh with a smaller value is an error; default 0
+        improve: bool | dict; optimise the positions of nodes; `iterations` of each optimisation, 60; default
+            True
+        interior: "auto" | "affine" | "residual" | "normals"; how interior nodes are placed; values other than
+            "auto" are for comparison
         threads: int; default: all cores
 
         A dict for `layers` has:
         count: int
-        bias: float; last over first layer height (geometric), middle over end (bell), end over middle
+        bias: float; ratio of layer heights: last to first (geometric), middle to end (bell), end to middle
             (both_ends)
         mode: "geometric" | "bell" | "both_ends"; default "geometric"
 
         A dict for `boundary_layers` has:
-        walls: Face | int | str | dict | list[Face | int | str | dict]; walls and ends; "walls": all walls,
-            "void:<n>": a void face
-        first: float; thickness of the cells at the face, square to it [model length]
-        growth: float; thickness of each row over the one before; default 1
-        count: int; rows; default 1
+        walls: Face | int | str | dict | list[Face | int | str | dict]; walls or ends; "walls": all walls,
+            "void:<n>": a generated face
+        first: float; thickness of the first row of cells, normal to the face [model length]
+        growth: float; ratio of the thicknesses of successive rows; default 1
+        count: int; number of rows; default 1
 
-        One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
-        edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+        One of `intervals`: Where the interval applies, its number of edges, and the ratio of the last edge
+        length to the first (default 1). It applies to an edge by its tag, to two vertices by their tags, to a
+        wall by its Face, name or selector, or to the layers with "sweep".
 
         A dict for `periodic` has:
         [1]: Face | int | str | dict | list[Face | int | str | dict]
@@ -606,56 +622,61 @@ class Volume(Shown):
         return self._method("sweep", options_of(options, keywords))
 
     def sweep_to(self, path, options=None, /, **keywords):
-        """Sweep and write a layer at a time, in memory that the number of layers hardly matters to: the bytes
-        of sweep(...).write(path). The report has nodes, hexes, wedges, layers, min_scaled_jacobian, streamed,
-        processes (with mpirun) and seconds by stage.
+        """Sweep and write one layer at a time; the memory needed hardly depends on the number of layers. The
+        file is the same as that of sweep(...).write(path). The report has nodes, hexes, wedges, layers,
+        min_scaled_jacobian, streamed, processes (with mpirun) and seconds by stage.
 
         path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, .k or .feb
-        layers: int | list[float] | dict; a count, rising heights in (0, 1] or a spacing; default as the
-            walls' own meshes have rows, else about as high as the quads are wide
-        size: float | Callable[[float, float, float], float]; edge length on the source; default: the rim's
-            spacing
-        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
-        gap: int; quads asked for across a narrow place of the source; default: none, 3 where there is no size
-        max_deviation: float; how far the skin may be from the sealed skin [model length]; default: a quarter
-            of a quad's side
-        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
-            face was meshed
-        fallback: "wedges" | "leave_out" | "mixed"; what becomes of a volume that cannot be hexahedra alone;
-            default: an error
-        wedges: bool; triangles that an end came with stay, with wedges on them; default False: quads among
-            triangles are an error
-        rows: int; rows of quads from every loop of the source that stay as they are laid; default: what the
-            paver finds good
-        row_height: float | Callable[[float, float, float], float]; of those rows (one at least); default: the
+        layers: int | list[float] | dict; a count, increasing heights in (0, 1] or a spacing; default: the
+            rows of the walls' given meshes, otherwise layers about as high as the quads are wide
+        size: float | Callable[[float, float, float], float]; edge length on the source; default: that of the
+            source's boundary
+        curvature: int; least number of edges per full circle where curves and surfaces bend; default 12; 0:
+            only the size counts
+        gap: int; least number of quads across narrow parts of the source; default: none, 3 where there is no
             size
-        boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
-        intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
-        periodic: list[list[Any]]; faces with the same mesh under a translation or rotation
-        order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+        max_deviation: float; largest distance of the mesh's boundary from the volume's [model length];
+            default: a quarter of a quad's edge
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; how faces are meshed; default "auto"; the report
+            names the method for each face
+        fallback: "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed with
+            hexahedra only; default: an error
+        wedges: bool; triangles of an end's given mesh are kept, and wedges swept from them; default False: an
+            end with both triangles and quads is an error
+        rows: int; rows of quads along every loop of the source that are not moved afterwards; default: chosen
+            by the paving method
+        row_height: float | Callable[[float, float, float], float]; height of these rows, of which there is at
+            least one; default: the size
+        boundary_layers: dict | list[dict]; rows of thin cells along walls and ends
+        intervals: list[list[Any]]; numbers of edges on curves, walls and along the sweep
+        periodic: list[list[Any]]; pairs of faces with the same mesh, up to a translation or rotation
+        order: 1 | 2; 1: hex8; 2: hex27, with the mid-side and mid-face nodes on the curves and surfaces;
+            default 1
         serendipity: bool; with order 2: hex20 instead of hex27; default False
-        min_scaled_jacobian: float; below it the mesh is refused; default 0
-        improve: bool | dict; default True; iterations of each descent, 60
-        interior: "auto" | "affine" | "residual" | "normals"; how layers are placed; all but "auto" for
-            comparison
+        min_scaled_jacobian: float; a mesh with a smaller value is an error; default 0
+        improve: bool | dict; optimise the positions of nodes; `iterations` of each optimisation, 60; default
+            True
+        interior: "auto" | "affine" | "residual" | "normals"; how interior nodes are placed; values other than
+            "auto" are for comparison
         threads: int; default: all cores
-        write: dict; how the file is written; default as mesh.write
+        write: dict; options of the file, as of mesh.write
 
         A dict for `layers` has:
         count: int
-        bias: float; last over first layer height (geometric), middle over end (bell), end over middle
+        bias: float; ratio of layer heights: last to first (geometric), middle to end (bell), end to middle
             (both_ends)
         mode: "geometric" | "bell" | "both_ends"; default "geometric"
 
         A dict for `boundary_layers` has:
-        walls: Face | int | str | dict | list[Face | int | str | dict]; walls and ends; "walls": all walls,
-            "void:<n>": a void face
-        first: float; thickness of the cells at the face, square to it [model length]
-        growth: float; thickness of each row over the one before; default 1
-        count: int; rows; default 1
+        walls: Face | int | str | dict | list[Face | int | str | dict]; walls or ends; "walls": all walls,
+            "void:<n>": a generated face
+        first: float; thickness of the first row of cells, normal to the face [model length]
+        growth: float; ratio of the thicknesses of successive rows; default 1
+        count: int; number of rows; default 1
 
-        One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
-        edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+        One of `intervals`: Where the interval applies, its number of edges, and the ratio of the last edge
+        length to the first (default 1). It applies to an edge by its tag, to two vertices by their tags, to a
+        wall by its Face, name or selector, or to the layers with "sweep".
 
         A dict for `periodic` has:
         [1]: Face | int | str | dict | list[Face | int | str | dict]
@@ -666,7 +687,7 @@ class Volume(Shown):
         return self._method("sweep_to", path, options_of(options, keywords))
 
     def write_facets(self, path, options=None, /, **keywords):
-        """The facets of the sealed volume, watertight and outward.
+        """Write the facets of the sealed volume: a closed surface with outward normals.
 
         path: .stl, .msh or .obj
         binary: bool
@@ -675,7 +696,8 @@ class Volume(Shown):
         self._method("write_facets", path, options_of(options, keywords))
 
     def write_cad(self, path, options=None, /, **keywords):
-        """The sealed volume as one CAD solid: given CAD faces exact, void faces as planes or fitted surfaces.
+        """Write the sealed volume as one CAD solid: given CAD faces exactly, generated faces as planes or
+        fitted surfaces.
 
         path: .step, .stp or .brep
         tolerance: float
@@ -691,7 +713,7 @@ class Mesh(AnyMesh):
 
     @property
     def left_out(self):
-        """none"""
+        """empty"""
         return shaped(self._field("left_out"), ('list', ('of', 'LeftOut')))
 
     @property
@@ -728,7 +750,7 @@ class Mesh(AnyMesh):
 
     @property
     def regions(self):
-        """the one volume's name"""
+        """the name of the volume"""
         return self._field("regions")
 
     @property
@@ -740,26 +762,29 @@ class Mesh(AnyMesh):
         return self._method("quality")
 
     def groups(self):
-        """Groups of quads and cells, as files have them."""
+        """Groups of quads and cells, as they are written to files."""
         return self._method("groups")
 
     def copy(self, options=None, /, **keywords):
-        """A copy, moved as a whole; a mirrored one is turned over, so that its cells stay positive.
+        """A translated, rotated or mirrored copy. In a mirrored copy the node order of each cell is reversed,
+        so that the cells stay positive.
 
         translate: (x, y, z)
         rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
         mirror: list[(x, y, z)]; point and normal of the plane
-        name: str; region of the copy; of several regions the start of their names; default: as the mesh
+        name: str; name of the copy's region, or the prefix of its regions' names; default: the names of the
+            mesh
         """
         return self._method("copy", options_of(options, keywords))
 
     def pattern(self, count, **keywords):
-        """The mesh and copies of it, each moved against the one before, as one mesh.
+        """The mesh and its copies, each moved relative to the one before, as one mesh.
 
-        translate: (x, y, z); from each copy to the next
+        translate: (x, y, z); vector from each copy to the next
         rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
-        count: int; copies, the mesh itself included
-        numbered: bool; regions are name_1, name_2 and so on; default False: copies are one region
+        count: int; number of copies, including the mesh itself
+        numbered: bool; each copy is a region: name_1, name_2 and so on; default False: all copies are one
+            region
         """
         return self._method("pattern", options_of(None, keywords, count=count))
 
@@ -776,11 +801,12 @@ class Mesh(AnyMesh):
         return self._method("hex", i)
 
     def coordinates(self):
-        """Of every node x, y, z, as they lie in memory."""
+        """Coordinates x, y, z of all nodes."""
         return self._array("coordinates")
 
     def cells(self, kind=None):
-        """Of every cell the numbers of its nodes, from 1; of order 2 the middle nodes too, in VTK's order.
+        """Node numbers of all cells of a kind, from 1; for order 2 including the mid-side nodes, in VTK's
+        order.
 
         kind: default "hex"
         """
@@ -789,127 +815,136 @@ class Mesh(AnyMesh):
     def field(self, metric=None, kind=None):
         """A metric of every cell of a kind, in the order of `cells(kind)`.
 
-        metric: default "scaled_jacobian"; of cells that are no hexahedra also "jacobian" and "volume"
+        metric: default "scaled_jacobian"; for cells other than hexahedra "scaled_jacobian", "jacobian" or
+            "volume"
         kind: default "hex"
         """
         return self._array("field", metric, kind)
 
     def write(self, path, options=None, /, **keywords):
-        """A file in the format of its ending.
+        """Write the mesh to a file. The extension sets the format.
 
         path: .msh, .vtu, .pvtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo, .e, .k, .feb, .med, or a folder
             called polyMesh
         version: float
         binary: bool
-        quality: bool | str | list[str]; metrics that go along for every cell, as $ElementData or cell arrays;
-            True: the scaled Jacobian; default True, but False for version 2.2
-        with_: Model | list[Model]; loaded from finite element meshes, that the mesh is joined to; the
-            volume's first
-        without: str | int | list[str | int]; regions, properties, sets or parts of these models that are left
-            out
-        renumber: bool; numbers and names that several decks have in common become others; default False
-        first_node: int; of decks and with a model; default above all that are taken
-        first_cell: int; likewise
-        element: str; Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"; thin
-            layers: "COH3D8", "GK3D8", "SC8R", "CSS8"
-        groups: "one" | "all"; of .msh: whether cells are in one physical group or in all of theirs, which
-            overlap; default "one"
-        gmsh_options: bool; of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and
-            groups; default False
-        interfaces: bool; of an assembly: quads between its volumes are elements too; default False
-        orientation: bool; directions of cells: fields in .vtu, .vtk and .exo, material axes in .inp and .bdf;
-            default False
-        partitions: int | "processes"; of .pvtu and .msh: parts; of .pvtu default as many as processes
-        ghosts: int; rows of other parts' cells that are marked as each part's ghosts; default 0
+        quality: bool | str | list[str]; metrics of every cell that are written, as $ElementData or cell
+            arrays; True: the scaled Jacobian; default True, but False for version 2.2
+        with_: Model | list[Model]; models loaded from finite element meshes, to which the mesh is joined; the
+            volume's own model first
+        without: str | int | list[str | int]; regions, properties, sets or parts of these models that are not
+            written
+        renumber: bool; numbers and names that occur in several decks are changed; default False
+        first_node: int; number of the mesh's first node, in decks and with a model; default above all numbers
+            in use
+        first_cell: int; number of the mesh's first element, likewise
+        element: str; Abaqus element type of the hexahedra in .inp; default "C3D8", of order 2 "C3D20"; for
+            thin layers: "COH3D8", "GK3D8", "SC8R", "CSS8"
+        groups: "one" | "all"; .msh: each cell is written in one physical group, or in all of its groups,
+            which then overlap; default "one"
+        gmsh_options: bool; .msh: also write a file with .opt appended to its name, with Gmsh's display
+            options for cells and groups; default False
+        interfaces: bool; assembly: the quads between volumes are written as elements too; default False
+        orientation: bool; write the directions of the cells: as fields in .vtu, .vtk and .exo, as material
+            axes in .inp and .bdf; default False
+        partitions: int | "processes"; .pvtu and .msh: number of parts; for .pvtu the default is the number of
+            processes
+        ghosts: int; number of rows of neighbouring parts' cells that each part has as ghost cells; default 0
         """
         self._method("write", path, options_of(options, keywords))
 
     def view(self, path, options=None, /, **keywords):
-        """A page for a browser: the mesh, to be turned, cut and coloured.
+        """Write an HTML page with the mesh, to rotate, cut and colour it.
 
         path: .html
-        title: str; default: what the input is called
+        title: str; title of the page; default: the name of the input
         """
         self._method("view", path, options_of(options, keywords))
 
     def picture(self, path, options=None, /, **keywords):
-        """Drawn without a display.
+        """Write a picture. No display is needed.
 
         path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
-        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
-            the eye; default "iso"
-        colour: "quality" | "layer" | "groups" | "region" | "origin"; default "quality"
-        cut: dict; cells whose centre lies behind the plane are shown whole
-        layers: list[int]; first and last that is shown; default all
-        edges: bool; sides of cells; default True
-        legend: bool; a title, and what the colours mean; default True
-        title: str; default the name of the mesh and its counts
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; direction from the
+            object to the viewer; default "iso"
+        colour: "quality" | "layer" | "groups" | "region" | "origin"; what the colours of cells show; default
+            "quality"
+        cut: dict; only cells whose centre lies behind this plane are shown
+        layers: list[int]; first and last layer that is shown; default all
+        edges: bool; draw the edges of the cells; default True
+        legend: bool; show a title and a key to the colours; default True
+        title: str; default: the name of the mesh, its numbers of nodes and cells
         """
         self._method("picture", path, options_of(options, keywords))
 
 
 class Assembly(Object):
-    """Several volumes to be meshed as one."""
+    """Several volumes that are meshed together."""
 
     __slots__ = ()
 
     def contacts(self, options=None, /, **keywords):
         """Volumes whose faces touch or face each other without common nodes.
 
-        gap: float; largest distance of the faces; default 0: they touch [model length]
+        gap: float; largest distance between the faces; default 0: only faces that touch [model length]
         """
         return shaped(self._method("contacts", options_of(options, keywords)), ('list', ('of', 'Contact')))
 
     def sweep(self, options=None, /, **keywords):
-        """Options for all volumes; a dict `{volume: options}` before them lays those of one over them.
+        """Mesh the volumes. The options apply to all volumes; `[volume] = options` replaces them for one.
 
-        layers: int | list[float] | dict; a count, rising heights in (0, 1] or a spacing; default as the
-            walls' own meshes have rows, else about as high as the quads are wide
-        size: float | Callable[[float, float, float], float]; edge length on the source; default: the rim's
-            spacing
-        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
-        gap: int; quads asked for across a narrow place of the source; default: none, 3 where there is no size
-        max_deviation: float; how far the skin may be from the sealed skin [model length]; default: a quarter
-            of a quad's side
-        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
-            face was meshed
-        fallback: "wedges" | "leave_out" | "mixed"; what becomes of a volume that cannot be hexahedra alone;
-            default: an error
-        wedges: bool; triangles that an end came with stay, with wedges on them; default False: quads among
-            triangles are an error
-        rows: int; rows of quads from every loop of the source that stay as they are laid; default: what the
-            paver finds good
-        row_height: float | Callable[[float, float, float], float]; of those rows (one at least); default: the
+        layers: int | list[float] | dict; a count, increasing heights in (0, 1] or a spacing; default: the
+            rows of the walls' given meshes, otherwise layers about as high as the quads are wide
+        size: float | Callable[[float, float, float], float]; edge length on the source; default: that of the
+            source's boundary
+        curvature: int; least number of edges per full circle where curves and surfaces bend; default 12; 0:
+            only the size counts
+        gap: int; least number of quads across narrow parts of the source; default: none, 3 where there is no
             size
-        boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
-        intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
-        periodic: list[list[Any]]; faces with the same mesh under a translation or rotation
-        order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+        max_deviation: float; largest distance of the mesh's boundary from the volume's [model length];
+            default: a quarter of a quad's edge
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; how faces are meshed; default "auto"; the report
+            names the method for each face
+        fallback: "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed with
+            hexahedra only; default: an error
+        wedges: bool; triangles of an end's given mesh are kept, and wedges swept from them; default False: an
+            end with both triangles and quads is an error
+        rows: int; rows of quads along every loop of the source that are not moved afterwards; default: chosen
+            by the paving method
+        row_height: float | Callable[[float, float, float], float]; height of these rows, of which there is at
+            least one; default: the size
+        boundary_layers: dict | list[dict]; rows of thin cells along walls and ends
+        intervals: list[list[Any]]; numbers of edges on curves, walls and along the sweep
+        periodic: list[list[Any]]; pairs of faces with the same mesh, up to a translation or rotation
+        order: 1 | 2; 1: hex8; 2: hex27, with the mid-side and mid-face nodes on the curves and surfaces;
+            default 1
         serendipity: bool; with order 2: hex20 instead of hex27; default False
-        min_scaled_jacobian: float; below it the mesh is refused; default 0
-        improve: bool | dict; default True; iterations of each descent, 60
-        interior: "auto" | "affine" | "residual" | "normals"; how layers are placed; all but "auto" for
-            comparison
+        min_scaled_jacobian: float; a mesh with a smaller value is an error; default 0
+        improve: bool | dict; optimise the positions of nodes; `iterations` of each optimisation, 60; default
+            True
+        interior: "auto" | "affine" | "residual" | "normals"; how interior nodes are placed; values other than
+            "auto" are for comparison
         threads: int; default: all cores
         contacts: dict; ties and contacts of faces without common nodes
 
         A dict for `layers` has:
         count: int
-        bias: float; last over first layer height (geometric), middle over end (bell), end over middle
+        bias: float; ratio of layer heights: last to first (geometric), middle to end (bell), end to middle
             (both_ends)
         mode: "geometric" | "bell" | "both_ends"; default "geometric"
 
         A dict for `boundary_layers` has:
-        walls: Face | int | str | dict | list[Face | int | str | dict]; walls and ends; "walls": all walls,
-            "void:<n>": a void face
-        first: float; thickness of the cells at the face, square to it [model length]
-        growth: float; thickness of each row over the one before; default 1
-        count: int; rows; default 1
+        walls: Face | int | str | dict | list[Face | int | str | dict]; walls or ends; "walls": all walls,
+            "void:<n>": a generated face
+        first: float; thickness of the first row of cells, normal to the face [model length]
+        growth: float; ratio of the thicknesses of successive rows; default 1
+        count: int; number of rows; default 1
 
-        One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
-        edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+        One of `intervals`: Where the interval applies, its number of edges, and the ratio of the last edge
+        length to the first (default 1). It applies to an edge by its tag, to two vertices by their tags, to a
+        wall by its Face, name or selector, or to the layers with "sweep".
 
         A dict for `periodic` has:
         [1]: Face | int | str | dict | list[Face | int | str | dict]
@@ -918,60 +953,65 @@ class Assembly(Object):
         rotate: list[(x, y, z) | float]; point, direction, degrees
 
         A dict for `contacts` has:
-        gap: float; of pairs without an entry; default 0 [model length]
-        type: "tie" | "contact"; of pairs without an entry; default "tie"
-        pairs: list[dict]; pairs with a gap, type or name of their own
+        gap: float; gap of pairs that are not in `pairs`; default 0 [model length]
+        type: "tie" | "contact"; type of pairs that are not in `pairs`; default "tie"
+        pairs: list[dict]; pairs with their own gap, type or name
         """
         return self._method("sweep", options_of(options, keywords))
 
     def sweep_to(self, path, options=None, /, **keywords):
-        """Sweep and write a layer at a time, as Volume.sweep_to: the bytes of sweep(...).write(path).
+        """Sweep and write one layer at a time, as Volume.sweep_to does.
 
-        layers: int | list[float] | dict; a count, rising heights in (0, 1] or a spacing; default as the
-            walls' own meshes have rows, else about as high as the quads are wide
-        size: float | Callable[[float, float, float], float]; edge length on the source; default: the rim's
-            spacing
-        curvature: int; sides for a full turn where the size is coarser; default 12; 0: the size alone
-        gap: int; quads asked for across a narrow place of the source; default: none, 3 where there is no size
-        max_deviation: float; how far the skin may be from the sealed skin [model length]; default: a quarter
-            of a quad's side
-        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; default "auto"; the report says which way each
-            face was meshed
-        fallback: "wedges" | "leave_out" | "mixed"; what becomes of a volume that cannot be hexahedra alone;
-            default: an error
-        wedges: bool; triangles that an end came with stay, with wedges on them; default False: quads among
-            triangles are an error
-        rows: int; rows of quads from every loop of the source that stay as they are laid; default: what the
-            paver finds good
-        row_height: float | Callable[[float, float, float], float]; of those rows (one at least); default: the
+        layers: int | list[float] | dict; a count, increasing heights in (0, 1] or a spacing; default: the
+            rows of the walls' given meshes, otherwise layers about as high as the quads are wide
+        size: float | Callable[[float, float, float], float]; edge length on the source; default: that of the
+            source's boundary
+        curvature: int; least number of edges per full circle where curves and surfaces bend; default 12; 0:
+            only the size counts
+        gap: int; least number of quads across narrow parts of the source; default: none, 3 where there is no
             size
-        boundary_layers: dict | list[dict]; thin rows of cells along walls and ends
-        intervals: list[list[Any]]; numbers of sides on edges, walls and along the sweep
-        periodic: list[list[Any]]; faces with the same mesh under a translation or rotation
-        order: 1 | 2; of the cells: hex8, or hex27 with middle nodes on curves and surfaces; default 1
+        max_deviation: float; largest distance of the mesh's boundary from the volume's [model length];
+            default: a quarter of a quad's edge
+        quads: "auto" | "paved" | "mapped" | "gmsh" | "keep"; how faces are meshed; default "auto"; the report
+            names the method for each face
+        fallback: "wedges" | "leave_out" | "mixed"; what to do with a volume that cannot be meshed with
+            hexahedra only; default: an error
+        wedges: bool; triangles of an end's given mesh are kept, and wedges swept from them; default False: an
+            end with both triangles and quads is an error
+        rows: int; rows of quads along every loop of the source that are not moved afterwards; default: chosen
+            by the paving method
+        row_height: float | Callable[[float, float, float], float]; height of these rows, of which there is at
+            least one; default: the size
+        boundary_layers: dict | list[dict]; rows of thin cells along walls and ends
+        intervals: list[list[Any]]; numbers of edges on curves, walls and along the sweep
+        periodic: list[list[Any]]; pairs of faces with the same mesh, up to a translation or rotation
+        order: 1 | 2; 1: hex8; 2: hex27, with the mid-side and mid-face nodes on the curves and surfaces;
+            default 1
         serendipity: bool; with order 2: hex20 instead of hex27; default False
-        min_scaled_jacobian: float; below it the mesh is refused; default 0
-        improve: bool | dict; default True; iterations of each descent, 60
-        interior: "auto" | "affine" | "residual" | "normals"; how layers are placed; all but "auto" for
-            comparison
+        min_scaled_jacobian: float; a mesh with a smaller value is an error; default 0
+        improve: bool | dict; optimise the positions of nodes; `iterations` of each optimisation, 60; default
+            True
+        interior: "auto" | "affine" | "residual" | "normals"; how interior nodes are placed; values other than
+            "auto" are for comparison
         threads: int; default: all cores
-        write: dict; how the file is written; default as mesh.write
+        write: dict; options of the file, as of mesh.write
 
         A dict for `layers` has:
         count: int
-        bias: float; last over first layer height (geometric), middle over end (bell), end over middle
+        bias: float; ratio of layer heights: last to first (geometric), middle to end (bell), end to middle
             (both_ends)
         mode: "geometric" | "bell" | "both_ends"; default "geometric"
 
         A dict for `boundary_layers` has:
-        walls: Face | int | str | dict | list[Face | int | str | dict]; walls and ends; "walls": all walls,
-            "void:<n>": a void face
-        first: float; thickness of the cells at the face, square to it [model length]
-        growth: float; thickness of each row over the one before; default 1
-        count: int; rows; default 1
+        walls: Face | int | str | dict | list[Face | int | str | dict]; walls or ends; "walls": all walls,
+            "void:<n>": a generated face
+        first: float; thickness of the first row of cells, normal to the face [model length]
+        growth: float; ratio of the thicknesses of successive rows; default 1
+        count: int; number of rows; default 1
 
-        One of `intervals`: What, how many sides, and the last length over the first (default 1). What: an
-        edge's tag, the tags of two vertices, a wall by Face, name or selector, or "sweep" for the layers.
+        One of `intervals`: Where the interval applies, its number of edges, and the ratio of the last edge
+        length to the first (default 1). It applies to an edge by its tag, to two vertices by their tags, to a
+        wall by its Face, name or selector, or to the layers with "sweep".
 
         A dict for `periodic` has:
         [1]: Face | int | str | dict | list[Face | int | str | dict]
@@ -983,18 +1023,18 @@ class Assembly(Object):
 
 
 class AssemblyMesh(AnyMesh):
-    """The mesh of an assembly, a region each."""
+    """The mesh of an assembly, with one region for each volume."""
 
     __slots__ = ()
 
     @property
     def contacts(self):
-        """ties and contacts"""
+        """ties and contacts between volumes"""
         return shaped(self._field("contacts"), ('list', ('of', 'Contact')))
 
     @property
     def interface_cells(self):
-        """cells of no thickness, from `lacuna.split_interface`"""
+        """number of cells with zero thickness, made by `lacuna.split_interface`"""
         return self._field("interface_cells")
 
     @property
@@ -1048,26 +1088,29 @@ class AssemblyMesh(AnyMesh):
         return self._method("quality")
 
     def groups(self):
-        """Groups of quads and cells, as files have them; each volume's cells are one."""
+        """Groups of quads and cells, as they are written to files. The cells of each volume are a group."""
         return self._method("groups")
 
     def copy(self, options=None, /, **keywords):
-        """A copy, moved as a whole; a mirrored one is turned over, so that its cells stay positive.
+        """A translated, rotated or mirrored copy. In a mirrored copy the node order of each cell is reversed,
+        so that the cells stay positive.
 
         translate: (x, y, z)
         rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
         mirror: list[(x, y, z)]; point and normal of the plane
-        name: str; region of the copy; of several regions the start of their names; default: as the mesh
+        name: str; name of the copy's region, or the prefix of its regions' names; default: the names of the
+            mesh
         """
         return self._method("copy", options_of(options, keywords))
 
     def pattern(self, count, **keywords):
-        """The mesh and copies of it, each moved against the one before, as one mesh.
+        """The mesh and its copies, each moved relative to the one before, as one mesh.
 
-        translate: (x, y, z); from each copy to the next
+        translate: (x, y, z); vector from each copy to the next
         rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
-        count: int; copies, the mesh itself included
-        numbered: bool; regions are name_1, name_2 and so on; default False: copies are one region
+        count: int; number of copies, including the mesh itself
+        numbered: bool; each copy is a region: name_1, name_2 and so on; default False: all copies are one
+            region
         """
         return self._method("pattern", options_of(None, keywords, count=count))
 
@@ -1080,11 +1123,11 @@ class AssemblyMesh(AnyMesh):
         return self._method("hex", i)
 
     def coordinates(self):
-        """Of every node x, y, z."""
+        """Coordinates x, y, z of all nodes."""
         return self._array("coordinates")
 
     def cells(self, kind=None):
-        """Of every cell of a kind the numbers of its nodes, from 1; of order 2 the middle nodes too, in VTK's
+        """Node numbers of all cells of a kind, from 1; for order 2 including the mid-side nodes, in VTK's
         order.
 
         kind: default "hex"
@@ -1092,9 +1135,11 @@ class AssemblyMesh(AnyMesh):
         return self._array("cells", kind)
 
     def field(self, metric=None, kind=None):
-        """A metric of every cell of a kind, in the order of `cells(kind)`. Of order 2 by the corners.
+        """A metric of every cell of a kind, in the order of `cells(kind)`. Of cells of order 2 only the
+        corners are used.
 
-        metric: default "scaled_jacobian"; of cells that are no hexahedra also "jacobian" and "volume"
+        metric: default "scaled_jacobian"; for cells other than hexahedra "scaled_jacobian", "jacobian" or
+            "volume"
         kind: default "hex"
         """
         return self._array("field", metric, kind)
@@ -1104,7 +1149,7 @@ class AssemblyMesh(AnyMesh):
         return self._method("wedge", i)
 
     def pyramid(self, i):
-        """Four node numbers of the base, and the apex."""
+        """Node numbers of the four base corners and of the apex."""
         return self._method("pyramid", i)
 
     def tet(self, i):
@@ -1112,53 +1157,56 @@ class AssemblyMesh(AnyMesh):
         return self._method("tet", i)
 
     def write(self, path, options=None, /, **keywords):
-        """A file in the format of its ending.
+        """Write the mesh to a file. The extension sets the format.
 
         version: float
         binary: bool
-        with_: Model | list[Model]; loaded from finite element meshes, that the mesh is joined to; the
-            volume's first
-        without: str | int | list[str | int]; regions, properties, sets or parts of these models that are left
-            out
-        renumber: bool; numbers and names that several decks have in common become others; default False
-        first_node: int; of decks and with a model; default above all that are taken
-        first_cell: int; likewise
-        element: str; Abaqus's word for the hexahedra of .inp; default "C3D8", of order 2 "C3D20"; thin
-            layers: "COH3D8", "GK3D8", "SC8R", "CSS8"
-        groups: "one" | "all"; of .msh: whether cells are in one physical group or in all of theirs, which
-            overlap; default "one"
-        gmsh_options: bool; of .msh: a file beside it, .opt behind its name, with which Gmsh shows cells and
-            groups; default False
-        interfaces: bool; of an assembly: quads between its volumes are elements too; default False
-        orientation: bool; directions of cells: fields in .vtu, .vtk and .exo, material axes in .inp and .bdf;
-            default False
-        partitions: int | "processes"; of .pvtu and .msh: parts; of .pvtu default as many as processes
-        ghosts: int; rows of other parts' cells that are marked as each part's ghosts; default 0
+        with_: Model | list[Model]; models loaded from finite element meshes, to which the mesh is joined; the
+            volume's own model first
+        without: str | int | list[str | int]; regions, properties, sets or parts of these models that are not
+            written
+        renumber: bool; numbers and names that occur in several decks are changed; default False
+        first_node: int; number of the mesh's first node, in decks and with a model; default above all numbers
+            in use
+        first_cell: int; number of the mesh's first element, likewise
+        element: str; Abaqus element type of the hexahedra in .inp; default "C3D8", of order 2 "C3D20"; for
+            thin layers: "COH3D8", "GK3D8", "SC8R", "CSS8"
+        groups: "one" | "all"; .msh: each cell is written in one physical group, or in all of its groups,
+            which then overlap; default "one"
+        gmsh_options: bool; .msh: also write a file with .opt appended to its name, with Gmsh's display
+            options for cells and groups; default False
+        interfaces: bool; assembly: the quads between volumes are written as elements too; default False
+        orientation: bool; write the directions of the cells: as fields in .vtu, .vtk and .exo, as material
+            axes in .inp and .bdf; default False
+        partitions: int | "processes"; .pvtu and .msh: number of parts; for .pvtu the default is the number of
+            processes
+        ghosts: int; number of rows of neighbouring parts' cells that each part has as ghost cells; default 0
         """
         self._method("write", path, options_of(options, keywords))
 
     def view(self, path, options=None, /, **keywords):
-        """A page for a browser, regions told apart.
+        """Write an HTML page with the mesh, to rotate, cut and colour it, for example by region.
 
         path: .html
-        title: str; default: what the input is called
+        title: str; title of the page; default: the name of the input
         """
         self._method("view", path, options_of(options, keywords))
 
     def picture(self, path, options=None, /, **keywords):
-        """Drawn without a display.
+        """Write a picture. No display is needed.
 
         path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
-        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
-            the eye; default "iso"
-        colour: "quality" | "layer" | "groups" | "region" | "origin"; default "quality"
-        cut: dict; cells whose centre lies behind the plane are shown whole
-        layers: list[int]; first and last that is shown; default all
-        edges: bool; sides of cells; default True
-        legend: bool; a title, and what the colours mean; default True
-        title: str; default the name of the mesh and its counts
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; direction from the
+            object to the viewer; default "iso"
+        colour: "quality" | "layer" | "groups" | "region" | "origin"; what the colours of cells show; default
+            "quality"
+        cut: dict; only cells whose centre lies behind this plane are shown
+        layers: list[int]; first and last layer that is shown; default all
+        edges: bool; draw the edges of the cells; default True
+        legend: bool; show a title and a key to the colours; default True
+        title: str; default: the name of the mesh, its numbers of nodes and cells
         """
         self._method("picture", path, options_of(options, keywords))
 
@@ -1178,7 +1226,7 @@ class QuadMesh(AnyMesh):
 
     @property
     def triangles(self):
-        """that faces came with"""
+        """triangles of the faces' given meshes"""
         return self._field("triangles")
 
     @property
@@ -1205,7 +1253,8 @@ class QuadMesh(AnyMesh):
         return self._field("report")
 
     def quality(self):
-        """Of the corners, in their planes; areas of the quads and of the faces."""
+        """Scaled Jacobian at the corners, in the plane of each corner, and the areas of the quads and of the
+        faces."""
         return self._method("quality")
 
     def groups(self):
@@ -1219,15 +1268,15 @@ class QuadMesh(AnyMesh):
         return self._method("quad", i)
 
     def model(self):
-        """The quads as faces that keep them, to be swept."""
+        """A model whose faces have these quads as their mesh, to sweep it."""
         return self._method("model")
 
     def coordinates(self):
-        """Of every node x, y, z."""
+        """Coordinates x, y, z of all nodes."""
         return self._array("coordinates")
 
     def cells(self, kind=None):
-        """Of every cell the numbers of its nodes, from 1.
+        """Node numbers of all cells of a kind, from 1.
 
         kind: default "quad"
         """
@@ -1235,16 +1284,16 @@ class QuadMesh(AnyMesh):
 
     def write(self, path, options=None, /, **keywords):
         """path: .msh, .vtu, .vtk, .inp, .bdf, .nas, .dat, .unv, .exo or .e
-        version: float; of a .msh
+        version: float; version of .msh
         binary: bool
-        groups: "one" | "all"; of a .msh: quads in one of their groups, or in all
-        gmsh_options: bool; a file beside a .msh that says how Gmsh shows it
+        groups: "one" | "all"; .msh: each quad is written in one of its groups, or in all of them
+        gmsh_options: bool; .msh: also write a .opt file with Gmsh's display options
         """
         self._method("write", path, options_of(options, keywords))
 
     def view(self, path, options=None, /, **keywords):
         """path: .html
-        title: str; default: what the input is called
+        title: str; title of the page; default: the name of the input
         """
         self._method("view", path, options_of(options, keywords))
 
@@ -1252,17 +1301,17 @@ class QuadMesh(AnyMesh):
         """path: .png
         width: int; default 1200 [pixels]
         height: int; default 900 [pixels]
-        facets: bool; sides of the facets are drawn; default False
-        legend: bool; a title, and what the colours mean; default True
-        title: str; default what is shown, counted
-        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; from what is seen to
-            the eye; default "iso"
+        facets: bool; draw the edges of the facets; default False
+        legend: bool; show a title and a key to the colours; default True
+        title: str; default: name and numbers of what is shown
+        view: (x, y, z) | "iso" | "front" | "back" | "left" | "right" | "top" | "bottom"; direction from the
+            object to the viewer; default "iso"
         """
         self._method("picture", path, options_of(options, keywords))
 
 
 class Quality(Object):
-    """Prints as a table, with a histogram and a line a metric."""
+    """Quality of a mesh. It prints as a table, with a histogram and one line for each metric."""
 
     __slots__ = ()
     _at_once = False
@@ -1285,7 +1334,7 @@ class Quality(Object):
 
     @property
     def least(self):
-        """smallest scaled Jacobian of each kind of cell that occurs"""
+        """smallest scaled Jacobian of each kind of cell in the mesh"""
         return self._field("least")
 
     @property
@@ -1298,32 +1347,32 @@ class Quality(Object):
 
     @property
     def inverted(self):
-        """cells with a corner that is not positive"""
+        """number of cells with a Jacobian of 0 or less at a corner"""
         return self._field("inverted")
 
     @property
     def uncertified(self):
-        """cells whose Jacobian was not shown positive everywhere"""
+        """number of cells whose Jacobian is not proven positive everywhere"""
         return self._field("uncertified")
 
     @property
     def certified(self):
-        """every cell is"""
+        """whether the Jacobian of every cell is proven positive everywhere"""
         return self._field("certified")
 
     @property
     def worst(self):
-        """at most ten, worst first; of a swept mesh one of each column"""
+        """at most ten cells, the worst first; of a swept mesh at most one from each column"""
         return shaped(self._field("worst"), ('list', ('of', 'WorstCell')))
 
     @property
     def histogram(self):
-        """of the scaled Jacobian, twenty bins over [-1, 1]"""
+        """histogram of the scaled Jacobian, with twenty bins over [-1, 1]"""
         return self._field("histogram")
 
     @property
     def metrics(self):
-        """in order and by name; measured when first asked for"""
+        """in order and by name; computed when first read"""
         return shaped(self._field("metrics"), ('rows', ('of', 'MetricSummary')))
 
     @property
@@ -1333,56 +1382,62 @@ class Quality(Object):
 
 
 def load(path, options=None, /, **keywords):
-    """The faces of a file, or of several as one model: CAD (.step .stp .iges .igs .brep .geo), facets (.stl
-    .obj), meshes and decks (.msh .inp .bdf .nas .dat .unv .vtk .vtu .exo .e .mesh). In the place of a path: a
-    mesh of meshio or PyVista.
+    """Read the faces of a file, or of several files as one model: CAD (.step .stp .iges .igs .brep .geo),
+    facets (.stl .obj), meshes and decks (.msh .inp .bdf .nas .dat .unv .vtk .vtu .exo .e .mesh). In the place
+    of a path: a mesh of meshio or PyVista.
 
-    tolerance: float; gaps below it are sewn [model length]; default 1e-6 × the diagonal
-    feature_angle: float; where facets are cut into faces [degrees]; default 40
-    keep_mesh: bool; given quads and nodes stay as they are; default True
-    keep_noise: bool; points of noisy facets, as of a scan, stay where they are; default False: they are
+    tolerance: float; gaps narrower than this are closed [model length]; default 1e-6 × the diagonal of the
+        bounding box
+    feature_angle: float; facets are divided into faces along edges with at least this angle [degrees];
+        default 40
+    keep_mesh: bool; quads and nodes of the input are kept as a mesh; default True
+    keep_noise: bool; points of noisy facets, for example from a scan, are not moved; default False: they are
         smoothed
-    scale: float; every coordinate times this; default 1
+    scale: float; factor of all coordinates; default 1
     unit: "um" | "mm" | "cm" | "m" | "in" | "ft"; declared unit of the model's lengths; STEP and IGES are
         converted to it
-    cad_seconds: float; processor time the CAD process may take over it; in the sandbox it only lowers
-    cad_megabytes: float; address space the CAD process may take; in the sandbox it only lowers
-    without: str | int | list[str | int]; regions, properties, sets or parts of meshes that are left out
+    cad_seconds: float; limit of the processor time of the CAD process [s]; in the sandbox it can only lower
+        the limit
+    cad_megabytes: float; limit of the address space of the CAD process [MB]; in the sandbox it can only lower
+        the limit
+    without: str | int | list[str | int]; regions, properties, sets or parts that are not read from meshes
     """
     return loaded(path, options_of(options, keywords))
 
 
 def model(options=None, /, **keywords):
-    """An empty model, to add faces to.
+    """An empty model, to which faces can be added.
 
-    tolerance: float; points closer than this are one [model length]; default 1e-6 × the diagonal
+    tolerance: float; points closer than this are merged [model length]; default 1e-6 × the diagonal of the
+        bounding box
     """
     return call("module", "model", options_of(options, keywords))
 
 
 def assembly(volumes):
-    """Volumes that share faces, to be meshed as one. Meshes among them stay as they are."""
+    """Volumes that are meshed together, sharing nodes where they share faces. Meshes among them are kept."""
     return call("module", "assembly", volumes)
 
 
 def split_interface(mesh, faces, **keywords):
-    """Double the nodes of faces between two regions, and put a cell of no thickness on each.
+    """Duplicate the nodes of faces between two regions, and insert a cell of zero thickness at each face.
 
-    faces: str | list[str | list[str]]; "all", a group, or an array of groups and of pairs of regions
-    element: str; Abaqus's word for the cells: "COH3D8", "GK3D8" or one that begins so; default "COH3D8"
+    faces: str | list[str | list[str]]; "all", a group, or an array of groups and pairs of regions
+    element: str; Abaqus element type of the cells: "COH3D8", "GK3D8", or a type that begins with one of
+        these; default "COH3D8"
     name: str; region and group of the cells; default "interface"
     """
     return call("module", "split_interface", mesh, options_of(None, keywords, faces=faces))
 
 
 def check(path):
-    """Quality of the solids of a mesh or deck in any format that is read; of a file without solids that of
-    its quads, as QuadMesh:quality()."""
+    """Quality of the solid elements of a mesh or deck in any format that can be read. For a file without
+    solid elements it is the quality of its quads, as QuadMesh:quality()."""
     return call("module", "check", path)
 
 
 def convert(from_, to, options=None, /, **keywords):
-    """A mesh or deck in any format that is read, in the format of the other's ending.
+    """Convert a mesh or deck to another format. The extension of `to` sets the format.
 
     to: .msh .vtu .vtk .inp .bdf .nas .dat .unv .exo .e .k .feb .med
     version: float; of .msh; default 4.1
@@ -1393,12 +1448,13 @@ def convert(from_, to, options=None, /, **keywords):
 
 
 def view(file, path, options=None, /, **keywords):
-    """A page of a file for a browser: the cells of a mesh or deck that has solids, else faces.
+    """Write an HTML page of a file: the cells of a mesh or deck with solid elements, otherwise the faces.
 
-    file: in any format that is read
+    file: in any format that can be read
     path: .html
-    title: str; default: what the input is called
-    show: "auto" | "faces" | "cells"; default "auto": cells of meshes that have solids, else faces
+    title: str; title of the page; default: the name of the input
+    show: "auto" | "faces" | "cells"; default "auto": the cells of a mesh that has solid elements, otherwise
+        the faces
     """
     return call("module", "view", file, path, options_of(options, keywords))
 

@@ -5,7 +5,7 @@ from ._objects import call, options_of
 
 
 def prism(options=None, /, **keywords):
-    """A regular prism with regular holes, twisted, tapered, bent.
+    """A prism over a regular polygon, with regularly arranged holes; it can be twisted, tapered and bent.
 
     sides: int
     radius: float
@@ -34,7 +34,7 @@ def annulus(options=None, /, **keywords):
 
 
 def elbow(options=None, /, **keywords):
-    """A bent pipe; wall_2 is the bore, where `inner` is above 0.
+    """A bent pipe. If `inner` is above 0, wall_2 is the bore.
 
     radius: float
     inner: float
@@ -47,7 +47,7 @@ def elbow(options=None, /, **keywords):
 
 
 def barrel(options=None, /, **keywords):
-    """A cylinder that bulges to radius (1 + bulge) half way up.
+    """A cylinder whose radius grows to radius × (1 + bulge) at half its height.
 
     radius: float
     height: float
@@ -59,7 +59,7 @@ def barrel(options=None, /, **keywords):
 
 
 def plate(options=None, /, **keywords):
-    """A plate with round holes in rows; walls 1 to 4 are its sides.
+    """A plate with rows of round holes. wall_1 to wall_4 are its sides.
 
     length: float
     width: float

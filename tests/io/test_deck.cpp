@@ -464,7 +464,7 @@ TEST_CASE("parts are put in place instance by instance, and numbers stay findabl
              {"*System\n1,2,3\n", "*SYSTEM"},
              {"*Include, input=/etc/passwd\n", "deck's folder"},
              {"*Instance, name=a, part=b\n", "'b'"},
-             {"*Node\n1,0,0,0\n1,0,0,1\n", "a second node 1"}}) {
+             {"*Node\n1,0,0,0\n1,0,0,1\n", "node 1 is defined twice"}}) {
         CAPTURE(wrong);
         CHECK_MESSAGE(has(deck_failure("x.inp", wrong), words), deck_failure("x.inp", wrong));
     }

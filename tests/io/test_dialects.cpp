@@ -442,15 +442,15 @@ TEST_CASE("nodes that an element lists too many are left out with a warning, one
         CHECK(content_of(read) == content_of(block));
         REQUIRE(read.warnings.size() == 1);
         CHECK(has(read.warnings[0], "elements C3D8 list too many nodes"));
-        CHECK(has(read.warnings[0], "up to " + std::to_string(further) + " an element"));
-        if (block.cells() > 1) CHECK(has(dialect_failure("x.inp", wrong), "found another count"));
+        CHECK(has(read.warnings[0], "up to " + std::to_string(further) + " nodes per element"));
+        if (block.cells() > 1) CHECK(has(dialect_failure("x.inp", wrong), "found another number"));
     }
     // Twenty nodes in two lines are no eight and a second element.
     std::string text = "*NODE\n";
     for (int n = 1; n <= 20; ++n) text += std::to_string(n) + ", " + std::to_string(n * n) + ", 1, 2\n";
     text +=
         "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,\n16, 17, 18, 19, 20\n";
-    CHECK(has(dialect_failure("x.inp", text), "found another count"));
+    CHECK(has(dialect_failure("x.inp", text), "found another number"));
 }
 
 TEST_CASE("AVS and HEC-MW files are refused by their names, whatever their ending")

@@ -304,7 +304,7 @@ do
     local cube = lacuna.load "cube.inp"
     cube:open_volume { source = "source", target = "target", walls = "auto", name = "again" }
       :sweep { layers = 2 }:write("twice.inp", { with = cube })
-  ]]:find "note: the mesh lies over %d+ of the deck's elements, such as element %d+")
+  ]]:find "note: the mesh overlaps %d+ of the deck's elements, such as element %d+")
 end
 
 -- A real deck: bricks of property 1 to 3; the middle one is left out and filled between its neighbours.

@@ -481,7 +481,7 @@ refused(whole:gsub("101     102     103", "&n1     102     103"), "is a paramete
 refused(whole:gsub("%*SET_NODE_LIST", "*INCLUDE_TRANSFORM\nx.k\n*SET_NODE_LIST"), "*INCLUDE_TRANSFORM")
 refused(whole:gsub("     101     102     103     104     105", "     101     101     101     104     105"),
   "repeats nodes")
-refused(whole:gsub("       2       9\n", "       1       9\n"), "element 1", "is there twice")
+refused(whole:gsub("       2       9\n", "       1       9\n"), "element 1", "is defined twice")
 refused("*KEYWORD\n*END\n", "*NODE")
 refused(whole:gsub("%*ELEMENT_BEAM",
     "*ELEMENT_SHELL\n       2       7     101     102     103     104\n*ELEMENT_BEAM"),

@@ -9,8 +9,7 @@ namespace lacuna {
 
 std::size_t edit_distance(const char* a, const char* b)
 {
-    // The distance is computed over rows of this length. Of the letters beyond it, only the difference in
-    // number counts.
+    // Letters beyond this length are not compared: only the difference in their number counts.
     constexpr std::size_t kLongest = 63;
     const std::size_t m = std::min(std::strlen(a), kLongest), n = std::min(std::strlen(b), kLongest);
     std::array<std::size_t, kLongest + 1> row{};

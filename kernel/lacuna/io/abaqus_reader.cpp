@@ -18,7 +18,8 @@
 namespace lacuna::io {
 namespace {
 
-/// Element families whose names consist of a word, the number of nodes and letters: S4R, C3D8I.
+/// A family of element types: the word at the start of their names, and their dimension. A number of nodes
+/// and letters follow the word: S4R, C3D8I.
 struct Family {
     std::string_view word;
     int dimension;
@@ -51,8 +52,8 @@ std::optional<DeckShape> shape_of(std::string_view type)
     return std::nullopt;
 }
 
-/// Keywords that generate or move nodes or elements. They are refused, because the deck without them is
-/// another mesh.
+/// Keywords that generate or move nodes or elements. A deck with such a keyword is refused, because it would
+/// be read as a different mesh.
 constexpr std::string_view kGenerators[] = {"NGEN",   "NFILL",  "NCOPY", "NMAP",  "ELGEN",
                                             "ELCOPY", "SYSTEM", "MODEL", "IMPORT"};
 struct Scope {
@@ -189,7 +190,7 @@ private:
         if (end) return;
         const std::string name = keyword.value("NAME");
         if (name.empty()) fail("*PART: expected NAME=");
-        if (find_part(name) != nullptr) fail("*PART: a second part {}", shown(name));
+        if (find_part(name) != nullptr) fail("*PART: the part {} is defined twice", shown(name));
         parts_.push_back(std::make_unique<Scope>());
         scope_ = parts_.back().get();
         scope_->name = name;
@@ -214,7 +215,8 @@ private:
         const std::string part = keyword.value("PART");
         instance_part_ = find_part(part);
         if (instance_name_.empty() || instance_part_ == nullptr)
-            fail("*INSTANCE: expected NAME= and the PART= of a part above, found {}", found(shown(part)));
+            fail("*INSTANCE: expected NAME= and, as PART=, a part defined above; found {}",
+                 found(shown(part)));
         rows_.clear();
         mode_ = Mode::instance;
     }
@@ -328,8 +330,8 @@ private:
         return found == all.end() ? -1 : static_cast<Index>(found - all.begin());
     }
 
-    /// Add the members that a word stands for: a number or a set. "instance.word" names either of them in an
-    /// instance.
+    /// Add the members that a word names: a single number, or the members of a set. "instance.word" names a
+    /// number or a set of that instance.
     void members_of(std::string_view word, DeckSet::Kind kind, std::vector<DeckTag>& members)
     {
         Index instance = of_instance_;
@@ -369,7 +371,7 @@ private:
         for (const DeckBlock& block : deck.blocks)
             for (std::size_t e = 0; e < block.count(); ++e) {
                 if (!std::ranges::binary_search(cells, block.tags[e])) continue;
-                for (const Index node : block.element(e)) // nodes of the current part, by index
+                for (const Index node : block.element(e)) // indices; tags in the part that is being read
                     if (node >= 0) set().members.push_back(of_instance ? deck.point_tags[index(node)] : node);
             }
     }
@@ -440,11 +442,11 @@ private:
             else
                 ++further;
         }
-        // An element has more nodes than its type. Their number cannot show whether the next line continues
-        // this element, so each line must be an element with the same number of nodes.
+        // The element lists more nodes than its type has. Their number does not show whether the element
+        // continues on the next line, so each line must be one element, with as many nodes as the first.
         if (further_ < 0) further_ = static_cast<std::ptrdiff_t>(further);
         if (further_ != static_cast<std::ptrdiff_t>(further) || (further > 0 && !from_start))
-            fail("expected {} nodes of {}, or as many in each line as in the first; found another count",
+            fail("expected {} nodes of {}, or the same larger number on each line; found another number",
                  needed(wanted - 1), type_);
         if (further > 0) into_.pass_over_nodes(type_, further);
         if (given_ == wanted) finish_element();
@@ -465,8 +467,8 @@ private:
 
     void take_other_element(std::string_view line)
     {
-        // The element type is unknown, and so is its number of nodes. A line that ends with a comma
-        // continues.
+        // The type is unknown, and so is its number of nodes. An element continues on the next line if its
+        // line ends with a comma.
         if (!std::exchange(goes_on_, line.ends_with(','))) {
             into_.pass_over("elements " + type_);
             if (set_ >= 0)
@@ -531,7 +533,7 @@ private:
         Deck& deck = scope.builder.deck();
         for (DeckSet& set : deck.sets) tidy(set);
         const TagPlaces nodes(deck.point_tags, [&](Index, Index second) {
-            main_.fail("{}a second {}", scope.name.empty() ? "" : formatted("part {}: ", scope.name),
+            main_.fail("{}{} is defined twice", scope.name.empty() ? "" : formatted("part {}: ", scope.name),
                        numbered("node", deck.point_tags[index(second)]));
         });
         scope.builder.resolve(
@@ -582,7 +584,7 @@ private:
         copy(*part, instance_name_, placement(), !rows_.empty());
     }
 
-    /// Add a copy of a part to the deck. Numbers that are in use already are raised.
+    /// Add a copy of a part to the deck. Unless all its numbers are above those in the deck, they are raised.
     void copy(Scope& scope, const std::string& name, const Eigen::Isometry3d& to, bool moved)
     {
         const Deck& part = scope.builder.deck();
@@ -601,7 +603,8 @@ private:
         deck.instances.push_back({name, scope.name, deck.points.size(), part.points.size(), offset});
         for (std::size_t p = 0; p < part.points.size(); ++p) {
             deck.points.push_back(moved ? Vec3(to * part.points[p]) : part.points[p]);
-            if (!deck.points.back().allFinite()) main_.fail("instance {}: a node is too far away", name);
+            if (!deck.points.back().allFinite())
+                main_.fail("instance {}: coordinates of a node are too large", name);
             deck.point_tags.push_back(part.point_tags[p] + offset);
         }
         const auto first_region = static_cast<Index>(deck.regions.size());
@@ -632,7 +635,7 @@ private:
             deck.regions = std::move(whole.regions);
             deck.sets = std::move(whole.sets);
         } else {
-            // A part without instances stays where it was defined.
+            // If there are no instances, each part is added once, in its own coordinates.
             rows_.clear();
             if (deck.instances.empty())
                 for (std::size_t p = 1; p < parts_.size(); ++p) {
@@ -647,8 +650,8 @@ private:
             global.sections.clear();
             finish_scope(global);
             if (sections) into_.pass_over("sections of the assembly");
-            // Add nodes and sets of the assembly itself. The members of its sets are already given as numbers
-            // of instances.
+            // Add the nodes and sets of the assembly itself. The members of its sets already have the offset
+            // numbers.
             std::vector<DeckSet> sets = std::move(global.builder.deck().sets);
             global.builder.deck().sets.clear();
             if (!global.builder.deck().points.empty())
@@ -679,7 +682,8 @@ private:
     std::vector<std::unique_ptr<Scope>> parts_; ///< the first scope holds the entities outside all parts
     Scope* scope_ = nullptr;
     std::map<std::pair<Scope*, std::string>, Index> regions_;
-    std::vector<Index> set_instance_; ///< instance of each set, for the first sets of the deck
+    std::vector<Index> set_instance_; ///< index of each set's instance; sets of the assembly come last and
+                                      ///< have no entry
     DeckPlace place_, element_place_;
     Mode mode_ = Mode::none;
     bool mesh_begun_ = false, in_part_ = false, cylindrical_ = false, generate_ = false, goes_on_ = false;

@@ -50,7 +50,8 @@ struct Cards {
     std::string elements, others;
 };
 
-/// The kept cards. Elements among them come first, because sets may name them.
+/// The kept cards. Element cards are separate, because they are written before the sets that name their
+/// elements.
 Cards cards_of(const MeshView::KeptText& kept)
 {
     Cards cards;
@@ -68,7 +69,7 @@ public:
         tags.each_range(begin, end,
                         [&](std::size_t first, std::size_t last) { ranges_.emplace_back(first, last); });
     }
-    /// @return  in the fewest ranges
+    /// @return  all added numbers, in as few ranges as possible.
     std::vector<std::pair<std::size_t, std::size_t>> take()
     {
         std::ranges::sort(ranges_);
@@ -131,7 +132,7 @@ private:
             section_of_points("*NODE\n", view_, kNumberBytes + 3 * (kWidth + 2) + 1, put));
     }
 
-    /// Add periodic faces: a cyclic symmetry for a sector, otherwise equations.
+    /// Write periodic faces: as a cyclic symmetry if the mesh is a sector, otherwise as equations.
     void add_periodic()
     {
         if (view_->periodic.empty()) return;
@@ -244,7 +245,7 @@ private:
         const bool own = is_abaqus_element(block.type, block.shape) || is_brick(block.shape, block.type);
         return own ? std::string_view(block.type) : words_of(block.shape).abaqus;
     }
-    /// Whether a shape is written as a brick with merged corners, with this type word.
+    /// Whether cells of this shape and type word are written as bricks with merged corners.
     static bool is_brick(DeckShape shape, std::string_view type)
     {
         const std::optional<DeckShape> brick = merged_brick(shape);
@@ -254,9 +255,9 @@ private:
     {
         return is_brick(block.shape, type_of(block));
     }
-    /// Collect the numbers of two kinds of elements whose sides have special names. Pyramids that are written
-    /// as bricks have the sides of a brick. Edges of shells are E1, E2, …, while those of plane elements are
-    /// S1, S2, …
+    /// Collect the numbers of elements whose sides have special names: pyramids that are written as bricks,
+    /// because their sides are numbered like those of a brick, and shells, because their edges are E1, E2, …
+    /// instead of S1, S2, … as in plane elements.
     void find_bricks_and_shells()
     {
         for (const MeshView::Block& block : view_->blocks) {
@@ -271,8 +272,9 @@ private:
     }
 
     /// Add equations that make the displacement linear along the base sides of pyramids of order 2. If the
-    /// middle node of a side lies off the chord, its displacement follows from the affine map of four corners
-    /// (the side's ends, the apex and another one), so that rigid motions stay free.
+    /// middle node of a side lies off the chord, its displacement is that of the affine map through four
+    /// corners (the ends of the side, a third corner of the base, and the apex), so that rigid motions stay
+    /// free.
     void find_equations()
     {
         const auto is_wanted = [&](const MeshView::Block& block) {
@@ -389,7 +391,7 @@ private:
         return members.take() == own.take();
     }
 
-    /// A set that equals a region is written as the ELSET of the region's elements.
+    /// Find the sets that equal a region. They are written as the ELSET of the region's elements.
     void choose_sets()
     {
         const std::vector<MeshView::Region>& regions = view_->regions;
@@ -407,8 +409,8 @@ private:
                 if (set.kind != mesh::SetKind::elements || !same_word(set.name, regions[r].name) ||
                     !is_region(set, r))
                     continue;
-                // Only one of both ways is used: with both, CalculiX would list each element of the set
-                // twice.
+                // Write the set on a card of its own or as ELSET, not both: CalculiX would then list each
+                // element of the set twice.
                 makes_set_[r] = by_elements_[s] = !set.listed;
                 set_of_region_[r] = static_cast<Index>(s);
             }
@@ -488,8 +490,8 @@ private:
         return head + "\n";
     }
 
-    /// @param count  number of nodes to write. @param brick  a pyramid is written as a brick with merged
-    ///               corners
+    /// @param count  number of nodes to write
+    /// @param brick  whether a pyramid is written as a brick with merged corners
     static char* put_element(const MeshView& view, DeckTag tag, std::span<const Index> nodes,
                              std::size_t count, bool brick, char* out)
     {
@@ -540,11 +542,11 @@ private:
     }
 
     View view_;
-    bool same_; ///< the deck was of this format: names and text stay
+    bool same_; ///< the deck was read from this format, so names and kept text are unchanged
     DeckFile file_;
     std::vector<DeckTag> bricks_, shells_; ///< see `find_bricks_and_shells()`
     std::string equations_;                ///< the card of equations, see `find_equations()`; empty: none
-    std::vector<bool> by_elements_;        ///< for each set: it is written by the elements of a region
+    std::vector<bool> by_elements_;        ///< for each set, whether it is written as the ELSET of a region
     std::vector<bool> makes_set_;          ///< for each region: its elements create a set
     std::vector<Index> set_of_region_;     ///< set that each region creates; -1: none
     /// Dimension of the elements of each region; 0: there are none.

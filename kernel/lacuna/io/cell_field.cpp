@@ -57,7 +57,7 @@ void check_field_name(const std::string& name, std::set<std::string>& names)
         throw InvalidInput("io.field_name",
                            "the cell field '{}' must have a name without blanks, quotes, < and &", name);
     if (name == "entity")
-        throw InvalidInput(Message("io.field_name", "the files name their own cell field 'entity'")
+        throw InvalidInput(Message("io.field_name", "the cell field name 'entity' is reserved")
                                .remedy("give the field another name"));
     if (!names.insert(name).second)
         throw InvalidInput(Message("io.field_name", "two cell fields are named '{}'", name)

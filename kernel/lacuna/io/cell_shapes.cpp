@@ -7,8 +7,8 @@ namespace lacuna::io {
 namespace {
 
 using enum DeckShape;
-/// A node order that differs from that of DeckShape. It is given for a shape with many middle nodes; shapes
-/// with fewer ones use its first nodes.
+/// A node order that differs from that of DeckShape. It is given for the shape with the most middle nodes;
+/// shapes with fewer middle nodes use its first entries.
 struct OwnOrder {
     NodeOrder order;
     DeckShape shape;

@@ -140,8 +140,8 @@ std::size_t Deck::element_count(int dimension) const
 
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale)
 {
-    // Points are sorted along x. All points in a plane normal to x may lie within the tolerance along x;
-    // among these, bisection finds the ones near in y.
+    // Points are sorted by their x, rounded to multiples of the tolerance, then by y. Even if all points lie
+    // in a plane normal to x, bisection by y finds the near ones quickly.
     std::vector<Index> order(deck.points.size());
     std::iota(order.begin(), order.end(), Index(0));
     const auto cell_of = [&](double x) { return tolerance > 0 ? std::floor(x / tolerance) : x; };

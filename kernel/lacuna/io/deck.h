@@ -80,10 +80,11 @@ struct DeckSet {
     Kind kind = Kind::elements;
     int tag = 0; ///< number of the group, if the format has one
     std::string name;
-    /// Members of a set of nodes or elements, rising, each once; may include entities in `texts`.
+    /// Members of a set of nodes or elements, ascending, each once; may include entities in `texts`.
     std::vector<DeckTag> members{};
     std::vector<DeckSide> sides{}; ///< members of a surface, increasing, each once
-    bool listed = false;           ///< Abaqus lists it on a card of its own, even if it equals a region
+    bool listed = false;           ///< an Abaqus deck lists it on a card of its own although it equals a
+                                   ///< region
     bool of_one_deck = false;      ///< holds all nodes or all solids of one deck, where several decks were
                                    ///< merged
 };
@@ -99,8 +100,8 @@ struct DeckInstance {
     DeckTag offset = 0;                      ///< offset of its node and element numbers
 };
 
-/// Text of a file besides the mesh, verbatim and with its line ends. It is written again if the format stays
-/// the same. Included files replace their INCLUDE.
+/// Text of a file besides its mesh, verbatim, with line ends. It is written again if the format stays the
+/// same. The text of an included file replaces the INCLUDE.
 struct DeckText {
     enum class Place : std::uint8_t {
         head,  ///< before the mesh: executive and case control up to BEGIN BULK; text before the first *NODE
@@ -118,8 +119,8 @@ struct Deck;
 struct DeckGap {
     std::vector<std::string> names{}; ///< regions and sets that lost all elements or members
     DeckTag node = 0, cell = 0;       ///< highest numbers that were left out; text may still name them
-    /// For each call of `leave_out()`: the elements that it left out, and the sets that held some of them, as
-    /// they were before.
+    /// For each call of `leave_out()`: the elements that it left out, and the sets that contained some of
+    /// them, as they were before the call.
     std::vector<std::shared_ptr<const Deck>> gone{};
     /// For each of these sets, by kind and name: the share of the lost members that added meshes have
     /// replaced [-].

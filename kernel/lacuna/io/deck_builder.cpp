@@ -240,7 +240,8 @@ Deck DeckBuilder::take(const std::string& path)
     const std::string passed = counted();
     if (!passed.empty()) deck_.notes.push_back(formatted("{}: passed over {}", path, passed));
     for (const auto& [type, count] : further_nodes_)
-        warn(formatted("elements {} list too many nodes; up to {} an element are ignored", type, count));
+        warn(formatted("elements {} list too many nodes; up to {} nodes per element are ignored", type,
+                       count));
     for (std::string& warning : deck_.warnings) warning.insert(0, path + ": ");
     for (std::size_t p = deck_.point_tags.size(); p < deck_.points.size(); ++p)
         deck_.point_tags.push_back(static_cast<DeckTag>(p) + 1);

@@ -69,10 +69,10 @@ private:
     std::size_t count_ = 0;
 };
 
-/// What a label stands for, by number: regions of shells and solids, and a list of sets; -1: none.
+/// The content of a label, by number: regions of shells and solids, and a list of sets; region -1: none.
 struct Label {
     Index shell = -1;     ///< region of the shells
-    int sets = 0;         ///< list of sets of the shells, or of surfaces of the sides
+    int sets = 0;         ///< list of the shells' sets, or of the surfaces that contain the sides
     Index a = -1, b = -1; ///< regions of the solids on either side, a <= b if both exist
     friend auto operator<=>(const Label&, const Label&) = default;
 };
@@ -243,8 +243,8 @@ private:
             if (shells[label] == 1) label = {kSingles, 0, label.a, label.b};
     }
 
-    /// Tag of the label: that of its set or, in MSH files, of its region. There the region is the surface,
-    /// and the sets are its groups.
+    /// Tag of a label: the tag of its set. In MSH files it is the tag of its region, because there a region
+    /// is a surface and its sets are the surface's groups.
     [[nodiscard]] int tag_of(const Label& label) const
     {
         const bool by_set = deck_.format != DeckFormat::msh;

@@ -25,37 +25,37 @@ struct MeshDeckOptions {
     std::string element{};
     DeckTag first_node = 0; ///< number of the first new node; 0: above all used numbers, from 1
     DeckTag first_cell = 0; ///< number of the first hexahedron; 0: above all used numbers, from 1
-    /// Material of the hexahedra: a name or number in the deck that they join, in any case. Empty: the
-    /// material of the elements next to the void, if the deck gives it.
+    /// Material of the hexahedra: a name, in upper or lower case, or a number in the deck that they join.
+    /// Empty: the material of the elements next to the void, if the deck gives it.
     std::string material{};
-    /// Of meshes with shared nodes: written in formats with `Format::has_contacts`. In others only the groups
-    /// of their faces are written, and a note says so.
+    /// Contacts of meshes with shared nodes. Formats with `Format::has_contacts` store them. In other formats
+    /// only the groups of their faces are written, and a note says so.
     std::vector<mesh::ContactPair> contacts{};
 };
 
 /// Indices of sets in a deck, by the kind of the set and the group that it holds.
 using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
 
-/// What meshes that joined a deck earlier have added to it.
+/// Entities of a deck that come from meshes joined to it earlier.
 struct JoinedBefore {
     GroupSets sets{};                       ///< sets of the meshes' groups
     std::map<std::string, Index> regions{}; ///< regions, by the names of the meshes
-    /// For each mesh that joined a deck of a file: the deck's point for each of its nodes.
+    /// For each mesh that joined a deck read from a file: the deck's point for each node of the mesh.
     std::vector<std::vector<Index>> points{};
 };
 
 /// Combine a deck with the mesh that fills one of its voids into one conformal mesh. The deck keeps its
-/// numbers. Where a skin node of the mesh coincides with a node of the deck, the deck's node is used. Middle
-/// nodes on sides of the deck are the deck's, too.
+/// numbers. Where a node of the mesh's skin coincides with a node of the deck, corner or middle, the deck's
+/// node is used.
 ///
-/// Groups of the skin become sets as in `write_mesh()`, but sets of nodes in UNV. The new region gets the
-/// number after the highest property. If several nodes of the deck coincide, the skin uses the node of the
-/// elements whose face it shares; if it shares none, that of the elements whose side it shares.
+/// Groups of the skin become sets as in `write_mesh()`; in UNV, sets of nodes. The new region gets the number
+/// after the highest property. If several nodes of the deck coincide, the skin uses the node of the elements
+/// with which it shares a face or, if there are none, a side.
 ///
-/// The region's material is written as a card if the format is the deck's: a PSOLID in Nastran, a *SOLID
+/// If the file has the deck's format, a card gives the region its material: a PSOLID in Nastran, a *SOLID
 /// SECTION before the first *STEP in Abaqus. There is no card if the deck already has a section for the set.
 /// By default the material is that of the region with the most faces on the mesh, and the log says so. If
-/// that region has none, Nastran's PSOLID names material 1, and Abaqus gets no section.
+/// that region has no material, Nastran's PSOLID names material 1, and Abaqus gets no section.
 /// If `leave_out()` removed parts from `deck` and thereby emptied a region, a mesh of the same name replaces
 /// that region. It takes over the region's number, sets, sections and properties, and the material from their
 /// cards.
@@ -72,7 +72,7 @@ struct JoinedBefore {
 ///                     "io.other_model"    a patch belongs to no face of the model.
 ///                     "io.no_material"    the deck has no material named `material`; lists its materials.
 ///                     "io.mixed_order"    elements next to the void have another order than the mesh, or
-///                                         nodes in the middle of quads where it has none.
+///                                         nodes in the middle of quads where the mesh has none.
 ///                     "io.element", "io.no_such_element", "io.number_taken"  as `write_mesh()`.
 /// @note  O(n log n) in the nodes of the deck; a copy of the deck is made.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::HexMesh& mesh,
@@ -98,9 +98,9 @@ struct MergeOptions {
 
 /// Merge several decks into one, in the coordinates and the format of the first.
 ///
-/// Cards of a deck of the same format are copied, before the first step of the first deck. The steps of later
-/// decks and their text before the bulk data are not copied. Coincident nodes stay separate. The log lists
-/// omitted content.
+/// Cards of later decks of the same format are inserted before the first step of the first deck. The steps of
+/// later decks and their text before the bulk data are omitted, and the log lists omitted content. Coincident
+/// nodes stay separate.
 /// @throw InvalidInput "io.numbers_clash"  two decks have the same node, element, property, set or material;
 ///        names it.
 /// @note  O(n log n).

@@ -28,8 +28,8 @@ Cursor& DeckFiles::include(const std::string& name, const DeckPlace& place, int 
     if (name.empty() || name.size() > kLongestName || name.find('\0') != std::string::npos)
         place.fail("INCLUDE: expected the name of a file");
     if (depth >= kDeepest || files_.size() >= kMostFiles)
-        place.fail(
-            Message(kUnreadable, "INCLUDE: too many files within files").remedy("does one include itself?"));
+        place.fail(Message(kUnreadable, "INCLUDE: files are nested too deeply")
+                       .remedy("check that no file includes itself"));
     // Links are resolved before comparing.
     std::error_code error;
     const fs::path base = fs::weakly_canonical(folder_.empty() ? fs::path(".") : folder_, error);

@@ -138,8 +138,7 @@ std::vector<Vec3> centres_of(const Deck& deck, std::span<const std::array<Vec3, 
 
 namespace {
 
-/// Match the middle nodes of quads that the deck and the mesh share. A shared quad must have one in both, or
-/// in neither.
+/// Match the middle nodes of quads that the deck and the mesh share. Both or neither must have one.
 template <class Mesh>
 void join_centres(const Deck& deck, const Mesh& mesh, const std::vector<bool>& matched, double tolerance,
                   double scale, std::vector<Index>& points)

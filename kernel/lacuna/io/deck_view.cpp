@@ -280,7 +280,7 @@ private:
     std::vector<int> list_, dimension_; ///< for each element: the number of its list of sets, and its
                                         ///< dimension
     std::map<std::tuple<int, Index, int>, Index> known_;
-    std::vector<Index> place_of_region_; ///< for each entity
+    std::vector<Index> place_of_region_; ///< index of each entity's region
 };
 
 MeshView::Block block_of(const DeckBlock& block, const std::shared_ptr<const Bulk>& bulk)

@@ -19,8 +19,8 @@ namespace {
 /// More than the length of any double with 17 decimals, even after `with_point()` inserts a point.
 constexpr std::size_t kRoom = 400;
 
-/// Convert the output of to_chars() to a number with a point and a short exponent. The exponent follows
-/// `e_letter`, or is only its sign and digits if `e_letter` is 0.
+/// Convert the output of to_chars() to a number with a decimal point and a short exponent. The exponent
+/// follows `e_letter`, or is only its sign and digits if `e_letter` is 0.
 std::size_t with_point(char* text, std::size_t length, std::size_t width, char e_letter)
 {
     std::string_view all(text, length);
@@ -282,7 +282,7 @@ void check_numbers(const mesh::MeshView& view, DeckTag most, const std::string& 
     };
     if (is_high(view.point_tags, view.points) ||
         std::ranges::any_of(view.blocks, [&](const auto& block) { return is_high(block.tags, block.count); }))
-        throw InvalidInput(Message("io.number_taken", "{} has numbers above {}, more than {} holds",
+        throw InvalidInput(Message("io.number_taken", "{} has numbers above {}, the highest that {} allows",
                                    view.source, needed(most), format)
                                .remedy("{}", remedy));
 }

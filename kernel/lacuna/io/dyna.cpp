@@ -97,12 +97,12 @@ public:
         end_card();
         if (into_.points().empty()) main_.fail_at(0, "expected cards *NODE, found none");
         const TagPlaces tags(into_.deck().point_tags, [&](Index, Index node) {
-            main_.fail("{} is there twice", numbered("node", into_.deck().point_tags[index(node)]));
+            main_.fail("{} is defined twice", numbered("node", into_.deck().point_tags[index(node)]));
         });
         into_.resolve(tags, [&](std::uint64_t at, const Message& why) { files_.place_of(at).fail(why); });
         const std::vector<DeckTag> elements = element_tags(into_.deck());
         const TagPlaces unique(elements, [&](Index a, Index) {
-            main_.fail(Message(kUnreadable, "{} is there twice", numbered("element", elements[index(a)]))
+            main_.fail(Message(kUnreadable, "{} is defined twice", numbered("element", elements[index(a)]))
                            .remedy("give each solid and each shell its own number"));
         });
         name_regions();
@@ -350,7 +350,7 @@ private:
                 region.name = "pid:" + std::to_string(region.tag);
     }
 
-    /// Find the sides of elements that segments give by their nodes.
+    /// Find the sides of elements that the segments of sets name by their nodes.
     void find_sides()
     {
         for (const SetCard& card : sets_)
@@ -410,8 +410,8 @@ private:
         return Quad{row[0], row[1], row[2], last};
     }
 
-    /// Call `take(numbers)` for each data line of a set after its head. For a line with other words, no
-    /// numbers are passed.
+    /// Call `take(numbers)` for each data line of a set after its head. A word that is no number is passed as
+    /// -1.
     template <class Take>
     void each_row(const SetCard& card, const Take& take) const
     {

@@ -359,8 +359,8 @@ private:
         return count;
     }
 
-    /// The shape that the beginning of the type word and the number of nodes give; empty for point elements,
-    /// which are ignored.
+    /// The shape of elements, from the beginning of their type word and their number of nodes; empty for
+    /// point elements, which are ignored.
     std::optional<DeckShape> shape_of(const std::string& type, std::size_t nodes,
                                       const std::string& name) const
     {

@@ -315,8 +315,8 @@ private:
         }
     }
 
-    /// Name the blocks. A region with one block keeps its name and tag; the blocks of other regions get
-    /// numbers above all tags.
+    /// Name the blocks. The first block of a region has the region's name and tag. Further blocks get the
+    /// name with a number appended, and ids above all tags.
     void name_blocks()
     {
         std::set<std::string> names;

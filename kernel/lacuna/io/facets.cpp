@@ -113,7 +113,7 @@ std::vector<Section> stl_bytes(const Skin& skin)
              })}};
 }
 
-/// Numbers, each after a blank.
+/// Write coordinates, each after a blank.
 char* put_point(char* out, const Vec3& point)
 {
     for (const double value : point) {

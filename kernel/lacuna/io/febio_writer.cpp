@@ -28,8 +28,8 @@ std::string_view word_of(DeckShape shape)
     return kWords[static_cast<std::size_t>(shape)];
 }
 
-/// The index in the order of DeckShape of FEBio's node `k`. In a hex27, FEBio lists the centres of the sides
-/// going round, then those of bottom and top.
+/// The index in the order of DeckShape of FEBio's node `k`. In a hex27, FEBio lists the centres of the four
+/// sides around first, then those of bottom and top.
 std::size_t place_of(DeckShape shape, std::size_t k)
 {
     constexpr std::size_t kCentres[] = {22, 21, 23, 20, 24, 25, 26};
@@ -200,7 +200,7 @@ private:
     {
         const MeshView::Set& set = view_->sets[s];
         if (set.kind == SetKind::sides) return add_surface(s);
-        // FEBio makes a set of the elements of each part, so none is written for such a set.
+        // FEBio makes an element set of each part, so a set that equals a part is not written.
         const auto whole = wholes_.find(set.name);
         const bool is_part = set.kind == SetKind::elements && whole != wholes_.end() &&
                              whole->second == std::pair(1, set.count);

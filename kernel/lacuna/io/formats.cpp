@@ -62,7 +62,7 @@ std::vector<FormatRow> make_table()
                                 "renumber first_node first_cell interfaces",
                                 msh_file);
     row.read = read_msh, row.has_node_sets = false;
-    row.unwritten_sets = "sets of nodes or sides are not written: groups of MSH are of elements";
+    row.unwritten_sets = "sets of nodes or sides are not written: groups of MSH hold elements";
     table.push_back(row);
     row = view_format(".vtu", "a VTU file", "VTK", vtu,
                       "quality orientation with without renumber first_node first_cell interfaces", vtu_file);

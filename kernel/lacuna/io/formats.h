@@ -21,8 +21,8 @@ struct Format {
     bool is_mesh = true;    ///< holds cells, not only facets
     bool is_folder = false; ///< a folder of files
 
-    /// The options of `mesh:write` that it supports, separated by blanks; with "with", a mesh can be joined
-    /// to decks.
+    /// The options of `mesh:write` that it supports, separated by blanks. If "with" is among them, meshes can
+    /// be joined to decks.
     std::string_view options{};
     bool is_numbered = false;    ///< it is a deck: nodes and cells have numbers, and there are no fields
     bool streamed = false;       ///< layers can be written while they are created

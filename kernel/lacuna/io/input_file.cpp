@@ -29,7 +29,8 @@ public:
             throw InvalidInput("io.no_file", "cannot open {}: {}", path,
                                std::generic_category().message(errno));
         struct stat about {};
-        if (::fstat(descriptor_, &about) != 0) refuse({"io.no_file", "{} cannot be looked at", path});
+        if (::fstat(descriptor_, &about) != 0)
+            refuse({"io.no_file", "the status of {} cannot be read", path});
         if (S_ISDIR(about.st_mode))
             refuse(Message("io.not_a_file", "{} is a folder", path).remedy("name a file in it"));
         if (!S_ISREG(about.st_mode))

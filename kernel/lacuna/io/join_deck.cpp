@@ -46,7 +46,8 @@ public:
         return points;
     }
 
-    /// The region with known material that has most faces on the mesh. @pre points() was called
+    /// The region with the most faces on the mesh among those whose material is known; null: none.
+    /// @pre  points() was called
     [[nodiscard]] const DeckRegion* neighbour() const
     {
         const DeckRegion* best = nullptr;
@@ -59,14 +60,15 @@ public:
         return best;
     }
 
-    /// Note elements of the deck that lie where the mesh lies. @pre points() was called
+    /// Log a note if elements of the deck overlap with the mesh.
+    /// @pre  points() was called
     void note_inside(const RunContext& context) const
     {
         if (inside_.empty()) return;
         const auto [tag, region] = *inside_.begin();
         const std::string name = region >= 0 ? deck_.regions[index(region)].name : std::string();
         log_line(context,
-                 formatted("note: the mesh lies over {} of the deck's elements, such as element {}{}; "
+                 formatted("note: the mesh overlaps {} of the deck's elements, such as element {}{}; "
                            "the option 'without' leaves them out",
                            inside_.size(), tag, name.empty() ? "" : " of " + name));
     }
@@ -91,7 +93,8 @@ private:
         for (std::size_t i = 0; i < skin_.size(); ++i) candidates_[index(skin_[i])] = at_.at(i);
     }
 
-    /// Find the deck's faces and sides on the skin. Each votes for the points to use at its nodes.
+    /// Find the deck's faces and sides on the skin. Where points of the deck coincide, each face and side
+    /// votes for its own points.
     void match_faces()
     {
         by_face_.assign(mesh_.nodes.size(), {-1, -1});
@@ -149,7 +152,7 @@ private:
         return height < 0;
     }
 
-    /// Faces of an element with at least two corners on the skin.
+    /// Call `take` for each face of an element, if at least two corners of the element are on the skin.
     template <class Take>
     void each_face(const DeckBlock& block, std::size_t e, const Take& take) const
     {
@@ -260,16 +263,16 @@ private:
     const topology::Model& model_;
     double scale_;
     const Mesh& mesh_;
-    std::vector<Index> skin_;                        ///< nodes of the mesh
+    std::vector<Index> skin_;                        ///< nodes of the mesh's skin
     NodesAt at_;                                     ///< points of the deck at these nodes
     std::vector<std::span<const Index>> candidates_; ///< points of the deck at each node of the mesh, in
                                                      ///< `at_`
     /// Node of the mesh at each of the deck's points; -1: none.
     std::vector<Index> node_of_;
     Votes by_face_, by_side_;
-    std::vector<bool> matched_;         ///< quads of the skin
+    std::vector<bool> matched_;         ///< for each quad of the skin, whether an element of the deck has it
     std::vector<std::size_t> touching_; ///< for each region, number of its faces on the skin
-    std::map<DeckTag, Index> inside_;   ///< elements that lie where the mesh lies, and their regions
+    std::map<DeckTag, Index> inside_;   ///< elements that overlap with the mesh, and their regions
 };
 
 template <class Mesh>
@@ -287,7 +290,7 @@ Deck joined(const Deck& deck, const topology::Model& model, double scale, const 
     for (const DeckBlock& block : deck.blocks) {
         const auto [dimension, corners, nodes] = shape_info(block.shape);
         for (std::size_t e = 0; added.skin_cells && dimension == 2 && e < block.count(); ++e) {
-            // Skins of meshes that joined before are not of the deck: their regions have no number yet.
+            // Skip the skins of meshes that joined before; their regions have no number yet.
             const Index region = block.regions[e];
             if (region >= 0 && deck.regions[index(region)].tag == 0) continue;
             const std::span<const Index> own = block.element(e);

@@ -154,22 +154,23 @@ private:
             on_.push_back(hit < 0 || quad.area.dot(skin_[index(hit / 2)].area) <= 0 ? -1 : hit / 2);
         }
     }
-    /// Maximum distance of a quad's centre from its face, relative to the root of its area [-]. It is more
-    /// than the sag of a 60° chord (0.13), and less than half a cell, the distance between quads of two
-    /// meshes.
+    /// Maximum distance of a quad's centre from its face, relative to the root of the quad's area [-]. It
+    /// exceeds the sag of a 60° chord (0.13), by which two meshes of one surface may differ, and is less than
+    /// half a cell.
     static constexpr double kReach = 0.25;
 
     const Deck& gone_;
     const NewCells& added_;
-    /// Numbers in the part with the volume's name, otherwise in everything left out; increasing
+    /// Numbers of the solids and nodes that the mesh replaces, increasing: those of the part with the
+    /// volume's name or, if there is none, of everything left out.
     std::vector<DeckTag> cells_, nodes_;
     std::vector<Face> skin_;   ///< skin of the elements that were left out
     std::vector<Index> on_;    ///< for each quad of the new skin, its face in `skin_`; -1: none
     std::vector<double> area_; ///< area of each of these quads
 };
 
-/// Whether a set that holds all solids is meant to hold all. It is not if it is a body's own set, or the set
-/// of cells behind a surface of a mesh with one layer.
+/// Whether a set of all solids is meant to hold all. It is not if it is the set of a region, or if it holds
+/// the cells behind a surface of a mesh with one layer.
 bool is_of_all(const Deck& deck, const DeckSet& set)
 {
     if (same_word(set.name, "all") || same_word(set.name, "eall")) return true;

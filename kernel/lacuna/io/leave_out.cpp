@@ -30,8 +30,8 @@ bool is_part(const DeckSet& set, std::string_view name)
     return set.kind == DeckSet::Kind::elements && same_word(set.name, name);
 }
 
-/// A Nastran card that names nodes or elements by number. `fields` lists the fields that do, numbered as in
-/// the manuals; 0 stands for the fields of continuation lines.
+/// A Nastran card that refers to nodes or elements. `fields` lists the fields with their numbers, counted as
+/// in the manuals; 0 stands for all fields of continuation lines.
 struct NamingCard {
     std::string_view name, fields;
     bool nodes, elements;
@@ -47,7 +47,7 @@ constexpr NamingCard kNamingCards[] = {
 ///
 /// `use(node)` is called for the nodes of elements, constraints and frames that are kept as text.
 /// `name(card, node, element)` is called for nodes and elements that loads and similar cards name; one of the
-/// two numbers may be 0. A field that could be either is read as a node.
+/// two numbers may be 0. A number that may be of a node or an element, as in SET1, is passed as both.
 struct CardReader {
     std::function<void(DeckTag)> use;
     std::function<void(const std::string& card, DeckTag node, DeckTag element)> name;
@@ -181,8 +181,8 @@ private:
             if (const Index e = elements_.find(tag); e >= 0) is_out_[index(e)] = 1;
     }
 
-    /// If the file stores the skin as elements, remove those on faces of removed solids, unless a remaining
-    /// solid has the same face.
+    /// If the file stores the skin as elements, remove those on faces of removed solids. If a remaining solid
+    /// has the same face, one element stays.
     void mark_skin()
     {
         if (std::ranges::none_of(
@@ -309,8 +309,8 @@ private:
             if (after < before)
                 sets_.push_back(formatted("{} loses {} of {}", set.name, before - after, before));
             if (after == 0 && before > 0) add_emptied(set.name);
-            // Record the set of all nodes as one that lost members even if it kept all: the replacement adds
-            // nodes.
+            // Record a set of all nodes as if it had lost members, even if it kept all, because the
+            // replacement adds nodes.
             if (after < before || after >= deck_.points.size()) gone_.sets.push_back(all);
             found_.kept.sets.push_back(std::move(set));
         }
@@ -330,7 +330,7 @@ private:
         };
         CardReader{[](DeckTag) {}, count}.read(deck_);
         for (const auto& [card, times] : cards)
-            found_.kept.notes.push_back(formatted("note: {}: {} names nodes or elements that are left out, "
+            found_.kept.notes.push_back(formatted("note: {}: {} names nodes or elements that are left out: "
                                                   "{} times. The cards are kept unchanged: edit them by hand",
                                                   deck_.path, card, times));
     }
@@ -399,17 +399,16 @@ LeftOut leave_out(const Deck& deck, std::span<const std::string> parts)
 
 Deck close_gap(Deck deck, const RunContext& context)
 {
-    // A polygon of 60° chords covers 4.5 % less than its circle. So if areas differ by up to this share, the
-    // surfaces may be two meshes of the same surface.
+    // A polygon of 60° chords is 4.5 % shorter than its circle, so two meshes of one surface may differ in
+    // area by up to this share.
     constexpr double kSameArea = 0.05;
     std::vector<std::string> lost;
     for (const auto& gone : deck.gap.gone)
         for (const DeckSet& set : gone->sets)
             if (std::abs(deck.gap.replaced[{set.kind, set.name}] - 1) > kSameArea) lost.push_back(set.name);
     if (!lost.empty())
-        log_line(context,
-                 formatted("note: {}: these sets lost members that no mesh has replaced, or only in part: {}",
-                           deck.path, listed(lost)));
+        log_line(context, formatted("note: {}: these sets lost members that no mesh fully replaced: {}",
+                                    deck.path, listed(lost)));
     std::erase_if(lost, [&](const std::string& name) {
         return std::ranges::any_of(deck.sets, [&](const DeckSet& set) { return same_word(set.name, name); });
     });

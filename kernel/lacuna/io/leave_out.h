@@ -14,9 +14,9 @@ namespace lacuna::io {
 
 /// A deck split in two: what remains, and what was left out.
 struct LeftOut {
-    Deck kept; ///< its last notes count what was left out, and the cards that name some of it
-    /// The elements left out, with all nodes of the deck, and without text. Also the sets that held some of
-    /// these elements or of their nodes, as they were before. The same as the last of `kept.gap.gone`.
+    Deck kept; ///< its last notes count the elements and nodes left out, and cards that name them
+    /// The elements left out, with all nodes of the deck but without text. Sets that contained some of these
+    /// elements or of their nodes are as they were before. The same object as the last of `kept.gap.gone`.
     std::shared_ptr<const Deck> gone;
 };
 
@@ -31,12 +31,13 @@ std::vector<DeckTag> cells_of_part(const Deck& deck, std::string_view name);
 /// Remove parts from a deck: their elements, and the nodes that nothing else uses. Everything else is
 /// unchanged, including numbers, order and text.
 ///
-/// A part is a region, an element set, an instance or part of an Abaqus deck, in any case, or the number of a
-/// property if the format has properties. Nodes also stay if elements that are kept as text use them, or
-/// cards of constraints or coordinate systems. Sets lose the removed members. `Deck::gap` records regions and
-/// sets that become empty, so that a mesh of the same name can replace them.
+/// A part is a region, an element set, or an instance or part of an Abaqus deck, named in upper or lower
+/// case. If the format has properties, the number of one is also a part. Nodes also stay if they are used by
+/// elements that are kept as text, or by cards of constraints or coordinate systems. Sets lose the removed
+/// members. `Deck::gap` records regions and sets that become empty, so that a mesh of the same name can
+/// replace them.
 /// @throw InvalidInput "io.no_such_part"  no part has this name; lists the existing ones.
-/// "io.nothing_left"  the parts contain all elements of the deck.
+///                     "io.nothing_left"  the parts contain all elements of the deck.
 /// @note  O(n); O(n log n) if tags have large gaps. A copy of the deck is made.
 LeftOut leave_out(const Deck& deck, std::span<const std::string> parts);
 

@@ -79,7 +79,7 @@ void move_in(std::vector<T>& to, std::vector<T>& from)
         to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-/// Append the facets of `more` to `all`; tags continue.
+/// Append the facets of `more` to `all`, with tags above those of `all`.
 void append(FacetFile& all, FacetFile more)
 {
     const auto points = static_cast<Index>(all.soup.points.size());
@@ -210,7 +210,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     check_cancelled(context);
     for (Vec3& p : all.soup.points) p *= options.scale;
     if (!options.keep_mesh) split_quads(all.soup);
-    // Names may be equal or missing. So the number of its label is the name of each face during splitting.
+    // Names may be equal or missing, so during splitting each face is named by the number of its label.
     const std::vector<std::string> names = std::exchange(all.soup.label_name, {});
     for (std::size_t label = 0; label < names.size(); ++label)
         all.soup.label_name.push_back(std::to_string(label));
@@ -229,7 +229,7 @@ LoadedFiles import_facets(const std::vector<std::string>& paths, const LoadOptio
     return loaded;
 }
 
-/// Join what reading left separate: T-junctions, faces of different files, duplicate faces.
+/// Join faces that reading left separate: at T-junctions, in different files, and duplicates.
 void stitch(LoadedFiles& loaded, const LoadOptions& options, const RunContext& context)
 {
     topology::Model& model = loaded.model;

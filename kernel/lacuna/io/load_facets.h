@@ -29,8 +29,9 @@ struct FacetFile {
     std::vector<std::string> notes; ///< ignored content with counts; one sentence each
 };
 
-/// Read the faces of a file. Its extension, in any case, determines the format, and the content must agree.
-/// Formats with elements are read as by read_deck(); the faces are the shells and the skin of the solids.
+/// Read the faces of a file. The file extension, in upper or lower case, determines the format, and the
+/// content must agree. Formats with elements are read as by read_deck(); the faces are the shells and the
+/// skin of the solids.
 ///
 /// | ending | read | a region or set is |
 /// |---|---|---|
@@ -64,8 +65,8 @@ struct LoadOptions {
     bool keep_noise = false;   ///< points of noisy facets stay where they are
     double scale = 1;          ///< factor on every coordinate, > 0 [-]
     /// Unit of the model's lengths, a name that `metres_of()` knows. Lengths of STEP and IGES files, which
-    /// state their unit, are converted to it. Numbers in other formats are taken as lengths in it. Empty: no
-    /// unit is declared.
+    /// state their unit, are converted to it; lengths in other formats are taken to be in it. Empty: no unit
+    /// is declared.
     std::string unit{};
     /// Parts of the meshes to leave out, as in `leave_out()`; each must be in at least one file.
     std::vector<std::string> without{};
@@ -92,12 +93,12 @@ struct OtherFormats {
         import;
 };
 
-/// Read files into one model. healing::split_facets() splits facets into faces. A face that is a whole label
-/// has the label's tag; other faces get tags above the highest one. Tags of later files start above those of
-/// earlier ones. healing::stitch() joins faces without shared edges.
+/// Read files into one model. healing::split_facets() splits facets into faces. A face with all facets of a
+/// label has the label's tag; other faces get tags above the highest one. Tags of later files start above
+/// those of earlier ones. healing::stitch() joins faces without shared edges.
 /// @param others  formats besides those of read_facets().
-/// @throw InvalidInput  as read_facets() and leave_out(), or an option out of range: "io.scale",
-///                      "io.tolerance".
+/// @throw InvalidInput  an option is out of range ("io.scale", "io.tolerance"); or as read_facets() and
+///                      leave_out().
 topology::Model load_facets(const std::vector<std::string>& paths, const LoadOptions& options = {},
                             const RunContext& context = {}, const OtherFormats& others = {});
 

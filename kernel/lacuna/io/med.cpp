@@ -383,7 +383,7 @@ private:
         return volume < 0;
     }
 
-    /// Groups are sets; a region is named after the group with the fewest cells.
+    /// Add groups as sets, and name each region after its group with the fewest cells.
     void add_sets()
     {
         std::map<std::string, std::vector<std::int32_t>> of_cells, of_nodes;

@@ -26,7 +26,8 @@
 namespace lacuna::io {
 namespace {
 
-/// The first of `count` consecutive numbers that are free. @param highest  highest number in use before.
+/// The first of `count` consecutive free numbers.
+/// @param highest  all numbers up to this one count as taken.
 DeckTag free_from(DeckTag asked, std::size_t count, const std::set<DeckTag>& texts,
                   std::vector<DeckTag>& taken, DeckTag highest, const char* option, const char* what)
 {
@@ -74,7 +75,7 @@ struct OfShape {
 };
 using ByShape = std::array<OfShape, 2>;
 
-/// A swept mesh. Its cells and skin are stored in another order than by shape.
+/// A swept mesh. Its cells and skin are not stored by shape, so positions are converted to indices.
 struct SweptParts {
     const mesh::HexMesh& mesh;
     mesh::CellKinds kinds{mesh};
@@ -349,8 +350,8 @@ private:
         if (!stores()) added_.bulk->sets.push_back(static_cast<std::size_t>(&set - deck_.sets.data()));
     }
 
-    /// Update the sets of the deck that should contain the mesh. @param of_all  result of `sets_of_all()`
-    /// before the mesh was added
+    /// Update the sets of the deck that should contain the mesh.
+    /// @param of_all  result of `sets_of_all()` before the mesh was added
     void update_sets(const std::vector<std::size_t>& of_all)
     {
         if (of_all.empty() && deck_.gap.gone.empty()) return;
@@ -370,9 +371,9 @@ private:
         join_sets(deck_, added, of_all, [&](const DeckSet& set) { return may_join(set); });
     }
 
-    /// Whether the cells may join a set. They must not if the set's section would give them a second
-    /// material. If several decks each have a section for all their cells, the cells must not get a second
-    /// section either.
+    /// Whether the cells may join a set. They may not if the set has a section with another material than
+    /// theirs. If decks were merged and each has a section for all its cells, the cells join the first of
+    /// these sets only, so that they get one section.
     bool may_join(const DeckSet& set)
     {
         if (options_.format != deck_.format || takes_place()) return true;
@@ -455,9 +456,8 @@ private:
         if (!cards.empty())
             log_line(
                 context_,
-                formatted(
-                    "note: the numbers of {} stay as they are: no node and no cell of {} is added to them",
-                    listed(cards), volume_));
+                formatted("note: the members of {} are unchanged: no node and no cell of {} is added to them",
+                          listed(cards), volume_));
     }
 
     void tell_names() const
@@ -466,14 +466,14 @@ private:
         for (const auto& [wanted, name] : renamed_)
             names.push_back(formatted("its group {} is called {}", wanted, name));
         if (!names.empty())
-            log_line(context_,
-                     formatted("note: {}: names that other sets have: {}", volume(), listed(names)));
+            log_line(context_, formatted("note: {}: renamed, because other sets have these names: {}",
+                                         volume(), listed(names)));
     }
 
     void add_skin_cells()
     {
-        // In UNV each skin element needs a property, in MSH one group. In other formats the skin has groups
-        // only.
+        // Region of a skin element. In UNV each skin element needs a property, in MSH exactly one group;
+        // other formats have no region for skin elements.
         const auto region_of = [&](std::size_t i) {
             if (options_.format != DeckFormat::msh) return unv() ? region_ : -1;
             const auto& groups = mesh_.patches[index(parts_.patch(i))].groups;
@@ -508,7 +508,7 @@ private:
         return face_key(quad);
     }
 
-    /// Whether the deck, or a mesh that was added before, has the same quad of the skin. If not, the quad is
+    /// Whether the deck, or a mesh that was added before, already has a quad of the skin. If not, the quad is
     /// recorded.
     bool is_there(std::size_t i)
     {
@@ -567,13 +567,13 @@ private:
     {
         DeckSet set;
         if (added_.skin_cells) {
-            // Elements of the deck stay in its group of that name.
+            // If all quads are elements of the deck already, its group of that name is unchanged.
             if (joins() && is_taken(set.kind, name) &&
                 std::ranges::all_of(quads, [&](std::uint32_t i) { return skin_of_.contains(i); }))
                 return;
             for (const std::uint32_t i : quads) set.members.push_back(skin_tag(i));
             const std::string& own = add_set(set, unv() ? name + kSkin : name, name).name;
-            // The group is written under one name, also where an element is in one group alone.
+            // Give the skin's region the name of the set, so that the group is written under one name.
             if (const auto of = skin_regions_.find(name); of != skin_regions_.end())
                 deck_.regions[index(of->second)].name = own;
             return;
@@ -623,8 +623,8 @@ private:
             }
             log_line(
                 context_,
-                formatted("{}{}: its material is {}, that of {} beside it{}; open_volume's material says "
-                          "another",
+                formatted("{}{}: its material is {}, that of {} beside it{}; to use another, set the option "
+                          "material of open_volume",
                           lost.empty() ? "" : "note: ", volume(), material_, added_.neighbour,
                           lost.empty() ? ""
                                        : formatted(", while elements that were left out have {}",
@@ -639,7 +639,7 @@ private:
                            known.empty() ? "no materials"
                                          : formatted("the materials {}", short_list(known, std::identity())));
     }
-    /// Report hexahedra that were left out if the new ones are of another type.
+    /// Report the types of hexahedra that were left out, if the new ones are of another type.
     void tell_lost_elements() const
     {
         if (!options_.element.empty() || element_.empty() || extended_ >= 0) return;
@@ -654,7 +654,7 @@ private:
                                          "element = \"{}\" writes these",
                                          volume(), element_, type, type));
     }
-    // Separates the keys of skin groups from those of cell groups, because it occurs in no name.
+    // Suffix of the keys of skin groups, to distinguish them from cell groups; it occurs in no name.
     static constexpr const char* kSkin = "\n";
 
     [[nodiscard]] std::string name() const
@@ -767,7 +767,7 @@ void add_contacts(Deck& deck, const MeshDeckOptions& options, const JoinedBefore
                 pair.sets[s] = set->second;
 }
 
-/// Start a deck of a format.
+/// An empty deck of a format.
 Deck new_deck(DeckFormat format)
 {
     Deck deck;

@@ -24,7 +24,7 @@ void tell(const std::vector<std::string>& notes, const OutputPath& path, const R
     for (const std::string& note : notes) log_line(context, formatted("note: {}: {}", path.text(), note));
 }
 
-/// Note pairs that the format does not hold.
+/// Report contact pairs that the format cannot store.
 void tell_contacts(const Format& format, const mesh::MeshView& view, const MeshFileOptions& options,
                    const OutputPath& path, const RunContext& context, const Team* team)
 {

@@ -40,11 +40,12 @@ struct MeshFileOptions {
     std::string unit{}; ///< declared unit of the lengths, a name that `metres_of()` knows; empty: that of the
                         ///< deck, or none
     /// Write the directions of cells (`mesh::cell_frames()`). In VTK and Exodus they are the fields "column",
-    /// "axis", "radial" and "tangential". In Abaqus they are a distribution and an orientation for each
-    /// region, in Nastran coordinate systems and MATCID cards, in FEBio `mat_axis`; these have the axes of
-    /// `CellFrame::material()`. The meshes must store their nodes.
+    /// "axis", "radial" and "tangential". Other formats get the axes of `CellFrame::material()`: Abaqus as a
+    /// distribution and an orientation for each region, Nastran as coordinate systems and MATCID cards, FEBio
+    /// as `mat_axis`. The meshes must store their nodes.
     bool orientation = false;
-    /// For a deck, `orientation` applies to these meshes, whose cells are the first of their shapes in it.
+    /// If a deck is written, `orientation` applies to these meshes. For each shape, their cells must be the
+    /// first in the deck.
     std::vector<const mesh::HexMesh*> oriented{};
     /// Nodes of periodic faces. They are written as $Periodic in .msh, as equations or a cyclic symmetry in
     /// Abaqus, as multipoint constraints in Nastran, and elsewhere as two sets of nodes in the order of the
@@ -124,14 +125,13 @@ void write_parts(const Format& format, std::span<const mesh::LayeredPart> parts,
 /// format than the deck's contains nodes, elements, regions and sets; the log lists omitted content.
 ///
 /// Exodus has a block for each region and shape; sets of nodes, elements and sides; and number maps. In .msh,
-/// each region is a physical group. A set of elements without a region also is one; with `all_groups`, every
-/// element set is. In .vtk and .vtu, elements that are in the same region and sets form an entity. Cell
+/// each region is a physical group, and so is each set of elements that have no region; with `all_groups`,
+/// every element set is. In .vtk and .vtu, elements that are in the same region and sets form an entity. Cell
 /// arrays hold the numbers of entity, region and cell; a point array holds the node numbers. For each set and
 /// region, an array of the whole file lists its entities, under its name. Node sets are such arrays too:
 /// their names start with "nodes:", and they list point indices from 0.
 /// @throw InvalidInput "io.no_such_element"  the format lacks an element type, or needs middle nodes that are
-///        missing.
-/// "io.no_folder" and others as `WholeFile`.
+///                     missing; "io.no_folder" and others as `WholeFile`.
 /// @throw BackendError  as `WholeFile`.
 void write_deck(const Deck& deck, const Format& format, const OutputPath& path,
                 const RunContext& context = {}, const MeshFileOptions& options = {});

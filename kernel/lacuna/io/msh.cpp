@@ -357,9 +357,10 @@ private:
                    topology::is_role_group(name.substr(name.find(':') + 1));
         });
         if (view_->source.empty() || lost.empty()) return;
-        file_.changed = formatted("an element is in one group, so that {} {} elements that are in others "
-                                  "too; groups = \"all\" keeps them",
-                                  full_list(lost, std::identity()), lost.size() > 1 ? "lack" : "lacks");
+        file_.changed = formatted(
+            "each element is written in one group only: {} {} elements that are also in "
+            "others; groups = \"all\" keeps them",
+            full_list(lost, std::identity()), lost.size() > 1 ? "lack" : "lacks");
     }
 
     void open(const char* version)
@@ -396,7 +397,7 @@ private:
                  all + numbers_.gap() + "$EndEntities\n";
     }
 
-    /// For each entity and each part that has a share of it, add the entity of that share.
+    /// For each entity and each part that shares it, add an entity for that share.
     void add_part_entities()
     {
         // If entities are numbered over all dimensions together, so are the entities of parts.
@@ -499,7 +500,8 @@ private:
         return out;
     }
 
-    /// Write the elements of a row. Each is its number, the numbers in `middle` and its nodes, of type `Tag`.
+    /// Write the elements of a row. The record of an element consists of its number, the numbers in `middle`,
+    /// and its nodes. Element and node numbers have the type `Tag`.
     template <class Tag>
     void add_elements(const Row& row, const std::vector<int>& middle)
     {

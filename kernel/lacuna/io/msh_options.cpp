@@ -7,12 +7,12 @@ void write_msh_options(const OutputPath& path)
 {
     WholeFile file(path);
     file.append(
-        "// How Gmsh shows the mesh beside this file: cells with their sides, coloured by physical group.\n"
-        "// Tools > Options > Mesh > Color changes it; without this file Gmsh shows lines alone.\n"
+        "// How Gmsh shows the mesh in the same folder: cells and their edges, coloured by physical group.\n"
+        "// Tools > Options > Mesh > Color changes the colours; without this file Gmsh shows only lines.\n"
         "Mesh.ColorCarousel = 2;\n"
         "Mesh.SurfaceFaces = 1;\n"
         "Mesh.SurfaceEdges = 1;\n"
-        "Mesh.VolumeFaces = 0; // 1 to see the inside of cells that a clipping plane cuts free\n"
+        "Mesh.VolumeFaces = 0; // 1 to show faces of cells that a clipping plane exposes\n"
         "Mesh.VolumeEdges = 0;\n"
         "Mesh.Lines = 0;\n"
         "Mesh.Points = 0;\n"
@@ -24,7 +24,7 @@ void write_msh_options(const OutputPath& path)
         "General.Color.Text = {40, 50, 60};\n"
         "Mesh.Color.Lines = {20, 28, 38};\n"
         "If(PostProcessing.NbViews > 0)\n"
-        "  View[0].Visible = 0; // the quality, which would cover the groups\n"
+        "  View[0].Visible = 0; // the quality, which would hide the groups\n"
         "EndIf\n");
     file.commit();
 }

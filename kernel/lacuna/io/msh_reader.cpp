@@ -23,8 +23,8 @@ struct ElementType {
     bool is_kept = true; ///< if false, elements are only counted
 };
 
-/// Types that are no DeckShape: points, and elements of order 3 and more. The latter are reduced to their
-/// corners.
+// Types without a DeckShape: points, and elements of order 3 and more. The latter are reduced to their
+// corners.
 using enum DeckShape;
 constexpr ElementType kFurtherTypes[] = {
     {15, 0, 1, line2, false}, {26, 1, 4, line2, false}, {27, 1, 5, line2, false}, {28, 1, 6, line2, false},
@@ -213,7 +213,7 @@ private:
 
     void begin_nodes(std::uint64_t count, std::uint64_t bytes, std::uint64_t values)
     {
-        if (nodes_known_) cursor_.fail("a second $Nodes");
+        if (nodes_known_) cursor_.fail("$Nodes occurs twice");
         cursor_.plausible(count, bytes, values);
         if (!is_index(count)) cursor_.fail("too many nodes");
         reserve_large(into_.points(), count);
@@ -240,7 +240,8 @@ private:
             int dimension = cursor_.integer();
             if (const int entity = cursor_.integer(); first_of_4_) dimension = entity;
             const bool parametric = cursor_.integer() != 0;
-            if (dimension < 0 || dimension > 3) cursor_.fail("nodes of dimension {}", dimension);
+            if (dimension < 0 || dimension > 3)
+                cursor_.fail("expected nodes of dimension 0 to 3, found {}", dimension);
             const std::uint64_t count = cursor_.plausible(cursor_.size(), 28, 4);
             if (count > total - into_.points().size()) cursor_.fail("more nodes than announced");
             if (cursor_.coding != Coding::text && !first_of_4_ && !parametric) {
@@ -281,7 +282,7 @@ private:
     {
         const std::int64_t count = cursor_.text_integer();
         cursor_.line();
-        if (count < 0) cursor_.fail("a negative number of nodes");
+        if (count < 0) cursor_.fail("the number of nodes is negative");
         begin_nodes(static_cast<std::uint64_t>(count), 28, 4);
         if (cursor_.coding != Coding::text) {
             take_nodes_2(static_cast<std::size_t>(count));
@@ -493,7 +494,7 @@ private:
     {
         const std::int64_t announced = cursor_.text_integer();
         cursor_.line();
-        if (announced < 0) cursor_.fail("a negative number of cells");
+        if (announced < 0) cursor_.fail("the number of elements is negative");
         const std::uint64_t total = cursor_.plausible(static_cast<std::uint64_t>(announced), 8, 4);
         for (std::uint64_t done = 0; done < total;) {
             const bool text = cursor_.coding == Coding::text;
@@ -502,7 +503,7 @@ private:
             const int count = text ? 1 : cursor_.integer();
             const int tags = cursor_.integer();
             if (count < 1 || tags < 0 || static_cast<std::uint64_t>(count) > total - done)
-                cursor_.fail("a block of {} cells with {} tags", count, tags);
+                cursor_.fail("a block cannot have {} elements with {} tags", count, tags);
             const auto values = static_cast<std::uint64_t>(type.nodes) + static_cast<std::uint64_t>(tags);
             cursor_.plausible(static_cast<std::uint64_t>(count), 4 * (values + 1), values);
             expect_cells(type, count > 1 ? static_cast<std::uint64_t>(count) : 0);

@@ -8,8 +8,8 @@
 namespace lacuna::io {
 namespace {
 
-constexpr std::size_t kField = 8;       // characters of a small field, which the first and last field of each
-                                        // line always are
+constexpr std::size_t kField = 8;       // characters of a small field; the first and last field of a line are
+                                        // always small
 constexpr std::size_t kLargeField = 16; // characters
 constexpr std::size_t kFields = 8;      // data fields of a line; large ones take two lines
 /// Limit on the number of cards created by replication, plus one for each sixteen bytes of the file. Without
@@ -296,7 +296,7 @@ bool BulkData::take_fields(const DeckPlace& place)
         begin_card(name, place);
     } else {
         if (!open_ || (card_use_ != CardUse::keep && is_named(marker_)))
-            place.fail("expected a complete card right above = to repeat");
+            place.fail("expected a complete card right above = for it to repeat");
         begin_replica(place);
         steps_.clear();
     }

@@ -29,7 +29,7 @@ void Frames::add(Index tag, const Definition& definition)
 {
     if (tag == 0) definition.place.fail("expected a coordinate system's number above 0");
     const auto [found, fresh] = frames_.try_emplace(tag, Frame{.definition = definition});
-    if (!fresh) definition.place.fail("a second {}", numbered("coordinate system", tag));
+    if (!fresh) definition.place.fail("{} is defined twice", numbered("coordinate system", tag));
 }
 
 Vec3 Frames::to_basic(Index tag, const Vec3& point, const DeckPlace& place)

@@ -31,7 +31,7 @@ constexpr ElementCard kElementCards[] = {
     {"CHEXA", DeckShape::hex8, DeckShape::hex20},
 };
 constexpr std::string_view kFrameCards[] = {"CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S"};
-/// Property cards of shells and solids, and the number of the field that holds their material; 0: none does.
+/// Property cards of shells and solids, and the number of the field with their material; 0: there is none.
 struct PropertyCard {
     std::string_view name;
     std::size_t material;
@@ -277,8 +277,8 @@ private:
         into_.warn(formatted("read as one deck with its superelements ({})", bulk_.superelements()));
     }
 
-    /// An element without a property has the property of its own number. If no card defines such properties,
-    /// all these elements form one region.
+    /// An element without a property has the property of its own number. Elements for which no card defines
+    /// that property form one region.
     void finish_properties()
     {
         Deck& deck = into_.deck();

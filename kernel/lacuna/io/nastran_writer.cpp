@@ -211,7 +211,7 @@ std::string real_text(double value)
     return {room.data(), put_real(room.data(), value, kLarge, RealForm::nastran)};
 }
 
-/// Multipoint constraints of periodic faces, all in the set 1, with a GRID for each reference node.
+/// Multipoint constraints of periodic faces, all in set 1, with a GRID for each reference node.
 std::string periodic_text(const MeshView& view)
 {
     if (view.periodic.empty()) return {};
@@ -241,8 +241,8 @@ std::string periodic_text(const MeshView& view)
     return text;
 }
 
-/// A region of faces of solids for each side of a contact, and sets of glued and of contact pairs, of number
-/// 1: as the manuals of Simcenter Nastran describe them.
+/// Write each side of a contact as a region of solid faces (BSURFS), ties as glue set 1 (BGSET), and other
+/// contacts as contact set 1 (BCTSET), as in the manuals of Simcenter Nastran.
 std::string contact_text(const MeshView& view)
 {
     if (view.contacts.empty()) return {};

@@ -25,7 +25,7 @@ using mesh::MeshView;
             .remedy("use partitions = {} or fewer", layers));
 }
 
-/// Number of parts that each mesh is divided into, in proportion to its cells. For more parts than meshes.
+/// Number of parts of each mesh, in proportion to its cells. Used if there are more parts than meshes.
 std::vector<int> parts_of_each(std::span<const BulkPart> meshes, int parts)
 {
     std::vector<int> each(meshes.size(), 1);
@@ -151,8 +151,8 @@ private:
     {
         std::vector<Index> alone;
         for (int p = 0; p < parts_.parts; ++p) alone.push_back(list_of({p}));
-        std::vector<std::vector<Index>> reached(part_.size()); // for each solid, the number of a list that
-                                                               // holds its own part at first
+        std::vector<std::vector<Index>> reached(part_.size()); // for each solid, the number of the list of
+                                                               // parts that reach it; at first its own part
         for (std::size_t b = 0; b < part_.size(); ++b)
             for (const Index part : part_[b]) reached[b].push_back(alone[index(part)]);
         for (int row = 0; row < rows; ++row) {

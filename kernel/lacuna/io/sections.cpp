@@ -236,8 +236,8 @@ public:
         begin(paths, WholeFile::Naming::named);
     }
 
-    /// Write the sections of a file. A team shares each section. @param sharing  null: this process writes
-    /// alone
+    /// Write the sections of a file. A team shares each section.
+    /// @param sharing  the team; null: this process writes alone
     void write(std::size_t f, const std::vector<Section>& sections, Sizes sizes, const std::string& stage,
                const RunContext& context, const Team* sharing)
     {

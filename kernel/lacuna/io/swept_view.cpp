@@ -189,7 +189,7 @@ mesh::ViewParts parts_of(const mesh::HexMesh& mesh, const PartitionOptions& opti
         parts.points.emplace_back(p, nodes_of_levels(mesh, part.first, part.last, p != last));
         parts.used.push_back(nodes_of_levels(mesh, part.with_first, part.with_last, false));
     }
-    // Consecutive layers of one part that are ghosts of the same other parts.
+    // Collect consecutive layers of a part that are ghosts of the same other parts.
     const auto others = [&](Index own, int layer) {
         std::vector<int> of;
         for (Index p = 0; p <= last; ++p)

@@ -23,10 +23,10 @@ constexpr GroupDataset kGroupDatasets[] = {{752, 2, 5},  {2417, 2, 6}, {2429, 2,
                                            {2430, 2, 7}, {2432, 2, 7}, {2435, 4, 7},
                                            {2452, 4, 7}, {2467, 4, 7}, {2477, 4, 7}};
 
-/// What an element descriptor means: the shape (none for beams and other ignored elements), and `step`. Of
-/// the nodes in the file, each `step`-th is read, so that cubic faces are reduced to their corners. Plane
-/// stress 41-46, plane strain 51-56, plate 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96 are
-/// numbered alike: first linear, quadratic and cubic triangles, then quadrilaterals.
+/// The shape of an element descriptor; none for beams and other ignored elements. Only every `step`-th node
+/// is read, so that cubic faces are reduced to their corners. Plane stress 41-46, plane strain 51-56, plate
+/// 61-66, membrane 71-76, axisymmetric 81-86 and shell 91-96 are numbered alike: first linear, quadratic and
+/// cubic triangles, then quadrilaterals.
 struct ElementKind {
     std::optional<DeckShape> shape;
     std::size_t step = 1;

@@ -452,7 +452,7 @@ std::vector<Section> vtk_sections(const View& view, bool binary, const std::stri
     return all;
 }
 
-/// The mesh with shapes that VTK has. VTK has no pyramid with a centre node in its base.
+/// A copy of the view in which pyramids lack the centre node of their base, because VTK has no such pyramid.
 View vtk_view(const View& view, std::vector<std::string>& notes)
 {
     auto own = std::make_shared<MeshView>(*view);

@@ -44,8 +44,8 @@ constexpr VtkType kTypes[] = {
     type_of<std::int64_t>("vtktypeint64", ""), type_of<std::uint64_t>("vtktypeuint64", ""),
     type_of<std::int32_t>("vtktypeint32", ""), type_of<std::int64_t>("vtkIdType", "")};
 
-/// How cells of a VTK type are read: as a shape; as cells that are split into faces; as lists of corners; or
-/// not at all.
+/// How cells of a VTK type are read: `shape` as a DeckShape, `pixel` and `voxel` likewise but from another
+/// node order, `polygon` and `strip` as lists of corners that are split into faces, `other` not at all.
 enum class Kind { shape, polygon, pixel, voxel, strip, other };
 struct CellType {
     std::int64_t number;

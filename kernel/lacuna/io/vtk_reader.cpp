@@ -29,7 +29,7 @@ public:
         while (cursor_.more()) {
             const std::string_view word = cursor_.word();
             if (same_word(word, "CELL_DATA") || same_word(word, "POINT_DATA")) {
-                // In files with groups, this is the first array; see `note_groups()`.
+                // If the file has groups, its first cell array is `entity`; see `note_groups()`.
                 const std::string_view next = cursor_.rest().substr(0, 64);
                 if (next.find("\nSCALARS entity int") != std::string_view::npos) note_groups(groups_, into_);
                 break;
@@ -253,7 +253,7 @@ private:
             take(i, binary_ ? type.real(bytes.data() + i * type.bytes, true) : cursor_.text_real());
     }
 
-    /// The same for a text file.
+    /// The same for whole numbers in a text file.
     template <class Take>
     void each_whole(const VtkType& type, std::uint64_t count, const Take& take)
     {

@@ -61,7 +61,7 @@ struct CellSide {
     friend constexpr auto operator<=>(const CellSide&, const CellSide&) = default;
 };
 
-/// What a named set lists.
+/// The kind of the members of a named set.
 enum class SetKind : std::uint8_t { nodes, elements, sides };
 
 } // namespace lacuna::mesh

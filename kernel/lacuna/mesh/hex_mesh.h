@@ -91,7 +91,7 @@ struct HexMesh {
     }
     /// Number of hexahedra and wedges.
     [[nodiscard]] std::size_t cell_count() const { return quads.size() * static_cast<std::size_t>(layers); }
-    /// O(triangles), like the next two.
+    /// Number of triangles of the source. O(triangles), like `hex_count()` and `wedge_count()`.
     [[nodiscard]] std::size_t triangle_count() const
     {
         std::size_t count = 0;

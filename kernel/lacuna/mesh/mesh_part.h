@@ -81,7 +81,8 @@ struct PeriodicNodes {
 /// Two groups of faces without common nodes, between which a solver has a tie or a contact.
 struct ContactPair {
     std::string name;
-    std::array<std::string, 2> groups; ///< of the skins: the slave's, whose nodes are held, and the master's
+    std::array<std::string, 2> groups; ///< of the skins: first the slave's, whose nodes are constrained, then
+                                       ///< the master's
     bool tied = true;
     double tolerance = 0;              ///< no node of a tie is further from the master [model length]
     std::array<std::size_t, 2> sets{}; ///< in a deck: indices of the groups' sets of sides

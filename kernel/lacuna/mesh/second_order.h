@@ -35,15 +35,15 @@ struct CellNodes {
     [[nodiscard]] const Index* begin() const { return node.data(); }
     [[nodiscard]] const Index* end() const { return node.data() + count; }
     [[nodiscard]] std::span<const Index> all() const& { return std::span(node).first(count); }
-    void all() const&& = delete; ///< the nodes would be gone before they are read
+    void all() const&& = delete; ///< the span would outlive the nodes
 };
 
 /// The middle nodes of a swept mesh of order 2. Their numbers follow from level and layer; nothing is stored
 /// for each cell.
 ///
-/// For each level: the middle nodes of the source sides and, for hex27, those of the quads. Then, for the
-/// layer above it: those of the vertical edges over the source nodes and, for hex27, those of the vertical
-/// faces over the source sides and of the cells.
+/// They are ordered level by level: first the middle nodes on the level, those of the source sides and, for
+/// hex27, of the quads; then the middle nodes of the layer above it, those of the vertical edges over the
+/// source nodes and, for hex27, of the vertical faces over the source sides and of the cells.
 struct MiddleNodes {
     bool full = false;           ///< true: hex27; false: hex20
     std::vector<Segment> sides;  ///< sides of the source quads, each once, lower node first
@@ -63,7 +63,7 @@ public:
     {
         return level * period_ + index(side);
     }
-    /// Position of the middle node of a quad on a level. @pre hex27, like the two below
+    /// Position of the middle node of a quad on a level. @pre hex27, as for `face()` and `cell()`
     [[nodiscard]] std::size_t quad(std::size_t level, std::size_t quad) const
     {
         return level * period_ + sides_ + quad;
@@ -87,8 +87,8 @@ private:
     std::size_t sides_, nodes_, layers_, on_level_, period_;
 };
 
-/// Number the sides of a mesh of order 1. The caller then provides
-/// `MiddlePlaces::count()` middle nodes. O(quads).
+/// Number the sides of a mesh of order 1. The caller then provides `MiddlePlaces::count()` middle nodes.
+/// O(quads).
 MiddleNodes number_sides(const HexMesh& mesh, bool full);
 
 /// All nodes of a cell; numbers >= `mesh.nodes.size()` are middle nodes. @pre cell < cell_count()

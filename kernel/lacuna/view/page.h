@@ -34,7 +34,7 @@ struct PageOptions {
 /// A swept region is stored as source quads and nodes, with coordinates rounded to 2^-21 of the largest
 /// extent; the page computes cells, skin and cuts. Cells of order 2 are drawn with their middle nodes.
 /// @pre    at least one region; the regions of an assembly in the order of the assembly.
-/// @throw  InvalidInput, BackendError  as `io::WholeFile`. Cancelled.
+/// @throw  InvalidInput, BackendError  as `io::WholeFile`; Cancelled
 /// @note   A million hexahedra of a twisted block take 2.5 MB. O(cells).
 void write_page(std::span<const Region> regions, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
@@ -45,10 +45,10 @@ void write_page(std::span<const Region> regions, const io::OutputPath& path, con
 void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 
-/// Write a page of faces: with labels and descriptions, and clickable to compose a recipe from source, target
-/// and walls, or from faces without roles. Edges used by one face are marked. Cavities and unsewn gaps found
-/// by closure::model_facts() are listed for selection.
-/// @throw  as `io::WholeFile`. Cancelled.
+/// Write a page of the faces of a model, with labels and descriptions. The user clicks faces to compose a
+/// recipe from source, target and walls, or from faces without roles. Edges used by one face are marked.
+/// Cavities and unsewn gaps found by closure::model_facts() are listed for selection.
+/// @throw  as `io::WholeFile`; Cancelled
 /// @note   Costs as much as closure::model_facts().
 void write_page(const topology::Model& model, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});

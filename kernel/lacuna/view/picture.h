@@ -41,8 +41,8 @@ struct PictureOptions {
 /// @throw  InvalidInput "view.picture_size"  a width or height below 16 or above 16384;
 ///                      "view.direction"     the view direction or the normal has zero length;
 ///                      "view.layers"        layers that the mesh does not have;
-///                      "view.empty"         the cut hides all cells.
-///         as `io::WholeFile`. Cancelled.
+///                      "view.empty"         the cut hides all cells;
+///         or as `io::WholeFile`; Cancelled
 /// @note   Independent of the number of threads. O(cells + pixels).
 void write_picture(std::span<const Region> regions, const io::OutputPath& path,
                    const PictureOptions& options = {}, const RunContext& context = {});

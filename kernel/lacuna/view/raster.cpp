@@ -75,7 +75,7 @@ struct Placed {
     Vec2 low, high;
 };
 
-/// Brightness of a side; the light comes from behind the viewer's left shoulder.
+/// Brightness of a cell face with this normal; the light comes from behind the viewer's left shoulder.
 double light_on(const Vec3& normal)
 {
     const Vec3 seen = normal.z() < 0 ? Vec3(-normal) : normal;

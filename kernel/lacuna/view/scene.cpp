@@ -24,7 +24,7 @@ constexpr std::size_t kBottom = 4, kTop = 5;
 constexpr Colour kFreeEdge{214, 39, 40}, kEdge{40, 50, 60}, kVoidEdge{190, 110, 10};
 constexpr Colour kPlain{240, 240, 240}; // key of hatching alone
 
-/// The visible cells of a swept region, and their sides that no other visible cell shares.
+/// The visible cells of a swept region.
 class ShownRegion {
 public:
     ShownRegion(const Region& region, const PictureOptions& options)
@@ -35,7 +35,8 @@ public:
         for (std::size_t c = 0; c < mask_.size(); ++c) mask_[c] = shown(c, options) ? 1 : 0;
     }
 
-    /// Call visit(cell, face, patch) for each such side; the patch is -1 for inner sides.
+    /// Call visit(cell, face, patch) for each face of a visible cell that no other visible cell shares. The
+    /// patch is -1 for faces inside the mesh.
     template <class Visit>
     void sides(Visit&& visit) const
     {

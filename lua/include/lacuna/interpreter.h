@@ -57,8 +57,8 @@ public:
     std::string traceback;
 };
 
-/// A function of the host for recipes: takes `count` numbers, sets at most `room` results, returns how many.
-/// Below 0: it failed, an error of the recipe. An exception stops the run, which rethrows it.
+/// A function of the host that recipes call with `count` numbers. It sets at most `room` results and returns
+/// their number; below 0: it failed, an error of the recipe. An exception stops the run, which rethrows it.
 using HostFunction = int (*)(void* user, const double* arguments, std::size_t count, double* results,
                              std::size_t room);
 

@@ -14,9 +14,9 @@ namespace lacuna {
 /// the sixteen digits.
 inline constexpr double kRoundoff = 1e-12;
 
-/// Points closer than this share of a related length (a side, an edge, a rim, the diagonal) coincide, and a
-/// bend with a smaller sag counts as straight: projections converge to ten digits, and no side of a mesh is
-/// as short. Computed directions with a smaller sine are parallel up to rounding.
+/// Points coincide if their distance, divided by the length of an edge, a boundary or the diagonal, is
+/// smaller. A bend whose sag is smaller, divided likewise, counts as straight, and directions with a smaller
+/// sine as parallel. Projections converge to ten digits, and no edge of a mesh is as short.
 inline constexpr double kSamePlace = 1e-9;
 
 /// Relative accuracy of coordinates in files: six to seven digits in single precision. Points this close to
@@ -45,12 +45,12 @@ inline constexpr double kCornerBelow = 135, kReversalAbove = 225;
 /// single chords, and even coarse circles have some twenty chords.
 inline constexpr double kOneCurve = 0.94;
 
-/// An edge continues a line beyond a vertex if they turn by less than 45°, half way between straight and a
-/// right angle; this is the cosine, rounded.
+/// An edge continues a line beyond a vertex if the angle between their directions is below 45°, half way
+/// between straight and a right angle. This is the cosine, rounded.
 inline constexpr double kContinues = 0.7;
 
-/// Sides of a polyline that turn by less form a bend, others a corner [degrees]: a hexagon still approximates
-/// a circle, a square does not.
+/// Two consecutive segments of a polyline form a bend if the angle between their directions is smaller, else
+/// a corner [degrees]. A hexagon thus approximates a circle, a square does not.
 inline constexpr double kBendBelow = 75;
 
 // Flat
@@ -63,13 +63,14 @@ inline constexpr double kParallel = 0.02;
 /// Two normals agree if their cosine falls short of 1 by less. The value corresponds to kParallel.
 inline constexpr double kFlatShare = kParallel * kParallel / 2;
 
-// Poor: limits of the least scaled Jacobian; for a plane quad, of the least sine of its corners
+// Poor quality: limits of the smallest scaled Jacobian of a cell, or of the smallest sine of the corner
+// angles of a plane quad
 
 /// A quad below this counts as folded (6°). No row may contain one, and no change of connections may create
 /// one.
 inline constexpr double kFoldedQuad = 0.1;
-/// A quad below this counts as flat (9°). Its nodes are moved first, because smoothing hardly improves it
-/// where they are on a boundary.
+/// A quad below this counts as flat (9°). Its nodes are moved before smoothing, which hardly improves a quad
+/// with nodes on a boundary.
 inline constexpr double kFlatQuad = 0.15;
 
 /// A quad below the first value is poor (30°) and gets further attempts; one above the second is good (53°)
@@ -91,15 +92,16 @@ inline constexpr double kVolumeNoted = 2 * kSameVolume;
 
 // Same size, same number
 
-/// Lengths, sizes and numbers of sides count as equal if they differ by less than this share. They then get
-/// the same number of sides.
+/// Lengths, sizes and numbers of sides count as equal if they differ by less than this share. Edges that are
+/// equal in this sense get the same number of sides.
 inline constexpr double kAlikeSizes = 0.01;
 
 /// A number of sides that exceeds a whole number by less than this is rounded down. The value is far above
 /// the rounding errors of sizes and lengths, and far below one side.
 inline constexpr double kCountSlack = 1e-6;
 
-/// Growth of the size per length away from a place with short sides, in paving and in estimates of quads [-].
+/// Increase of the edge length per distance from a place with short edges, in paving and in estimates of the
+/// number of quads [-].
 inline constexpr double kGrading = 0.3;
 
 /// A paving may deviate from the requested number of quads by this share.

@@ -20,7 +20,7 @@ struct Keyword {
     [[nodiscard]] std::string value(std::string_view key) const;
 };
 
-/// @param words  from the star on, with continuation lines joined. @pre not empty
+/// @param words  a keyword line from its star on, joined with its continuation lines; not empty.
 Keyword parse_keyword(std::string_view words);
 
 /// A keyword with the lines up to the next one. The first card has no name: it holds the lines before the
@@ -30,7 +30,7 @@ struct AbaqusCard {
     std::string_view text{}; ///< all its lines, with comments
     std::string_view data{}; ///< from the first data line to the last, with comments between them
 };
-/// The cards of a text. They view the text.
+/// Split a text into cards, which refer to the text.
 std::vector<AbaqusCard> abaqus_cards(std::string_view text);
 /// Call `take(line)` for the data lines of a card.
 template <class Take>

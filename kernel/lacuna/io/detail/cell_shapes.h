@@ -12,9 +12,9 @@
 /// Shapes of cells in the formats, and of swept meshes. Internal to this folder.
 namespace lacuna::io {
 
-/// Names of a shape in the formats. Abaqus, Nastran and Exodus: the type word for elements that come from
-/// another format; empty: there is none. UNV (a face is a thin shell), Gmsh and VTK: the number; 0: there is
-/// none.
+/// Names of a shape in the formats. For Abaqus, Nastran and Exodus: the type word that is written for
+/// elements read from another format; empty: there is none. For UNV (where a face is a thin shell), Gmsh and
+/// VTK: the number of the type; 0: there is none.
 struct ShapeWords {
     const char *abaqus, *nastran, *exodus;
     int unv, gmsh, vtk;
@@ -51,12 +51,12 @@ inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int
     return {};
 }
 
-/// Formats without a pyramid get a brick whose upper nodes are the apex: UNV and Abaqus. (CalculiX does not
-/// have the pyramid of Abaqus, and Abaqus has none of order 2.) The brick of eight nodes is exactly a
+/// Write pyramids as bricks whose four upper nodes are the apex, in UNV, which has no pyramid, and in Abaqus,
+/// because CalculiX does not know its pyramid and none has order 2. The brick of eight nodes is exactly a
 /// pyramid. Its sides are linear, so it fits tetrahedra; in a patch test with CalculiX the stress is uniform
 /// to 1e-12. The sides of a brick of twenty nodes fit those of tetrahedra if the displacement is linear along
 /// the sides of the base. Equations in the deck enforce this (`abaqus_writer.cpp`): the stress is then
-/// uniform to 1e-7, and without them 22 % off.
+/// uniform to 1e-7; without them it is 22 % off.
 ///
 /// @return  the brick of a pyramid; empty for other shapes
 inline std::optional<DeckShape> merged_brick(DeckShape shape)
@@ -72,10 +72,10 @@ inline constexpr std::array<std::uint8_t, 20> kMergedBrick{0, 1, 2, 3, 4, 4, 4, 
 
 /// Formats whose cell nodes are ordered differently from DeckShape.
 enum class NodeOrder { exodus, gmsh, unv };
-/// Position in the format of each node in the order of DeckShape. In Exodus and Nastran, middle nodes of
-/// upright sides come before those of the top, and the centre of a hexahedron comes before those of its
-/// faces. In UNV, corners and middle nodes alternate around the cell in each layer, with the middle nodes of
-/// upright sides between the layers.
+/// For each node in the order of DeckShape, its position in the format's order. In Exodus and Nastran, middle
+/// nodes of upright sides come before those of the top, and the centre of a hexahedron comes before the
+/// centres of its faces. In UNV, corners and middle nodes alternate around the cell in each layer, with the
+/// middle nodes of upright sides between the layers.
 std::span<const std::uint8_t> node_places(NodeOrder order, DeckShape shape);
 
 /// The name given to a physical group of Gmsh that has none.

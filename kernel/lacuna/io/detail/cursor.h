@@ -24,11 +24,11 @@ enum class Coding { text, little, big };
 /// Whether `1.5D+3` and `1.5+3` are numbers too.
 enum class Exponents { plain, fortran };
 
-/// The text as a finite number; empty: it is none. Does not depend on the locale. A number too small for a
-/// double gives 0.
+/// The text as a finite number, in any locale; empty if it is not a number. A number too small for a double
+/// gives 0.
 std::optional<double> parse_real(std::string_view text, Exponents exponents = Exponents::plain);
 
-/// The text as a whole number; empty: it is none, or does not fit.
+/// The text as a whole number; empty if it is not one or does not fit.
 template <class Int>
 std::optional<Int> parse_integer(std::string_view text)
 {
@@ -135,12 +135,12 @@ public:
     double real_of(std::string_view word, Exponents exponents = Exponents::plain) const;
     /// 4 bytes in the byte order of this machine.
     int raw_integer() { return raw<int>(); }
-    /// The next `count` bytes.
     std::string_view bytes(std::uint64_t count);
 
-    /// Check a count of records: it is refused if the rest of the file cannot hold so many, so that a wrong
-    /// count costs no memory. @param bytes  size of a record in a binary file. @param values  number of
-    /// values of a record in a text file.
+    /// Check a count of records before memory is allocated. It is refused if the rest of the file is too
+    /// short for so many records.
+    /// @param bytes   size of a record in a binary file
+    /// @param values  number of values of a record in a text file
     std::uint64_t plausible(std::uint64_t count, std::uint64_t bytes, std::uint64_t values) const;
 
     /// @throw InvalidInput "io.unreadable" with the file and the line or byte

@@ -123,7 +123,6 @@ public:
     /// @throw InvalidInput  more points than can be numbered.
     void add_point(DeckTag tag, const Vec3& point, const Cursor& cursor);
 
-    /// Add a new region.
     Index add_region(int tag, std::string_view name);
     /// The region with this tag, created on first use. @param group  which numbering the tag belongs to, if a
     /// file has several.
@@ -131,12 +130,13 @@ public:
 
     /// As `io::block_of()`.
     std::size_t block_of(DeckShape shape, std::string_view type);
-    /// Add an element. @param nodes  in the order of DeckShape: indices of points or, with `resolve()`, tags;
-    /// -1: omitted. @param tag  -1: numbered in order. @param place  position in the file for messages of
-    /// `resolve()`.
+    /// Add an element.
+    /// @param tag    -1: its number in the order of addition.
+    /// @param nodes  in the order of DeckShape: indices of points or, with `resolve()`, tags; -1: omitted.
+    /// @param place  position in the file for messages of `resolve()`.
     void add_element(std::size_t block, DeckTag tag, Index region, std::span<const Index> nodes,
                      std::uint64_t place = 0);
-    /// Memory for elements that are added in bulk, one after the other.
+    /// Memory for elements that are added in bulk.
     struct Room {
         Index* nodes;  ///< indices of points, in the order of DeckShape
         DeckTag* tags; ///< filled with consecutive numbers at first
@@ -146,7 +146,7 @@ public:
     /// Add a shell with three or more corners; more than four are split into triangles.
     /// @throw InvalidInput  fewer corners, an unknown point, a polygon that intersects itself.
     void add_face(std::span<const Index> corners, Index region, const Cursor& cursor, DeckTag tag = -1);
-    /// Replace tags of nodes by indices in all elements so far. All of them must have been added with tags.
+    /// Replace node tags by point indices in all elements. All of them must have been added with tags.
     /// @param fail  called with the element's place and the error.
     template <class Fail>
     void resolve(const TagPlaces& nodes, const Fail& fail);

@@ -16,7 +16,7 @@
 /// folder.
 namespace lacuna::io {
 
-/// Lists of sets without duplicates; list 0 is empty.
+/// Lists of sets. Each list is stored once and identified by its number; list 0 is empty.
 class SetLists {
 public:
     int extended(int list, int set);

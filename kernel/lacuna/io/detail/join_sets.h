@@ -50,7 +50,7 @@ std::vector<std::size_t> sets_of_all(const Deck& deck);
 /// Add the data of a mesh to those sets of a deck that should contain it. These are the sets of all nodes or
 /// elements, and the sets that lost members when parts were left out. For the latter:
 /// - A set of all nodes or elements of the part with the volume's name gets all new ones. If there is no such
-///   part, a set of everything left out does.
+///   part, each set of everything that was left out gets them.
 /// - A surface, or a set of elements on the skin, gets the quads of the skin in place of its old sides or
 ///   elements. A set of nodes gets the nodes of these quads.
 /// `Deck::gap` records the extended sets.

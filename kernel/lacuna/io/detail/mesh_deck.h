@@ -38,8 +38,8 @@ struct AddedMesh {
     JoinedBefore* before = nullptr;
     /// Null: the deck stores the nodes and cells of the mesh. Not null: the deck gets only regions, sets and
     /// empty blocks of the cells' shapes, and `*bulk` gets the place of the mesh.
-    /// @pre  if not null: the deck contains only such meshes; all but the first have the first node of the
-    ///       whole
+    /// @pre  if not null: the deck contains only such meshes, and `bulk->first_node` of each is that of the
+    ///       first.
     BulkPlace* bulk = nullptr;
     /// With `bulk`: the number of each node in the whole mesh, from 0; null: its own number.
     const mesh::NodeNumbers* numbers = nullptr;
@@ -61,7 +61,8 @@ NamedEntity entity_of(const mesh::SkinPatch& patch);
 /// Find the deck's middle nodes on sides shared with the mesh.
 /// @param matched  quads of the skin that are faces of the deck's elements.
 /// @param points   the deck's point for each corner of the mesh, -1: none; middle nodes are added.
-/// @throw InvalidInput "io.mixed_order"  only one of them has a middle node, or these differ.
+/// @throw InvalidInput "io.mixed_order"  only the deck or only the mesh has a middle node on a shared side or
+///         quad, or the two nodes have different positions.
 void join_middles(const Deck& deck, const mesh::HexMesh& mesh, const std::vector<bool>& matched,
                   double tolerance, double scale, std::vector<Index>& points);
 void join_middles(const Deck& deck, const mesh::TetPart& mesh, const std::vector<bool>& matched,

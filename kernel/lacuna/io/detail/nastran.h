@@ -57,7 +57,7 @@ public:
     /// The kept text: before, inside and after the bulk data.
     [[nodiscard]] std::vector<DeckText> texts() const;
     [[nodiscard]] const DeckFiles& files() const { return files_; }
-    /// Number of superelements read so far (the main bulk data is none), and the start of the first.
+    /// Number of superelements read so far, without the main bulk data, and the start of the first one.
     [[nodiscard]] int superelements() const { return superelements_; }
     [[nodiscard]] const DeckPlace& first_superelement() const { return first_superelement_; }
 

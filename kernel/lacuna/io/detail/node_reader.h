@@ -40,7 +40,8 @@ public:
         next_ = (next_ + 1) % kept_.size();
         return made;
     }
-    /// Forget part `i`, whose end was read: a mesh may have hundreds of readers.
+    /// Release part `i` when its last value was read. A mesh may have hundreds of readers, and each keeps
+    /// parts.
     void drop(std::size_t i) const
     {
         const std::lock_guard<std::mutex> hold(lock_);

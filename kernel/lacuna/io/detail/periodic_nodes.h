@@ -31,8 +31,8 @@ struct PeriodicEquations {
         number; ///< number of the reference of each periodic pair; `kNoIndex`: it has none
     std::vector<std::vector<PeriodicTerm>> equations;
 };
-/// The equations of all pairs. Motions take nodes to each other and so form chains of nodes; each node of a
-/// chain depends on the first one.
+/// The equations of all pairs. Nodes that are mapped to each other form chains, and each node of a chain
+/// depends on the chain's first node.
 PeriodicEquations periodic_equations(const mesh::MeshView& view);
 
 /// A sector of a rotationally symmetric whole: its only pair is a rotation by a whole fraction of a turn, and

@@ -34,7 +34,8 @@ struct VtkCells {
 
 /// Pass the shells and solids among the cells to the builder, with one region for each dimension. Count the
 /// other cells.
-/// @throw InvalidInput  a point or type is unknown, or ends do not increase; `cursor` gives the position.
+/// @throw InvalidInput  a point or type is unknown, or `VtkCells::ends` do not increase; the message gives
+///         the position of `cursor`.
 void take_vtk_cells(const VtkCells& cells, DeckBuilder& into, const Cursor& cursor);
 
 /// Warn that groups are not read. The writers store groups as lists of the numbers in the cell array

@@ -16,8 +16,8 @@ namespace lacuna::io {
 std::vector<Vec3> middles_between(const Deck& deck, std::span<const Vec3> from, std::span<const Vec3> to,
                                   double tolerance, double scale = 1);
 
-/// For each quad: the centre node that elements of the deck have there, likewise. The order of the corners
-/// does not matter.
+/// For each quad: the centre node that elements of the deck have between its corners, in any order, as a
+/// point; NaN if there is none.
 std::vector<Vec3> centres_of(const Deck& deck, std::span<const std::array<Vec3, 4>> quads, double tolerance,
                              double scale = 1);
 

@@ -17,7 +17,7 @@ struct MeshSkin {
 };
 
 /// @throw InvalidInput "io.skin_in_pieces"  a patch has no quads, or its quads are not connected.
-/// @note  O(skin log).
+/// @note  O(n log n) in the quads of the skin.
 MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context = {});
 
 } // namespace lacuna::io

@@ -23,7 +23,8 @@ struct NumberedTets {
 /// @param swept       meshes that store their nodes
 /// @param nodes       number of nodes of the whole mesh
 /// @param interfaces  as `MeshFileOptions::interfaces`
-/// @throw InvalidInput  as `write_mesh()`. Cancelled
+/// @throw InvalidInput  as `write_mesh()`.
+/// @throw Cancelled
 /// @note  O(n log n) in the sides of the skins, O(n) in the cells.
 Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedTets> tets, std::size_t nodes,
              MeshDeckOptions options, bool interfaces, const RunContext& context = {});

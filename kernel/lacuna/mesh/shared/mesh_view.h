@@ -191,7 +191,7 @@ struct MeshView {
             }
         }
     };
-    /// One value for each cell, or several.
+    /// A field with one or several values for each cell.
     struct Field {
         std::string name;
         /// Writes the values of the cells [begin, end) of the block with index `block`.
@@ -226,12 +226,12 @@ struct MeshView {
         int tag = 0; ///< number of the group; 0: none
         std::string name;
         std::size_t count = 0; ///< number of members
-        /// Members of a set of nodes or cells, rising; may include entities in `KeptText`.
+        /// Members of a set of nodes or cells, ascending; may include entities in `KeptText`.
         Numbers members{};
         std::span<const CellSide> sides{}; ///< members of a set of sides, rising
         bool listed = false;               ///< has a separate card, even if it equals a region
     };
-    /// Text by the index of a node or cell, rising.
+    /// Text by the index of a node or cell, ascending.
     using TextByIndex = std::span<const std::pair<std::size_t, std::string>>;
     /// Content of a source file besides the mesh, which is copied verbatim.
     struct KeptText {

@@ -24,8 +24,9 @@ struct CellFrame {
 
 /// The directions of all cells, by their numbers.
 ///
-/// If a fit shows that a rigid motion takes a layer to the next, directions are tangents of the screw between
-/// them. They are then exact for straight sweeps, turns and helices. For other layers they are chords.
+/// If a fit shows that a rigid motion takes a level of nodes to the next, the directions between these levels
+/// are tangents of that screw motion. They are then exact for straight sweeps, turns and helices. In other
+/// layers they are chords.
 /// @pre  the mesh stores its nodes. O(nodes).
 std::vector<CellFrame> cell_frames(const HexMesh& mesh);
 

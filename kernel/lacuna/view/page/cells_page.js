@@ -47,7 +47,8 @@ class CellsPage {
         return page;
     }
 
-    // Minimum, mean, histogram and the worst cells, one for each column, from the values in the page.
+    // Compute minimum, mean and histogram of the quality, and find the worst cells, at most one in each
+    // column.
     measure() {
         const bins = new Array(20).fill(0),
             worst = [];

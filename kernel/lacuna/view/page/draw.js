@@ -292,8 +292,8 @@ class Drawing {
         this.strips.quads = quads;
     }
 
-    // Draw the quads of `ranges` of `indices` with a program that looks them up in `textures`, given by the
-    // names of its uniforms.
+    // Draw the quads that `ranges` select in `indices`. `textures` maps each sampler of the program to the
+    // name of its texture.
     draw(program, textures, indices, ranges, camera, size, more = {}) {
         const gl = this.gl,
             u = program.places;
@@ -405,7 +405,7 @@ class Drawing {
     }
 
     // Draw. If a complete picture takes long, a moving one is drawn coarser, and a still one in pieces, one
-    // each frame. Returns whether the picture is, or will become, complete.
+    // piece in each frame. Returns whether the picture is, or will become, complete.
     render(camera, moving) {
         const size = this.size();
         this.asked++;

@@ -117,8 +117,9 @@ class Parts {
         this.rows = Float32Array.from(rows);
     }
 
-    // Ranges (first side, number of sides), in the order of this object, that may be visible in `area`:
-    // smallest and largest x and y of the window. Consecutive parts are merged to one range.
+    // Ranges of sides that may be visible, as (first side, number of sides) in the order of this object.
+    // `area`: smallest and largest x, then y, of the part of the window. Consecutive parts are merged to one
+    // range.
     seen(camera, aspect, area = [-1, 1, -1, 1]) {
         const [right, up, back] = camera.axes,
             ranges = [],
