@@ -389,13 +389,15 @@ class Interpreter:
         try:
             function = job.callables[int(arguments[0])]
             value = function(*arguments[1:count])
+            if getattr(value, "ndim", None) == 1 and hasattr(value, "tolist"):
+                value = value.tolist()  # an array of numpy: a point
             values = value if isinstance(value, (tuple, list)) and len(value) <= room else (value,)
             try:
                 for number, one in enumerate(values):
                     results[number] = one
             except TypeError:
                 name = getattr(function, "__name__", function)
-                raise TypeError(f"the function {name} has to return a number, found {value!r}") from None
+                raise TypeError(f"the function {name} has to return a number or a list of numbers, found {value!r}") from None
             return len(values)
         except BaseException as error:  # goes on in the caller
             job.error = error

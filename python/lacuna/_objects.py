@@ -279,6 +279,9 @@ class AnyMesh(Shown):
             self._write_bare(path)
             made = meshio.read(path)
             made.cell_sets.pop("gmsh:bounding_entities", None)  # which surfaces bound a volume: no set of cells
+            # meshio reads them without a sign, and its writer of .inp makes `1.0` of such numbers.
+            made.cell_sets = {name: [cells if cells is None else cells.astype("int64") for cells in blocks]
+                              for name, blocks in made.cell_sets.items()}
             return made
 
     def to_pyvista(self):

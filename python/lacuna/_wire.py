@@ -34,6 +34,20 @@ class Report(list):
         return "\n".join(map(str, self))
 
 
+class NoFaces(list):
+    """The empty result of a selection, `words`. A role refuses it by these words, as a misspelt selector would
+    else leave the role's faces out; `[]` says that there are none."""
+
+    __slots__ = ("words",)
+
+    def __init__(self, words):
+        super().__init__()
+        self.words = words
+
+    def __add__(self, other):
+        return other if isinstance(other, list) and not self else super().__add__(other)
+
+
 def plain(value):
     """A scalar of numpy, or an array without dimensions, as a value of Python; others as they are."""
     return value.item() if getattr(value, "ndim", None) == 0 and hasattr(value, "item") else value
@@ -78,6 +92,9 @@ class Request:
             self._put_object(value)
         elif isinstance(value, Mapping):
             self._put_map(value)
+        elif isinstance(value, NoFaces) and not value:
+            parts.append(b"E")
+            self._put_bytes(value.words.encode("utf-8", "surrogateescape"))
         elif isinstance(value, (list, tuple)):
             self._put_list(value)
         elif isinstance(value, os.PathLike):
@@ -198,6 +215,9 @@ class Answer:
         if tag == b"o":
             number = self.whole()
             return self._make_object(self.text(), number)
+        if tag == b"E":
+            self.take(1)  # the letter of a text
+            return NoFaces(self.text())
         if tag in (b"t", b"R"):
             return self._table(tag)
         return {b"N": None, b"T": True, b"F": False}[tag]

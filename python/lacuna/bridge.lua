@@ -35,6 +35,9 @@ local function block_at(text, at)
   return list, at
 end
 
+-- The words of a selector that found nothing, in the metatable of its empty array.
+local FOUND_NOTHING = "lacuna.found_nothing"
+
 local readers = {
   N = function(_, at) return nil, at end,
   T = function(_, at) return true, at end,
@@ -52,6 +55,11 @@ local readers = {
     local number
     number, at = unpack("<i8", text, at)
     return function(...) return lacuna_python.host(number, ...) end, at
+  end,
+  E = function(text, at)
+    local words
+    words, at = value_at(text, at)
+    return setmetatable({}, { [FOUND_NOTHING] = words }), at
   end,
   ["["] = function(text, at)
     local count, list
@@ -93,6 +101,11 @@ end
 local function put_table(out, value)
   local class = getmetatable(value)
   if class == "Quality" then return put_object(out, value, class) end
+  local words = type(class) == "table" and class[FOUND_NOTHING]
+  if words then
+    out[#out + 1] = "E"
+    return put(out, words)
+  end
   local count, pairs_at, others = #value, #out + 1, 0
   out[pairs_at] = ""
   for i = 1, count do put(out, value[i]) end

@@ -49,6 +49,27 @@ local function deck(format)
   return table.concat(lines, "\n") .. "\n"
 end
 
+-- Element sets without sections are the regions if each element is in one of them.
+do
+  local path = params.scratch .. "/sets.inp"
+  local function cube(number, z)
+    local nodes, tags = {}, {}
+    for i, p in ipairs { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } do
+      for k = 0, 1 do
+        local tag = 8 * number + 4 * k + i
+        tags[4 * k + i] = tag
+        nodes[#nodes + 1] = ("%d, %d, %d, %d"):format(tag, p[1], p[2], z + k)
+      end
+    end
+    return table.concat(nodes, "\n") .. "\n", table.concat(tags, ", ") .. "\n"
+  end
+  local lower_nodes, lower = cube(0, 0)
+  local upper_nodes, upper = cube(1, 3)
+  local text = "*NODE\n" .. lower_nodes .. upper_nodes .. "*ELEMENT, TYPE=C3D8\n1, " .. lower .. "2, " .. upper
+  check.write(path, text .. "*ELSET, ELSET=LOW\n1\n*ELSET, ELSET=UP\n2\n")
+  check.equal(#lacuna.load(path):faces { region = "LOW" }, 6)
+end
+
 for _, format in ipairs { "bdf", "inp" } do
   local lower = format == "bdf" and "pid:1" or "part1"
   local upper = format == "bdf" and "pid:2" or "part2"

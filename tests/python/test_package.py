@@ -124,6 +124,17 @@ class Values(unittest.TestCase):
         mesh = lacuna.synthetic.barrel().open_volume().sweep(layers=3, size=0.8)
         self.assertEqual(set(mesh.fidelity.faces), {1, 2, 3})
 
+    def test_a_selection_that_finds_nothing_is_refused_by_its_words(self):
+        barrel = lacuna.synthetic.barrel(bulge=0.3)
+        nothing = barrel.faces(kind="cylinder")
+        self.assertEqual(nothing, [])
+        for walls in (nothing, nothing + barrel.faces(kind="cone"), {"kind": "cylinder"}):
+            with self.assertRaises(lacuna.Error) as caught:
+                barrel.open_volume(source="source", target="target", walls=walls)
+            self.assertEqual(caught.exception.code, "lua.bad_value")
+        self.assertEqual(nothing + [1], [1])
+        self.assertEqual(barrel.open_volume(source="source", target="target", walls=[]).class_, "I")
+
     def test_options_may_be_a_dict_and_keywords_win(self):
         self.assertEqual(prism().sweep({"layers": 2, "size": 0.5}, layers=3).layers, 3)
         above = lacuna.synthetic.prism(sides=4)
@@ -281,6 +292,11 @@ class Errors(unittest.TestCase):
 
 
 class Callbacks(unittest.TestCase):
+    def test_a_path_may_be_a_function_that_gives_arrays(self):
+        model = lacuna.synthetic.prism()
+        void = model.open_volume(source="source", along={"path": lambda t: numpy.array([0.0, 0, 2 * t])})
+        self.assertEqual(void.class_, "0")
+
     def test_sizes_are_functions_of_the_place(self):
         places = []
 
@@ -296,7 +312,7 @@ class Callbacks(unittest.TestCase):
         void = prism()
         with self.assertRaises(ZeroDivisionError):
             void.sweep(layers=2, size=lambda x, y, z: 1 / 0)
-        with self.assertRaisesRegex(TypeError, "<lambda> has to return a number, found None"):
+        with self.assertRaisesRegex(TypeError, "<lambda> has to return a number or a list of numbers, found None"):
             void.sweep(layers=2, size=lambda x, y, z: None)
         with self.assertRaises(TypeError):
             void.sweep(layers=2, size=lambda x: 1)

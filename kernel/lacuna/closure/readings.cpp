@@ -252,7 +252,7 @@ Reading find_reading(const Model& model, const std::vector<FaceId>& faces, int n
                      const RunContext& context)
 {
     if (faces.empty())
-        throw InvalidInput(Message("topology.no_faces", "the model has no faces to form a volume")
+        throw InvalidInput(Message("topology.no_faces", "there are no faces to form a volume")
                                .remedy("load a file that has some, or add_face{{ points =, cells = }}"));
     std::vector<Reading> readings = find_readings(model, faces, context);
     if (readings.empty()) readings.push_back(read_skin(model, faces, context));

@@ -538,8 +538,9 @@ private:
         });
         scope.builder.resolve(
             nodes, [&](std::uint64_t place, const Message& why) { files_.place_of(place).fail(why); });
-        if (scope.sections.empty()) return;
         const std::vector<DeckTag> tags = element_tags(deck);
+        if (scope.sections.empty()) take_sets_for_sections(scope, tags);
+        if (scope.sections.empty()) return;
         std::vector<Index*> regions;
         for (DeckBlock& block : deck.blocks)
             for (Index& region : block.regions) regions.push_back(&region);
@@ -550,6 +551,22 @@ private:
             for (const DeckTag tag : section.members)
                 if (const Index e = elements.find(tag); e >= 0) *regions[index(e)] = region;
         }
+    }
+
+    /// Without a section, the element sets are the regions if each element is in exactly one of them, as in
+    /// decks that other programs convert.
+    static void take_sets_for_sections(Scope& scope, std::vector<DeckTag> tags)
+    {
+        std::vector<Scope::Section> sections;
+        std::vector<DeckTag> members;
+        for (const DeckSet& set : scope.builder.deck().sets) {
+            if (set.kind != DeckSet::Kind::elements) continue;
+            sections.push_back({set.name, "", set.members});
+            members.insert(members.end(), set.members.begin(), set.members.end());
+        }
+        std::ranges::sort(tags);
+        std::ranges::sort(members);
+        if (members == tags) scope.sections = std::move(sections);
     }
 
     /// Index of the region named after an element set. It exists if an *ELEMENT line names the set; otherwise

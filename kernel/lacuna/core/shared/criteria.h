@@ -79,6 +79,8 @@ inline constexpr double kPoorQuad = 0.5, kGoodQuad = 0.8;
 
 /// A hexahedron below this is poor: other directions and sizes are tried. Solvers accept 0.2.
 inline constexpr double kPoorCell = 0.3;
+/// A tetrahedron below this is a sliver, and a note says so. Meshes without narrow places reach 0.1.
+inline constexpr double kSliver = 0.02;
 
 // Same volume
 
