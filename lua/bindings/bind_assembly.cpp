@@ -45,7 +45,7 @@ int make_assembly(lua_State* L)
     if (lua_type(L, 1) == LUA_TTABLE) {
         for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1))
             if (lua_type(L, -2) == LUA_TSTRING)
-                fail(L, "assembly: there is no option '%s'; give volumes alone", lua_tostring(L, -2));
+                fail(L, "assembly: there is no option '%s'; give only volumes", lua_tostring(L, -2));
     }
     auto& entries = temporary<std::vector<AssemblyState::Entry>>(L);
     read_array(L, 1, {"assembly", "volumes"}, "an array of volumes and meshes",

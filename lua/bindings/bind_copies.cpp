@@ -44,7 +44,7 @@ std::pair<Vec3, Vec3> read_point_and_direction(lua_State* L, int index, const Wh
     read.first = read_vector(L, lua_gettop(L), where);
     lua_rawgeti(L, index, 2);
     read.second = read_vector(L, lua_gettop(L), where);
-    if (!(read.second.stableNorm() > 0)) fail_option(L, where, "has a direction of no length");
+    if (!(read.second.stableNorm() > 0)) fail_option(L, where, "has a direction of length 0");
     read.second.stableNormalize();
     return read;
 }

@@ -410,7 +410,7 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
     const io::Format& format = io::needed_mesh_format("write", path.text());
     if (!state.interfaces.empty() && (format.is_folder || !arguments.with.empty()))
         throw InvalidInput(Message("lua.split_write",
-                                   "write: a mesh with cells of no thickness cannot be "
+                                   "write: a mesh with cells of zero thickness cannot be "
                                    "{}",
                                    format.is_folder ? "written as polyMesh" : "joined to a deck")
                                .remedy("{}", format.is_folder ? "write another format" : "leave out 'with'"));
@@ -420,7 +420,7 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
                                        "file")
                 .remedy("{}", is_pieces(format) ? "write a .vtu file" : "leave out 'partitions'"));
     if (arguments.msh.orientation && !state.tets.empty())
-        throw InvalidInput(Message("lua.mixed_write", "write: tetrahedra have no orientation of a sweep")
+        throw InvalidInput(Message("lua.mixed_write", "write: tetrahedra have no sweep direction")
                                .remedy("leave out 'orientation'"));
     arguments.deck.format = format.deck;
     for (const sweep::Swept& part : state.swept.parts) arguments.msh.oriented.push_back(&part.mesh);
@@ -622,7 +622,8 @@ int check_file(lua_State* L)
                 return io::shape_info(block.shape).corners == 4;
             };
             if (std::ranges::none_of(deck.blocks, is_quad))
-                throw InvalidInput("lua.no_hexahedra", "check: {} holds neither solids nor quads", deck.path);
+                throw InvalidInput("lua.no_hexahedra", "check: {} contains neither solids nor quads",
+                                   deck.path);
             shell = fill::measured_quads(deck, context);
             return;
         }
@@ -652,8 +653,8 @@ WriteArguments& push_layered_write(lua_State* L, int index, const io::OutputPath
         const io::Format* const format = io::find_format(path.text());
         if (format == nullptr || !format->streamed)
             throw InvalidInput("lua.not_layered",
-                               "sweep_to: {} cannot be written a layer at a time; such "
-                               "files end in {}",
+                               "sweep_to: {} cannot be written one layer at a time; "
+                               "use one of {}",
                                path.text(), io::endings_of([](const io::Format& of) { return of.streamed; }));
         format_of(path.text(), arguments); // refuses options that the format does not have
     });

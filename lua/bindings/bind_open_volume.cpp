@@ -356,10 +356,10 @@ int open_volume(lua_State* L)
     read_options(L, 2, "open_volume", kRoleOptions, arguments);
     const fill::RoleRequest& request = arguments;
     if (request.roles && request.faces)
-        fail(L, "open_volume: name either the roles (source, target, walls) or 'faces', whose roles are then "
-                "found; not both");
+        fail(L, "open_volume: give either the roles (source, target, walls) or 'faces', whose roles are "
+                "detected; not both");
     if (request.roles && request.reading > 1)
-        fail(L, "open_volume: 'reading' selects one of the readings that were found; with named roles "
+        fail(L, "open_volume: 'reading' selects one of several detected volumes; with named roles "
                 "there is only reading = 1, which accepts a guessed shape");
     const bool ends = request.roles && (!request.roles->source.empty() || !request.roles->target.empty());
     if (request.full_turn && (request.find_walls || ends || request.override_class || request.reading > 0))

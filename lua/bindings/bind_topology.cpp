@@ -185,8 +185,10 @@ int face(lua_State* L)
     auto& found = temporary<std::vector<FaceId>>(L);
     read_faces(L, 2, {"face", nullptr}, state, found);
     if (found.size() != 1)
-        fail(L, "face: the argument must mean one face, but %d fit: %s; narrow it, or use model:faces(...)",
-             static_cast<int>(found.size()), push_names(L, state->model, found));
+        fail(
+            L,
+            "face: the argument must select one face, but selects %d: %s; narrow it, or use model:faces(...)",
+            static_cast<int>(found.size()), push_names(L, state->model, found));
     push_face(L, state, found.front());
     return 1;
 }

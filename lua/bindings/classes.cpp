@@ -38,7 +38,7 @@ void refresh(ModelState& state, const RunContext& context)
     topology::ModelBuilder model(healing::split_facets(state.added, options, context));
     if (model.faces.size() != static_cast<std::size_t>(state.added_faces))
         throw InvalidInput(Message("lua.face_in_parts",
-                                   "the {} faces added became {}, because the cells of a face are not "
+                                   "the {} added faces became {}, because the cells of a face are not "
                                    "connected",
                                    needed(state.added_faces), found(model.faces.size()))
                                .remedy("add each part as a face of its own"));
@@ -75,18 +75,16 @@ FaceId face_of(const FaceHandle& handle)
 {
     const FaceId face = face_now(handle);
     if (!face.valid())
-        throw InvalidInput(
-            Message("lua.face_grown_over", "this face has become part of a face that face_from grew")
-                .remedy("use that face, or pick faces after face_from"));
+        throw InvalidInput(Message("lua.face_grown_over", "this face is now part of a face made by face_from")
+                               .remedy("use that face, or select faces after face_from"));
     return face;
 }
 
 Busy::Busy(VolumeState& state, const char* method) : state_(state)
 {
     if (state.busy)
-        throw InvalidInput(
-            Message("lua.busy", "{}: this volume is being worked on by its {}()", method, state.busy)
-                .remedy("call {} when that is done", method));
+        throw InvalidInput(Message("lua.busy", "{}: this volume is in use by its {}()", method, state.busy)
+                               .remedy("call {} after it has returned", method));
     state.busy = method;
 }
 

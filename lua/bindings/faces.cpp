@@ -75,7 +75,8 @@ std::array<double, 2> read_range(lua_State* L, int index, const Where& where, co
         range[static_cast<std::size_t>(i)] = lua_tonumber(L, -1);
         lua_pop(L, 1);
     }
-    if (range[0] > range[1]) fail_option(L, where, "must rise, found { %f, %f }", range[0], range[1]);
+    if (range[0] > range[1])
+        fail_option(L, where, "must be in increasing order, found { %f, %f }", range[0], range[1]);
     return range;
 }
 
@@ -316,7 +317,7 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     case LUA_TSTRING: {
         const char* name = read_string(L, index, where);
         guard(L, [&] { wanted.name = name; });
-        none = lua_pushfstring(L, "names \"%s\", and no face is called that%s", name,
+        none = lua_pushfstring(L, "names \"%s\", but no face has that name%s", name,
                                push_meant_name(L, model, name));
         break;
     }
@@ -369,7 +370,7 @@ geometry::Plane read_plane(lua_State* L, int index, const Where& where)
     const Vec3 point = read_vector(L, lua_absindex(L, -2), where),
                normal = read_vector(L, lua_absindex(L, -1), where);
     lua_pop(L, 2);
-    if (!(normal.stableNorm() > 0)) fail_option(L, where, "has a normal of no length");
+    if (!(normal.stableNorm() > 0)) fail_option(L, where, "has a normal of length 0");
     return geometry::plane_across(point, normal.stableNormalized());
 }
 
@@ -377,7 +378,7 @@ FaceId grow_face(lua_State* L, int index, const Box<ModelState>& state)
 {
     auto& arguments = temporary<GrowArguments>(L);
     read_options(L, index, "face_from", kGrowOptions, arguments);
-    if (!arguments.selector.near) fail(L, "face_from: option 'near' is missing: a place, { x, y, z }");
+    if (!arguments.selector.near) fail(L, "face_from: option 'near' is missing: a point, { x, y, z }");
     if (state->hand_made)
         fail(L, "face_from: needs a loaded model; the faces of this one were added by the recipe");
     RunContext& context = push_context(L);

@@ -140,8 +140,8 @@ void check_keys(lua_State* L, int index, const char* call, const char* const* ke
         if (lua_type(L, -2) != LUA_TSTRING) {
             const char* found = push_found(L, -1);
             fail_as(L, "lua.unknown_option",
-                    "%s: %s stands among the options without a name; write key = value. The keys are: %s",
-                    call, found, push_list(L, keys, count));
+                    "%s: the option %s is without a name; write key = value. The keys are: %s", call, found,
+                    push_list(L, keys, count));
         }
         const char* key = lua_tostring(L, -2);
         const auto is_key = [key](const char* known) { return std::strcmp(known, key) == 0; };

@@ -56,7 +56,7 @@ void read_layers(lua_State* L, int index, const Where& where, SweepArguments& ar
         if (spec.count == 0) fail_option(L, where, "has no 'count': { count =, bias =, mode = }");
     } else {
         fail_value(L, where,
-                   "a positive whole number, an array of rising heights in (0, 1] or a table "
+                   "a positive whole number, an array of increasing heights in (0, 1] or a table "
                    "{ count =, bias =, mode = }",
                    index);
     }
@@ -95,7 +95,7 @@ void read_face_name(lua_State* L, int index, const Where& where, const VolumeSta
                     surface::FaceNames& names)
 {
     if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index)) {
-        if (!*handle) fail_option(L, where, "is a face that was closed");
+        if (!*handle) fail_option(L, where, "is a face that was released");
         guard(L, [&] { names.tags.push_back((*handle)->model->model[face_of(**handle)].tag); });
         return;
     }

@@ -79,7 +79,7 @@ void write_filled(const Host& lent, SweepRun& run, const SweepFile& file, const 
         if (held > 0)
             mesh.swept.report.push_back(formatted(
                 "sweep_to: {} of {} parts were held in memory, because their nodes are not those of plain "
-                "layers, or the file cannot be written a layer at a time",
+                "layers, or the file cannot be written one layer at a time",
                 held, mesh.swept.parts.size()));
         write_pieces(mesh, *file.path, *file.arguments, lent.crew, context);
         run.report = fill::report(mesh);

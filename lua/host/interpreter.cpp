@@ -210,7 +210,7 @@ struct Interpreter::State {
     {
         if (running)
             throw InvalidInput(Message("lua.busy", "this interpreter is running a recipe")
-                                   .remedy("call it when that is done"));
+                                   .remedy("call it after the recipe has ended"));
     }
 };
 
@@ -313,7 +313,7 @@ int Interpreter::State::call_host(lua_State* L)
     double arguments[kMost] = {}, results[kMost] = {};
     const int count = lua_gettop(L);
     const char* const path = lua_tostring(L, lua_upvalueindex(3));
-    if (count > kMost) lua::fail(L, "%s: a function of the host takes %d numbers at most", path, kMost);
+    if (count > kMost) lua::fail(L, "%s: a function of the host takes at most %d numbers", path, kMost);
     for (int i = 0; i < count; ++i) arguments[i] = luaL_checknumber(L, i + 1);
     const auto function = reinterpret_cast<HostFunction>(lua_touserdata(L, lua_upvalueindex(1)));
     void* const user = lua_touserdata(L, lua_upvalueindex(2));

@@ -30,7 +30,7 @@ class Kept {
 public:
     Kept() : file_(std::tmpfile(), std::fclose)
     {
-        if (!file_) fail("cannot make a temporary file");
+        if (!file_) fail("cannot create a temporary file");
         fcntl(file(), F_SETFD, FD_CLOEXEC);
     }
 
@@ -99,7 +99,7 @@ Process begin(const Job& job, const std::vector<std::string>& options)
     errno = posix_spawn(&process.id, "/proc/self/exe", &actions, &attributes, arguments.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
-    if (errno != 0) fail("cannot begin a process");
+    if (errno != 0) fail("cannot start a process");
     return process;
 }
 

@@ -60,7 +60,7 @@ function commands.info()
   print(found and "likely roles (not checked by a sweep):\n" .. volume:describe() or
     "no likely roles: " .. volume)
   if not found and model:info().closed_parts == 0 then
-    print "as a source alone (class 0): open_volume{ source = …, along = { vector = { x, y, z } } } sweeps it"
+    print "to sweep a source alone (class 0): open_volume{ source = …, along = { vector = { x, y, z } } }"
   end
 end
 

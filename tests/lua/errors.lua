@@ -25,7 +25,7 @@ local failures = {
   { "lua.unknown_field", function() return prism.fases end, "fases", "faces" },
   { "lua.unknown_field", function() prism:sweep {} end, "sweep", "It has: add_face, ", "open_volume" },
   { "lua.bad_value", function() prism:open_volume { source = "sorce" } end, '(did you mean "source"?)' },
-  { "lua.bad_value", function() prism:open_volume { source = "zzzzzzzzzz" } end, "called that; the model" },
+  { "lua.bad_value", function() prism:open_volume { source = "zzzzzzzzzz" } end, "has that name; the model" },
   { "lua.bad_value", function() prism:open_volume("source") end, "a table", '"source"' },
   { "lua.bad_value", function() void():sweep { layers = "many" } end, "layers", "whole number", '"many"' },
   { "lua.bad_value", function() void():sweep { size = "0.5 mm" } end, "size", "number", "0.5 mm" },

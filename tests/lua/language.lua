@@ -58,7 +58,7 @@ check.equal(model:face "west", added[5])
 check.equal(model:face(added[5]), added[5])
 check.that(added[1] ~= added[2])
 check.fails(function() model:face(99) end, "99", '1 "bottom"')
-check.fails(function() model:face { kind = "plane" } end, "5 fit", '"bottom"', '"west"')
+check.fails(function() model:face { kind = "plane" } end, "selects 5:", '"bottom"', '"west"')
 
 -- Roles by every way to name a face, and what becomes of them.
 local function class_of(roles) return model:open_volume(roles).class end

@@ -162,7 +162,7 @@ for from = 0, 900, step do
     list[1] = model:add_face { points = { { 9, 0, 0 }, { 8, 0, 0 }, { 9, 1, 0 } }, cells = { { 1, 2, 3 } } }
     list[2] = list[1]
   end, function() return model:face(list) end)
-  check.that(fine or tostring(message):find("must mean one face", 1, true), tostring(message))
+  check.that(fine or tostring(message):find("must select one face", 1, true), tostring(message))
 end
 
 check.done()

@@ -588,7 +588,7 @@ private:
             const std::vector<double>& r = rows_[1];
             const Vec3 a(r[0], r[1], r[2]);
             const Vec3 axis = Vec3(r[3], r[4], r[5]) - a;
-            if (!(axis.norm() > 0)) fail("*INSTANCE: the axis of the rotation has no length");
+            if (!(axis.norm() > 0)) fail("*INSTANCE: the axis of the rotation has length 0");
             const Eigen::AngleAxisd turn(r[6] * std::numbers::pi / 180, axis.normalized());
             to = Eigen::Translation3d(a) * turn * Eigen::Translation3d(-a) * to;
         }

@@ -39,7 +39,8 @@ std::vector<std::uint32_t> quads_of_rim(const mesh::HexMesh& mesh)
     for (const Segment& segment : mesh.rim) {
         const auto at = std::lower_bound(sides.begin(), sides.end(), Side{segment, 0}, before);
         if (at == sides.end() || at->ends != segment)
-            throw InvalidInput("io.rim", "the side of the rim from {} to {} belongs to no quad of the source",
+            throw InvalidInput("io.rim",
+                               "the edge from {} to {} of the boundary belongs to no quad of the source",
                                numbered("node", segment[0] + 1), numbered("node", segment[1] + 1));
         quads.push_back(at->quad);
     }

@@ -140,8 +140,8 @@ std::size_t Deck::element_count(int dimension) const
 
 NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double tolerance, double scale)
 {
-    // Points are sorted by their x, rounded to multiples of the tolerance, then by y. Even if all points lie
-    // in a plane normal to x, bisection by y finds the near ones quickly.
+    // Sort the points by x, rounded down to multiples of the tolerance, and points of equal rounded x by y.
+    // Bisection by y then finds the near points quickly, even if all points have the same x.
     std::vector<Index> order(deck.points.size());
     std::iota(order.begin(), order.end(), Index(0));
     const auto cell_of = [&](double x) { return tolerance > 0 ? std::floor(x / tolerance) : x; };

@@ -90,7 +90,7 @@ std::vector<FormatRow> make_table()
         table.push_back(row);
     }
     row = deck_format(".unv", "a universal file", "UNV", unv, Format::Skin::quads, unv_file, read_unv);
-    row.unwritten_sets = "sets of sides are not written: a UNV has none";
+    row.unwritten_sets = "sets of sides are not written: UNV has none";
     table.push_back(row);
     for (const char* ending : {".exo", ".e"}) {
         row = deck_format(ending, "an Exodus file", "Exodus", exodus, Format::Skin::nodes_and_sides,

@@ -200,8 +200,8 @@ private:
         }
         const auto [model, steps] = model_and_steps(text_at(more_, DeckText::Place::cards));
         if (!steps.empty())
-            log_line(context_,
-                     formatted("the steps of {} are left out; those of the first deck stay", more_.path));
+            log_line(context_, formatted("the steps of {} are not written; those of the first deck are kept",
+                                         more_.path));
         add_model_cards(all_, model);
     }
 

@@ -97,8 +97,8 @@ struct LayeredField {
 /// memory does not depend on the number of layers. For Exodus, nodes are computed three times, because x, y
 /// and z are stored in separate arrays.
 /// @param options  without fields, which are given separately.
-/// @param team  processes that each write their share of the file, or some of the pieces, to the path of rank
-///              0; null: this process works alone.
+/// @param team  processes that share the work: each writes its share of the file, or some of the pieces, to
+///              the path of rank 0; null: this process works alone.
 /// @pre  the format is streamed
 void write_mesh(const Format& format, const mesh::LayeredMesh& layered, const OutputPath& path,
                 const MeshFileOptions& options = {}, const MeshDeckOptions& deck = {},

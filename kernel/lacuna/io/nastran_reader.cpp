@@ -187,7 +187,7 @@ private:
                 !(grids_[index(first)] == grids_[index(second)]))
                 bulk_.files()
                     .place_of(grids_[index(second)].place)
-                    .fail("another GRID with this number lies elsewhere");
+                    .fail("another GRID with this number has other coordinates");
             repeated.resize(grids_.size(), false);
             repeated[index(second)] = true;
         });

@@ -72,7 +72,8 @@ std::vector<std::vector<Index>> parts_of_layers(std::span<const BulkPart> meshes
     return all;
 }
 
-/// Divides the elements of a view. Lists of parts are identified by numbers; list 0 is empty.
+/// Assigns the elements of a view to parts. Lists of parts are stored once, in `lists_`, and referred to by
+/// index; list 0 is empty.
 class Divider {
 public:
     Divider(const MeshView& view, std::span<const BulkPart> meshes, int parts) : view_(view), meshes_(meshes)

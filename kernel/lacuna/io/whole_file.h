@@ -134,9 +134,9 @@ private:
     std::atomic<bool> can_pass_cache_ = true; ///< false once the system has reported that it cannot
 };
 
-/// Move related files to their paths; the last of them names the others. If one cannot be moved, none is. The
-/// last file is moved last, and an existing one is removed first, so it never names files of two different
-/// writes. If the process is killed between these system calls, some of the other files exist without it.
+/// Move a group of files to their paths, all or none. The last file refers to the others. If it exists
+/// already, it is removed first, and the new one is moved last, so that it never refers to files of two
+/// different writes. If the process is killed in between, some of the other files exist without it.
 /// @throw BackendError
 void commit_together(std::span<const std::unique_ptr<WholeFile>> files);
 
