@@ -653,7 +653,7 @@ private:
     bool flat_alone_;
     const RunContext& context_;
     std::vector<double> angle_; ///< angle between the two faces at each edge [degrees]
-    std::vector<EdgeId> sharp_; ///< edges between two patches
+    std::vector<EdgeId> sharp_; ///< edges with at least the crease angle
     PatchMap map_;
     std::vector<SteppedEnds> stepped_; ///< ends of each candidate with ends at several heights
     std::vector<EdgeUse> free_;        ///< uses whose edge has no other use

@@ -505,7 +505,7 @@ private:
     FaceId face_;
     std::vector<Quad> quads_;
     std::vector<LoopChain> chains_;
-    std::vector<std::vector<RimNode>> rims_; ///< on each loop
+    std::vector<std::vector<RimNode>> rims_; ///< rim nodes on each loop
     std::vector<int> ends_;                  ///< edge ends at each vertex, without seams
 };
 

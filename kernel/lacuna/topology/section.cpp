@@ -407,7 +407,8 @@ private:
     /// Make edges of the parts of walks that run across faces.
     void make_edges()
     {
-        std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> facet; // by side: face, facet
+        // Face and facet of each directed side.
+        std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> facet;
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
             if (!model_.faces[f].surface) continue;
             const std::vector<Triangle>& triangles = model_.faces[f].triangles;
