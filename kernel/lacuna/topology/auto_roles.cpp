@@ -426,7 +426,7 @@ private:
 
     [[nodiscard]] static double cost_of_two_ends(const SmoothPatch& s, const SmoothPatch& t)
     {
-        // The ends of a sweep face each other: the line between them leaves both.
+        // The ends of a sweep face each other: the line between their centres is along both normals.
         const Vec3 way = (t.centre - s.centre).stableNormalized();
         const double facing =
             1 - (std::abs(way.dot(s.normal)) * s.flatness + std::abs(way.dot(t.normal)) * t.flatness) / 2;

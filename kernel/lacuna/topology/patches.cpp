@@ -81,7 +81,7 @@ private:
     };
 
     struct Segment {
-        Index high; ///< the higher of its points
+        Index high; ///< the higher point number of its ends
         std::vector<Beside> facets;
     };
 

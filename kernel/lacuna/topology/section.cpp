@@ -563,7 +563,7 @@ private:
     SidePoints sides_;
     std::unordered_set<std::uint64_t> walked_;     ///< sides along the walks
     std::vector<bool> on_walk_;                    ///< for each point, whether a walk contains it
-    std::unordered_set<std::uint64_t> edge_sides_; ///< sides on previous edges
+    std::unordered_set<std::uint64_t> edge_sides_; ///< sides on edges that the model had before
     std::set<Index> vertex_points_;                ///< points that become vertices
     std::map<Index, VertexId> vertex_at_;
 };
