@@ -131,7 +131,7 @@ private:
     /// The points of the sides at given parameters, from which the Coons formula is evaluated.
     struct Sides {
         std::vector<Vec3> bottom, top, left, right;
-        std::array<Vec3, 4> corner; ///< two of the bottom, two of the top
+        std::array<Vec3, 4> corner; ///< both ends of the bottom, then both ends of the top
         [[nodiscard]] Vec3 at(std::size_t i, double u, std::size_t j, double v) const
         {
             const Vec3 corners = (1 - v) * ((1 - u) * corner[0] + u * corner[1]) +

@@ -14,7 +14,7 @@ namespace lacuna::quality {
 namespace {
 
 constexpr std::size_t kSide = 6;                    ///< coefficients in each direction, for degree five
-constexpr std::size_t kAll = kSide * kSide * kSide; ///< index of (a, b, c): a + 6 b + 36 c
+constexpr std::size_t kAll = kSide * kSide * kSide; ///< coefficients; (a, b, c) is at a + 6 b + 36 c
 using Bezier = std::array<double, kAll>;
 
 /// A cell counts as straight if its middle nodes deviate from linear interpolation by at most this, relative

@@ -100,7 +100,7 @@ enum class Fault {
     unknown_node,     ///< a corner has an invalid node number
     patch_tag,        ///< a patch of the skin has no unique positive tag
     no_patch,         ///< a quad of the skin has no patch
-    collapsed_side,   ///< a side of a cell has the same node twice
+    collapsed_side,   ///< a cell has the same node at two corners
     not_conformal,    ///< a side is used by more than two cells, or two cells do not match at it
     pinched,          ///< quads are connected at one node only
     unused_node,      ///< no cell uses a node

@@ -426,7 +426,7 @@ private:
 
     [[nodiscard]] static double cost_of_two_ends(const SmoothPatch& s, const SmoothPatch& t)
     {
-        // The ends of a sweep face each other: the line between them leaves both.
+        // The ends of a sweep face each other: the line between their centres is along both normals.
         const Vec3 way = (t.centre - s.centre).stableNormalized();
         const double facing =
             1 - (std::abs(way.dot(s.normal)) * s.flatness + std::abs(way.dot(t.normal)) * t.flatness) / 2;
@@ -653,7 +653,7 @@ private:
     bool flat_alone_;
     const RunContext& context_;
     std::vector<double> angle_; ///< angle between the two faces at each edge [degrees]
-    std::vector<EdgeId> sharp_; ///< edges between two patches
+    std::vector<EdgeId> sharp_; ///< edges with at least the crease angle
     PatchMap map_;
     std::vector<SteppedEnds> stepped_; ///< ends of each candidate with ends at several heights
     std::vector<EdgeUse> free_;        ///< uses whose edge has no other use

@@ -13,7 +13,7 @@ namespace lacuna::topology {
 struct RoleCandidate {
     Roles roles;
     VolumeClass value = VolumeClass::closed;
-    double cost = 0;                  ///< 0: flat parallel ends, square to their walls; lower is more likely
+    double cost = 0;                  ///< lower is more likely; 0: flat, parallel ends, normal to the sweep
     long irregular = 0;               ///< lower bound of the source's irregular nodes (valence other than 4)
     std::vector<std::string> reasons; ///< sentences for the user
 };

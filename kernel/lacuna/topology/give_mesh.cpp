@@ -397,7 +397,7 @@ private:
     }
 
     /// The rim node nearest to a vertex, which moves there.
-    /// @throw InvalidInput  the vertex is not there yet, and edges of other faces end at it.
+    /// @throw InvalidInput  the vertex would have to move, but edges of other faces end at it.
     std::size_t node_at(VertexId vertex, double at, const std::vector<RimNode>& rim, double length)
     {
         const Vec3& place = model_.at(model_[vertex].point);
@@ -505,7 +505,7 @@ private:
     FaceId face_;
     std::vector<Quad> quads_;
     std::vector<LoopChain> chains_;
-    std::vector<std::vector<RimNode>> rims_; ///< on each loop
+    std::vector<std::vector<RimNode>> rims_; ///< rim nodes on each loop
     std::vector<int> ends_;                  ///< edge ends at each vertex, without seams
 };
 

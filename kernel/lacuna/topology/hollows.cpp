@@ -195,7 +195,7 @@ std::vector<Hollow> hollows(const Model& given, const RunContext& context)
 
 std::vector<std::size_t> joined_hollows(const Model& model, const std::vector<Hollow>& hollows)
 {
-    std::map<std::set<EdgeId>, std::size_t> first; // hollow by rim
+    std::map<std::set<EdgeId>, std::size_t> first; // first hollow with a rim
     geometry::UnionFind hang(hollows.size());
     for (std::size_t h = 0; h < hollows.size(); ++h) {
         for (const Rim& rim : rims(model, hollows[h].faces)) {

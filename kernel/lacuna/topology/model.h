@@ -29,7 +29,7 @@ enum class Geometry {
 };
 
 struct Vertex {
-    Index point = -1; ///< in Model::points
+    Index point = -1; ///< index in Model::points
     int tag = 0;      ///< as shown to the user
     Origin origin = Origin::given;
 };
@@ -108,7 +108,7 @@ private:
 /// the model that a call returns in a variable before iterating over its faces.
 class Model {
 public:
-    Model(); ///< nothing
+    Model(); ///< an empty model
     Model(const Model&) = default;
     Model(Model&& other) noexcept;
     Model& operator=(Model other) noexcept;

@@ -83,7 +83,7 @@ std::vector<Rim> free_loops(const OpenVolume& volume);
 struct Classification {
     VolumeClass value = VolumeClass::closed;
     std::vector<Rim> free_loops;
-    std::vector<VertexId> wall_free_source; ///< source rim vertices on no wall
+    std::vector<VertexId> wall_free_source; ///< vertices on the source's rims that are on no wall
     std::vector<VertexId> wall_free_target;
     std::vector<std::string> reasons;
 };

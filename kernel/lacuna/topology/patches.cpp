@@ -42,7 +42,7 @@ public:
                 for (std::size_t i = 0; i < 3; ++i) {
                     const std::size_t found = segment(t[i], t[(i + 1) % 3]);
                     if (found == segments_.size()) continue;
-                    std::vector<Beside>& facets = segments_[found].facets; // of each face the first one
+                    std::vector<Beside>& facets = segments_[found].facets; // only the first of each face
                     if (facets.empty() || facets.back().face != FaceId(f)) facets.push_back({FaceId(f), t});
                 }
             }
@@ -81,7 +81,7 @@ private:
     };
 
     struct Segment {
-        Index high; ///< the higher of its points
+        Index high; ///< the higher point number of its ends
         std::vector<Beside> facets;
     };
 

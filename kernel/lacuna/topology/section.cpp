@@ -407,7 +407,8 @@ private:
     /// Make edges of the parts of walks that run across faces.
     void make_edges()
     {
-        std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> facet; // by side: face, facet
+        // Face and facet of each directed side.
+        std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> facet;
         for (std::size_t f = 0; f < model_.faces.size(); ++f) {
             if (!model_.faces[f].surface) continue;
             const std::vector<Triangle>& triangles = model_.faces[f].triangles;
@@ -562,7 +563,7 @@ private:
     SidePoints sides_;
     std::unordered_set<std::uint64_t> walked_;     ///< sides along the walks
     std::vector<bool> on_walk_;                    ///< for each point, whether a walk contains it
-    std::unordered_set<std::uint64_t> edge_sides_; ///< sides on previous edges
+    std::unordered_set<std::uint64_t> edge_sides_; ///< sides on edges that the model had before
     std::set<Index> vertex_points_;                ///< points that become vertices
     std::map<Index, VertexId> vertex_at_;
 };

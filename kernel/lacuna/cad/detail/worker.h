@@ -22,7 +22,7 @@ namespace lacuna::cad {
 /// The subject of a request, for limits and messages.
 struct Task {
     std::string subject{};    ///< the file
-    std::string doing{};      ///< "reading it", "projecting points"
+    std::string doing{};      ///< such as "reading it" or "projecting points"
     Limits limits{};          ///< 0: derived from `bytes` and `points`
     std::uint64_t bytes = 0;  ///< size of the files sent with the request
     std::uint64_t points = 0; ///< number of points sent with the request

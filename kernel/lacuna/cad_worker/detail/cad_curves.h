@@ -27,7 +27,7 @@ struct CadCurveInfo {
 struct CadPiece {
     std::size_t curve = 0;
     double low = 0, high = 0;
-    Index from = -1, to = -1; ///< model points of the vertices, which are sewn
+    Index from = -1, to = -1; ///< model points of its end vertices, after sewing
     std::size_t edge = 0;
     bool reversed = false; ///< opposite to the direction of the edge
 };

@@ -90,7 +90,7 @@ private:
     std::vector<DelaunayTriangle> triangles_;
     std::vector<Index> triangle_of_; ///< one of the triangles at each point; -1: the point is not inserted
                                      ///< yet
-    std::vector<Index> stamp_;       ///< for each triangle, the last cavity that contained it
+    std::vector<Index> stamp_;       ///< for each triangle, the number of the last cavity that contained it
     Index stamp_now_ = 0;
     Index given_ = 0;
 };

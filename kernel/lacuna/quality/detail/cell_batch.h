@@ -84,7 +84,7 @@ inline constexpr int kCertifyDepth = 6; ///< as in `certified_positive()`
 /// Whether J is positive in the whole cell, decided from its Bézier coefficients. See `certified_positive()`.
 bool positive_everywhere(const CoefficientsView& bezier, int max_depth);
 
-/// Result of a test with one subdivision; open: undecided.
+/// Result of `signs_after_cut()` for one cell; open: undecided.
 enum class Sign : std::uint8_t { open, positive, not_positive };
 
 /// Test all cells of a batch at once, by one bisection along u, one along v and one along w; it is enough if

@@ -43,8 +43,8 @@ inline std::span<const std::uint8_t> corners_of(CellKind kind)
 using CellCorners = std::array<Vec3, 8>;
 
 struct OtherValues {
-    double scaled = 0;     ///< as `wedge_scaled_jacobian()`, `pyramid_…` and `tet_scaled_jacobian()` say
-    double jacobian = 0;   ///< the smallest at the corners, without a pyramid's apex
+    double scaled = 0;     ///< `wedge_scaled_jacobian()`, `pyramid_…` or `tet_scaled_jacobian()`
+    double jacobian = 0;   ///< smallest Jacobian at the corners, except at a pyramid's apex
     double volume = 0;     ///< exact
     bool positive = false; ///< the Jacobian is positive everywhere, except at a pyramid's apex
 };

@@ -20,7 +20,7 @@ struct SlabPlace {
     Eigen::AlignedBox3d bounds;
     /// Axes of the box as rows; the first points from the lowest level to the highest.
     Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
-    Eigen::AlignedBox3d box; ///< in the frame
+    Eigen::AlignedBox3d box; ///< bounding box of the nodes in this frame
 };
 
 /// Quality of a mesh whose nodes are computed on demand, and the extents of its slabs.

@@ -38,8 +38,8 @@ enum class Metric {
     diagonal,        ///< shortest over longest body diagonal
     dimension,       ///< volume over its gradient, for stable time steps [model length]
     volume,          ///< as in VTK 9.1 and Cubit, 8 × Jacobian at the centre; `Quality::volume` is exact
-    distortion,      ///< smallest Jacobian at corners and Gauss points, over their mean
-    relative_size_squared, ///< (volume / mean volume of the mesh, or its inverse)²
+    distortion,      ///< smallest Jacobian at corners and Gauss points, over the mean at Gauss points
+    relative_size_squared, ///< (volume / mean volume of the mesh)², or its inverse if that is smaller
     shape_and_size,        ///< shape × relative_size_squared
     shear_and_size,        ///< shear × relative_size_squared
 };

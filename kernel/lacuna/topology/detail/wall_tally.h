@@ -14,7 +14,7 @@ namespace lacuna::topology {
 /// The patches of a model, indexed for role candidates.
 struct PatchMap {
     std::vector<SmoothPatch> patches;
-    std::vector<std::size_t> of_use;            ///< patch of each use, at `number_of()` the use; `kNoIndex`
+    std::vector<std::size_t> of_use;            ///< patch of each use, at index `number_of(use)`; `kNoIndex`
                                                 ///< if no face has the use
     std::vector<EdgeUse> next;                  ///< next use in the face's loop
     std::vector<std::vector<std::size_t>> at{}; ///< patches at each vertex

@@ -25,7 +25,7 @@ inline constexpr double kOffShape = 0.01;
 /// The cone that a face lies on.
 struct ConeShape {
     double half_angle = 0;     ///< between axis and surface, in (0, 90) [degrees]
-    Vec3 apex = Vec3::Zero();  ///< apex; the face need not reach it
+    Vec3 apex = Vec3::Zero();  ///< the face need not reach it
     Vec3 axis = Vec3::UnitZ(); ///< unit, from the apex into the cone
     double least_radius = 0;   ///< smallest radius of the face [model length]
     double largest_radius = 0; ///< largest radius of the face [model length]

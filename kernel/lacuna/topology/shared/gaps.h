@@ -12,7 +12,7 @@ namespace lacuna::topology {
 /// Two close free edges of two unconnected parts of a model.
 struct Gap {
     EdgeId own, other;
-    double width = kInfinity; ///< at its widest [model length]
+    double width = kInfinity; ///< largest distance of an edge's points from the other part [model length]
 };
 
 /// The gaps between free edges of unconnected parts that are narrow enough to be sewn; the narrowest first,

@@ -26,8 +26,8 @@ std::vector<Edge> divided(Edge whole, const std::vector<std::pair<std::size_t, V
 
 /// Result of `split_edge()`.
 struct EdgeSplit {
-    VertexId vertex; ///< the new one; its tag is the next free one; origin void
-    EdgeId behind;   ///< from the vertex to the old edge's end; its tag is the next free one of its origin
+    VertexId vertex; ///< the new vertex, with the next free tag; origin void
+    EdgeId behind;   ///< from the vertex to the old edge's end, with the next free tag of the edge's origin
 };
 
 /// Split an edge at a fraction of its polyline's length, in the edge's direction.
