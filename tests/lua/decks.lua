@@ -65,7 +65,8 @@ do
   end
   local lower_nodes, lower = cube(0, 0)
   local upper_nodes, upper = cube(1, 3)
-  local text = "*NODE\n" .. lower_nodes .. upper_nodes .. "*ELEMENT, TYPE=C3D8\n1, " .. lower .. "2, " .. upper
+  local text = "*NODE\n" .. lower_nodes .. upper_nodes ..
+    "*ELEMENT, TYPE=C3D8\n1, " .. lower .. "2, " .. upper
   check.write(path, text .. "*ELSET, ELSET=LOW\n1\n*ELSET, ELSET=UP\n2\n")
   check.equal(#lacuna.load(path):faces { region = "LOW" }, 6)
 end

@@ -140,9 +140,10 @@ void require_quality(FilledTets& tets, const sweep::SweepOptions& options, const
                                    needed(options.min_scaled_jacobian))
                                .remedy("use a smaller 'size'"));
     if (tets.quality.min_scaled_jacobian < kSliver) {
-        tets.report.push_back(formatted("the least scaled Jacobian of the tetrahedra is {:.2g}; a smaller 'size' "
-                                        "where faces nearly touch makes better ones",
-                                        tets.quality.min_scaled_jacobian));
+        tets.report.push_back(
+            formatted("the least scaled Jacobian of the tetrahedra is {:.2g}; a smaller 'size' "
+                      "where faces nearly touch makes better ones",
+                      tets.quality.min_scaled_jacobian));
         log_line(context, formatted("note: {}: {}", tets.region, tets.report.back()));
     }
 }
