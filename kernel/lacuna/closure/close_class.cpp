@@ -10,6 +10,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/gaps.h>
 #include <lacuna/topology/shared/hollows.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -159,6 +160,28 @@ bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
     return beside > kBetween * all;
 }
 
+/// Refuse an edge of the source that has no wall. If a wall lies within a gap that can be sewn, the remedy is
+/// the tolerance that sews it.
+[[noreturn]] void refuse_bare_edge(const Model& model, EdgeId edge, const RunContext& context)
+{
+    for (const Gap& gap : gaps(model, context)) {
+        if (gap.own != edge && gap.other != edge) continue;
+        throw NotClosed(Message("closure.wall_missing",
+                                "{} of the source has no wall: {} is {:.3g} away from it",
+                                entity_of(model, edge),
+                                entity_of(model, gap.own == edge ? gap.other : gap.own), found(gap.width))
+                            .remedy("lacuna.load(…, {{ tolerance = {0:.3g} }}) or lacuna.model{{ tolerance = "
+                                    "{0:.3g} }} joins them",
+                                    needed(sewing_tolerance(model, gap))));
+    }
+    throw NotClosed(
+        Message("closure.wall_missing",
+                "{} of the source has no wall, and the tops of the given walls do not determine the "
+                "missing target there",
+                entity_of(model, edge))
+            .remedy("name the wall, or the target; 'along' sweeps a source alone"));
+}
+
 /// Close class IV by eq. (3) and (4) of the paper: the free loops of source and walls bound the target.
 /// Departure: holes in walls are closed by void walls.
 void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
@@ -172,11 +195,7 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
     for (const Rim& rim : open) {
         for (const EdgeUse& use : rim.uses) {
             if (volume.role[model.uses_of_edge(use.edge).front().face.index()] != Role::source) continue;
-            throw NotClosed(Message("closure.wall_missing",
-                                    "{} of the source has no wall, and the tops of the given walls do not "
-                                    "determine the missing target there",
-                                    entity_of(model, use.edge))
-                                .remedy("name the wall, or the target; 'along' sweeps a source alone"));
+            refuse_bare_edge(model, use.edge, tools.context);
         }
         if (open.size() > wanted && is_hole_of_walls(volume, rim))
             holes.push_back({reversed(rim)});
