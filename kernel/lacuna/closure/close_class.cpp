@@ -164,7 +164,7 @@ bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
 /// the tolerance that sews it.
 [[noreturn]] void refuse_bare_edge(const Model& model, EdgeId edge, const RunContext& context)
 {
-    for (const Gap& gap : gaps(model, context)) {
+    for (const topology::Gap& gap : gaps(model, context)) {
         if (gap.own != edge && gap.other != edge) continue;
         throw NotClosed(Message("closure.wall_missing",
                                 "{} of the source has no wall: {} is {:.3g} away from it",
