@@ -630,8 +630,8 @@ private:
             deck.regions.push_back(std::move(region));
         }
         for (const DeckBlock& block : part.blocks) {
-            const std::size_t to = into_.block_of(block.shape, block.type);
-            append_block(block, first, first_region, offset, deck.blocks[to]);
+            const std::size_t place = into_.block_of(block.shape, block.type);
+            append_block(block, first, first_region, offset, deck.blocks[place]);
         }
         for (const DeckSet& set : part.sets) {
             raise_numbers(deck.sets.emplace_back(set), offset, offset);
