@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/full_turn.h>
 
+#include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/core/error.h>
 #include <lacuna/geometry/newell.h>
@@ -178,24 +179,21 @@ std::vector<StepPiece> cut_full_turn(const OpenVolume& volume, const RunContext&
     }
     std::optional<Message> why;
     for (const Candidate& candidate : candidates_of(volume.model, context)) {
-        try {
-            std::vector<StepPiece> pieces = cut_by_plane(volume, candidate.plane, context);
-            if (is_cut_across(pieces)) {
-                const double first = arc_length(pieces[0].volume), second = arc_length(pieces[1].volume);
-                const bool measured = first > 0 && second > 0;
-                pieces[0].turn_to = pieces[1].turn_from = measured ? first / (first + second) : kHalf;
-                return pieces;
-            }
-            if (!why)
-                why = Message("closure.full_turn",
-                              "of all planes, the one with the shortest section cuts the ring into {} pieces "
-                              "instead of two",
-                              found(pieces.size()));
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const Error& error) {
-            if (!why) why = error.message();
+        // A cut is refused if the plane crosses given quads.
+        auto pieces = unless_refused([&] { return cut_by_plane(volume, candidate.plane, context); });
+        if (!pieces) continue;
+        if (is_cut_across(*pieces)) {
+            StepPiece &one = pieces->front(), &other = pieces->back();
+            const double first = arc_length(one.volume), second = arc_length(other.volume);
+            const bool measured = first > 0 && second > 0;
+            one.turn_to = other.turn_from = measured ? first / (first + second) : kHalf;
+            return std::move(*pieces);
         }
+        if (!why)
+            why = Message("closure.full_turn",
+                          "of all planes, the one with the shortest section cuts the ring into {} pieces "
+                          "instead of two",
+                          found(pieces->size()));
     }
     Message message =
         Message("closure.full_turn", "no plane through the centre of the walls cuts the ring in two places")

@@ -219,15 +219,14 @@ OpenVolume other_sweep(const OtherSweeps& others, std::size_t k)
 std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
-    auto floor = read_floor(model, faces, context);
-    if (floor && closes_flat(*floor)) return {std::move(*floor)};
+    if (auto floor = read_floor(model, faces, context); floor && closes_flat(*floor))
+        return {std::move(*floor)};
     const auto seals = [&](const RoleCandidate& candidate) {
         return seal(model, candidate.roles, context).has_value();
     };
     std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed, context);
     if (found.empty()) // the likeliest do not seal; less likely ones may
         found = voids(model, less_likely(model, faces, kMostTried, seals, context), kMostSealed, context);
-    if (floor && (found.empty() || leaves_open(found.front().sealed))) return {std::move(*floor)};
     auto flat = fill_flat_loops(model, faces, context);
     const bool dropped = prefer_flat(found, flat, context);
     const bool told = std::ranges::any_of(found, [](const Void& v) { return !v.untold && !detours(v); });

@@ -163,20 +163,6 @@ std::optional<Sealed> seal(const Model& model, const Roles& roles, const RunCont
 
 bool same_volume(double a, double b) { return std::abs(a - b) <= kSameVolume * std::max(a, b); }
 
-bool has_membranes(const Sealed& sealed)
-{
-    return !membranes(sealed.volume.model, sealed.closure.void_faces).empty();
-}
-
-bool leaves_open(const Sealed& sealed)
-{
-    const Model& model = sealed.volume.model;
-    const bool bent_end = std::ranges::any_of(sealed.closure.void_faces, [&](FaceId face) {
-        return sealed.volume.role[face.index()] != Role::wall && !has_flat_loops(model, face);
-    });
-    return bent_end || has_membranes(sealed);
-}
-
 std::vector<Void> voids(const Model& model, const std::vector<RoleCandidate>& candidates, std::size_t most,
                         const RunContext& context)
 {
@@ -230,7 +216,9 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
         const auto end = std::ranges::find_if(
             ends, [&](const Void& e) { return enclose_the_same(v.sealed, e.sealed); });
         // A face with an ambiguous bend is replaced by the moved end.
-        if (end != ends.end()) same.push_back(v.untold || has_membranes(v.sealed) ? *end : v);
+        const Sealed& own = v.sealed;
+        const bool bends = v.untold || !membranes(own.volume.model, own.closure.void_faces).empty();
+        if (end != ends.end()) same.push_back(bends ? *end : v);
     }
     if (!same.empty())
         found = std::move(same);

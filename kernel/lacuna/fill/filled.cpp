@@ -12,7 +12,7 @@ namespace lacuna::fill {
 
 namespace {
 
-/// Add the fidelity of another region of the same full turn; distances are averaged by volume.
+/// Add the fidelity of another part; distances are averaged by volume.
 void add(const sweep::Fidelity& other, sweep::Fidelity& own)
 {
     const double all = own.sealed_volume + other.sealed_volume;
@@ -90,15 +90,8 @@ std::vector<Region> regions(const FilledParts& mesh)
 sweep::Fidelity fidelity(const FilledParts& mesh)
 {
     sweep::Fidelity whole;
-    const auto parts = static_cast<double>(mesh.swept.parts.size() + mesh.tets.size());
-    const auto add = [&](const sweep::Fidelity& part) {
-        whole.volume += part.volume;
-        whole.sealed_volume += part.sealed_volume;
-        whole.max_distance = std::max(whole.max_distance, part.max_distance);
-        whole.mean_distance += part.mean_distance / parts;
-    };
-    for (const sweep::Swept& part : mesh.swept.parts) add(part.fidelity);
-    for (const FilledTets& tets : mesh.tets) add(tets.fidelity);
+    for (const sweep::Swept& part : mesh.swept.parts) add(part.fidelity, whole);
+    for (const FilledTets& tets : mesh.tets) add(tets.fidelity, whole);
     return whole;
 }
 

@@ -159,62 +159,15 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
 
 // --- volumes that no single sweep fills -------------------------------------------------------------------
 
-/// The pieces of a sealed volume; the volume itself if it cannot be cut.
-/// @param steps  whether to cut at steps and branches if `partition()` finds no pieces. A sweep of all these
-///         pieces has failed before, but some of them may be swept.
-std::vector<closure::StepPiece> pieces_of(const topology::OpenVolume& sealed, bool steps,
-                                          const RunContext& context)
-{
-    std::vector<closure::StepPiece> pieces = partition(sealed, context);
-    if (pieces.size() > 1 || closure::has_ends(pieces.front().volume) || !steps ||
-        !closure::has_ends(sealed) || !closure::has_pieces(sealed, context))
-        return pieces;
-    try {
-        return closure::cut_into_pieces(sealed, context);
-    } catch (const NotSweepable& error) {
-        log_line(context, error.message().text());
-        return pieces;
-    }
-}
-
-/// Remove the ends of pieces whose mesh, swept with default sizes, misses their volume.
-/// @return  their regions, in words; empty: none
-std::string drop_untrue(const FilledParts& mesh, std::vector<closure::StepPiece>& pieces)
-{
-    std::string dropped;
-    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
-        const sweep::Fidelity& shape = mesh.swept.parts[p].fidelity;
-        if (std::abs(shape.volume / shape.sealed_volume - 1) <= kVolumeNoted) continue;
-        std::ranges::fill(pieces[mesh.swept.member[p]].volume.role, topology::Role::wall);
-        dropped += (dropped.empty() ? "" : ", ") + mesh.regions[p];
-    }
-    return dropped;
-}
-
-/// Sweep pieces and check that their volume is that of the sealed whole. With `Fallback::mixed`, pieces whose
-/// volume is off are not swept.
+/// Sweep pieces and check that their volume is that of the sealed whole.
 /// @param sized  whether the user requested sizes; if so, the volume is not checked here.
 /// @throw NotSweepable "sweep.volume"  the volume is off.
 FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPiece> pieces,
                               const sweep::SweepOptions& options, bool sized, const RunContext& context)
 {
-    const auto off_by = [](const FilledParts& mesh) {
-        const sweep::Fidelity shape = fidelity(mesh);
-        return std::abs(shape.volume / shape.sealed_volume - 1);
-    };
-    FilledParts mesh = sweep_pieces(sealed, pieces, options, context);
-    if (sized || off_by(mesh) <= kVolumeNoted) return mesh;
-    if (options.fallback == sweep::Fallback::mixed) {
-        if (const std::string dropped = drop_untrue(mesh, pieces); !dropped.empty()) {
-            const std::string why = formatted(
-                "{}: swept by default sizes, its volume is off by more than {:.2g} %, so it is not swept",
-                dropped, 100 * kVolumeNoted);
-            log_line(context, why);
-            mesh = sweep_pieces(sealed, std::move(pieces), options, context);
-            mesh.swept.report.push_back(why);
-        }
-    }
-    if (const double off = off_by(mesh); off > kVolumeNoted)
+    FilledParts mesh = sweep_pieces(sealed, std::move(pieces), options, context);
+    const sweep::Fidelity shape = fidelity(mesh);
+    if (const double off = std::abs(shape.volume / shape.sealed_volume - 1); !sized && off > kVolumeNoted)
         throw NotSweepable(
             "sweep.volume",
             "the volume of the pieces' meshes differs by {:.2g} % from that of the sealed skin",
@@ -239,7 +192,7 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
         options.gap = std::max(options.gap, sweep::kDefaultGap);
     }
     Volume sealed = sealed_whole(volume, context);
-    std::vector<closure::StepPiece> pieces = pieces_of(sealed.volume, mixed, context);
+    std::vector<closure::StepPiece> pieces = partition(sealed.volume, context);
     const auto is_swept = [](const closure::StepPiece& piece) { return closure::has_ends(piece.volume); };
     const bool swept = mixed ? std::ranges::any_of(pieces, is_swept) : std::ranges::all_of(pieces, is_swept);
     const bool is_cut = pieces.size() > 1;

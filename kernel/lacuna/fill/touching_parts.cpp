@@ -10,6 +10,7 @@
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -155,11 +156,10 @@ void give_curves(ModelBuilder& model, const std::vector<CurvedEdge>& curves)
 template <class Entity>
 void make_tags_unique(std::vector<Entity>& entities)
 {
-    int last = 0;
-    for (const Entity& entity : entities) last = std::max(last, entity.tag);
+    int next = next_tag(entities, Origin::made_void, 0, next_tag(entities, Origin::given));
     std::set<int> taken;
     for (Entity& entity : entities)
-        if (!taken.insert(entity.tag).second) entity.tag = ++last;
+        if (!taken.insert(entity.tag).second) entity.tag = next++;
 }
 
 /// The parts of one model as members of an assembly, whose faces in contact are found and split.

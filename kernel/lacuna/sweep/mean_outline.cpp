@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/morph.h>
 #include <lacuna/sweep/detail/rim.h>
@@ -78,11 +79,6 @@ void draw_in(const std::vector<Index>& loop, FlatRims& rims)
     }
 }
 
-Message refusal(std::string_view why)
-{
-    return {"sweep.mean_outline", "the source cannot be laid out between both outlines: {}", why};
-}
-
 } // namespace
 
 surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh source,
@@ -90,8 +86,6 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
                                  const quads::PlanarQuadMesher& mesher, const RunContext& context)
 {
     const std::vector<FaceId> faces = volume.faces(Role::source);
-    if (faces.size() != 1 || volume.faces(Role::target).size() != 1)
-        throw NotSweepable(refusal("an end has several faces"));
     // The region consists of the rim nodes only, numbered like the columns.
     FlatRims rims = flat_rims(source.quads, columns);
     quads::PlanarRegion region;
@@ -110,11 +104,9 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     }
     region.points = rims.mean;
     region.size = [&](const Vec2& p) { return size(rims.lifted(p)); };
-    try {
-        quads::check(region);
-    } catch (const InvalidInput& error) {
-        throw NotSweepable(refusal(error.what()).attempt(error.message()));
-    }
+    if (geometry::find_crossing(region.points, region.loops))
+        throw NotSweepable("sweep.mean_outline",
+                           "the source cannot be laid out between both outlines: their mean crosses itself");
     const quads::PlanarQuads filling = mesher(region, context);
 
     mesh::QuadMesh flat;

@@ -5,7 +5,6 @@
 #include <lacuna/surface/shared/imprint.h>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -90,21 +89,16 @@ std::vector<Plan> plans(const OpenVolume& volume, const SweepOptions& asked, Kno
                         const RunContext& context)
 {
     std::vector<Plan> all;
-    const std::optional<DrawnLayers> drawn = drawn_layers(volume, asked, links, context);
     SweepOptions options = asked;
     for (const bool wedges : {false, true}) {
         if (wedges ? !asked.wedges && asked.fallback != Fallback::wedges : asked.wedges) continue;
         options.wedges = wedges;
         const std::vector<Plan> ways = layouts(volume, options, links, context);
         for (const int sides : {options.curvature, kMoreSides * options.curvature}) {
-            for (const bool thinner : {true, false}) {
-                if (thinner && !drawn) continue;
-                for (Plan plan : ways) {
-                    plan.per_turn = sides;
-                    plan.wedges = wedges;
-                    if (thinner) plan.drawn = drawn;
-                    all.push_back(std::move(plan));
-                }
+            for (Plan plan : ways) {
+                plan.per_turn = sides;
+                plan.wedges = wedges;
+                all.push_back(std::move(plan));
             }
             if (options.order == 1 || options.volume_share == 0 || options.curvature == 0) break;
         }
@@ -117,7 +111,6 @@ std::string in_words(const Plan& plan, const OpenVolume& volume)
     std::string words = formatted("swept from the {}", end_of(volume, plan.turned));
     if (plan.outline == Outline::mean) words += ", laid out between the outlines of both ends";
     if (plan.turning == surface::Turning::together) words += ", its loops turned as one body";
-    if (plan.drawn) words += ", layers nearer to each other in the bends";
     if (plan.wedges) words += ", with wedges";
     return words + formatted(", {} sides for a full turn", plan.per_turn);
 }

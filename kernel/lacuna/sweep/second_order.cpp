@@ -3,6 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
+#include <lacuna/quality/shared/second_order.h>
 #include <lacuna/sweep/detail/middle_placer.h>
 
 #include <limits>
@@ -33,19 +34,17 @@ Elevated leave_to_be_made(const PlacedLayers& layers, const mesh::HexMesh& mesh,
     return result;
 }
 
-/// Store the middle nodes, and move those of invalid cells. @return  number of cells that were invalid
-std::size_t hold_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                         const std::vector<FaceId>& faces, const SkinMiddles& skin, Elevated& result,
-                         const RunContext& context)
+/// Store the middle nodes. @throw NotSweepable "sweep.second_order"  a cell is invalid
+void hold_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
+                  const SkinMiddles& skin, Elevated& result, const RunContext& context)
 {
     mesh.middles.nodes.resize(mesh::middle_count(mesh));
     MiddlePlacer({mesh}, skin.nodes(), context).place(0, mesh.layers, mesh.middles.nodes, context);
     check_cancelled(context);
     result.quality = quality::measure(mesh, context);
-    if (result.quality.uncertified == 0) return 0;
-    const std::size_t repaired = repair_middles(volume, mesh, faces, skin, context);
-    result.quality = quality::measure(mesh, context);
-    return repaired;
+    if (result.quality.uncertified == 0) return;
+    const std::vector<std::size_t> invalid = quality::invalid_cells(mesh, context);
+    if (!invalid.empty()) refuse_middles(volume, mesh, faces, skin, invalid.front(), invalid.size());
 }
 
 } // namespace
@@ -60,7 +59,6 @@ Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const 
                                        options, context);
     check_cancelled(context);
     Elevated result;
-    std::size_t repaired = 0;
     if (layers != nullptr) {
         result = leave_to_be_made(*layers, mesh, skin, crew, context);
         if (!result.layers) {
@@ -68,13 +66,11 @@ Elevated elevate(const topology::OpenVolume& volume, mesh::HexMesh& mesh, const 
             layers->nodes.place(0, mesh.layers + 1, mesh.nodes, context);
         }
     }
-    if (!result.layers) repaired = hold_middles(volume, mesh, faces, skin.middles, result, context);
+    if (!result.layers) hold_middles(volume, mesh, faces, skin.middles, result, context);
     result.report = formatted("order 2: {}, {} middle nodes; of those on the skin {} on exact curves and "
                               "surfaces, {} on facets, {} given",
                               mesh.middles.full ? "hex27" : "hex20", mesh::middle_count(mesh),
                               skin.counts.exact, skin.counts.facets, skin.counts.given);
-    if (repaired > 0)
-        result.report += formatted("; the inner ones of {} cells moved to make them valid", repaired);
     return result;
 }
 

@@ -127,16 +127,12 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow)
     if (options.quads == Quads::mapped) {
         return [](const quads::PlanarRegion& region, const RunContext& context) {
             if (auto grid = quads::submap(region, context)) return std::move(*grid);
-            Message refusal("surface.not_submapped",
-                            "a source face of right angles cannot be mapped: the grid within its {} boundary "
-                            "nodes folds or overlaps",
-                            found(region.points.size()));
-            try {
-                quads::pave(region, {}, context);
-            } catch (const NotSweepable&) {
-                throw NotSweepable(std::move(refusal));
-            }
-            throw NotSweepable(std::move(refusal).remedy("quads = \"auto\" paves it"));
+            throw NotSweepable(
+                Message("surface.not_submapped",
+                        "a source face of right angles cannot be mapped: the grid within its {} boundary "
+                        "nodes folds or overlaps",
+                        found(region.points.size()))
+                    .remedy("quads = \"auto\" paves it"));
         };
     }
     // A grid cannot add quads across a neck: their number follows from the rim.

@@ -73,7 +73,6 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     SweepOptions options = asked;
     options.curvature = plan.per_turn;
     options.wedges = plan.wedges;
-    if (plan.drawn) options.layers = {.heights = plan.drawn->heights};
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
     if (way.turned_round) reverse_heights(heights);
@@ -132,7 +131,6 @@ public:
         if (!best_) throw NotSweepable(std::move(*refusal_));
         if (plan_->wedges && !options_.wedges)
             best_->report.push_back(formatted("fallback: meshed with wedges, because {}", refusal_->text()));
-        if (plan_->drawn) best_->report.push_back(plan_->drawn->report);
         if (tried_.size() > 1)
             tried_.insert(tried_.begin(), formatted("taken: {}", in_words(*plan_, volume_)));
         if (tried_.size() == 1) tried_ = {plan_->why};

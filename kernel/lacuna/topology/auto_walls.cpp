@@ -166,16 +166,12 @@ private:
             middle += length * (model_.at(points.front()) + model_.at(points[points.size() / 2])) / 2;
         }
         if (choice.free_length > 0) middle /= choice.free_length;
-        try {
-            Model part = extract(model_, faces);
-            orient_consistently(part);
-            const std::vector<FaceId> all = all_faces(part);
-            Vec3 area = Vec3::Zero();
-            for (const FaceId face : all) area += face_area_vector(part, face);
-            choice.volume = std::abs(volume_integral(part, all) - middle.dot(area) / 3);
-        } catch (const InvalidInput&) {
-            return; // these faces form no skin
-        }
+        Model part = extract(model_, faces);
+        orient_consistently(part);
+        const std::vector<FaceId> all = all_faces(part);
+        Vec3 area = Vec3::Zero();
+        for (const FaceId face : all) area += face_area_vector(part, face);
+        choice.volume = std::abs(volume_integral(part, all) - middle.dot(area) / 3);
         found_.push_back(std::move(choice));
     }
 

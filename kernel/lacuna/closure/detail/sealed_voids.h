@@ -39,13 +39,6 @@ std::optional<Sealed> seal(const topology::Model& model, const topology::Roles& 
 /// Whether volumes are equal within a tolerance that exceeds the effect of the facets' sag.
 bool same_volume(double a, double b);
 
-/// Whether a void face has a membrane shape.
-bool has_membranes(const Sealed& sealed);
-
-/// Whether the missing faces may bend differently: there is a membrane, or a non-planar end was closed
-/// without walls that determine its bend.
-bool leaves_open(const Sealed& sealed);
-
 /// The candidates, sealed and grouped by the volume they enclose.
 /// @param most  number of candidates to seal
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,

@@ -162,11 +162,12 @@ PlacedSkin place_skin(const topology::OpenVolume& volume, const mesh::SkinNodes&
                       const std::vector<FaceId>& faces, const SecondOrderOptions& options,
                       const RunContext& context);
 
-/// Move middle nodes until every cell is valid.
-/// @return  number of cells that were invalid.
-/// @throw  as `elevate()`.
-std::size_t repair_middles(const topology::OpenVolume& volume, mesh::HexMesh& mesh,
-                           const std::vector<FaceId>& faces, const SkinMiddles& skin,
-                           const RunContext& context);
+/// Refuse a mesh because of an invalid cell: name the most bent of those sides of the cell that the skin
+/// fixes.
+/// @param count  number of invalid cells
+/// @throw NotSweepable "sweep.second_order"
+[[noreturn]] void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
+                                 const std::vector<FaceId>& faces, const SkinMiddles& skin, std::size_t cell,
+                                 std::size_t count);
 
 } // namespace lacuna::sweep

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <lacuna/core/shared/criteria.h>
-#include <lacuna/sweep/detail/drawn_layers.h>
 #include <lacuna/sweep/detail/known_links.h>
 #include <lacuna/sweep/detail/mean_outline.h>
 #include <lacuna/sweep/sweep.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +17,7 @@ struct Plan {
     bool keeps_end = false; ///< the quads given on the end where the sweep starts are kept
     Outline outline = Outline::source;
     surface::Turning turning = surface::Turning::each;
-    std::optional<DrawnLayers> drawn{}; ///< layers that are thinner in bends; empty: as the options ask
-    int per_turn = 12;                  ///< sides for a full turn
+    int per_turn = 12; ///< sides for a full turn
     /// See `SweepOptions::wedges`; as a fallback, tried only if no plan without wedges gave a mesh.
     bool wedges = false;
     double below = kPoorCell; ///< tried only if no mesh has reached this minimum scaled Jacobian yet
@@ -33,10 +30,9 @@ struct Plan {
 /// sweeps from the given source to the target. If only the target has given quads or, failing that, several
 /// faces (whose inner edges become mesh edges), it sweeps from the target. The next plans are: all loops
 /// rotated together, if the walls of some loop do not determine its rotation; the sweep from the other end;
-/// and quads laid out between the outlines of both ends. If layers that are thinner in bends reduce the
-/// volume error, the same plans with such layers precede all of these. At order 2 the whole list is repeated
-/// with more sides, because a quad with two sides on a round rim needs them. Plans with wedges come last, if
-/// the fallback allows them.
+/// and quads laid out between the outlines of both ends. At order 2 the whole list is repeated with more
+/// sides, because a quad with two sides on a round rim needs them. Plans with wedges come last, if the
+/// fallback allows them.
 /// @param options  checked options, with `curvature` as planned for the volume.
 /// @throw Cancelled
 std::vector<Plan> plans(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,

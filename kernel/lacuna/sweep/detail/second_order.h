@@ -36,16 +36,12 @@ struct Elevated {
 /// blended from layer to layer. Sides between layers follow their column of nodes by cubics, and the
 /// remaining bend of the walls is spread harmonically. Midpoints of faces and cells are transfinite.
 ///
-/// If a cell is not valid by its Bézier bounds (`quality::judge()`), inner middle nodes of the cell are
-/// moved.
 /// @param faces   face of each patch of the mesh.
-/// If a cell is not valid by its Bézier bounds (`quality::judge()`), its inner middle nodes are moved.
-/// @param faces   of each patch of the mesh.
-/// @param layers  generator of the nodes that the mesh does not hold; null: the mesh holds its nodes. If all
-///         cells are valid without moves, middle nodes are generated on demand too.
+/// @param layers  generator of the nodes that the mesh does not hold; null: the mesh holds its nodes. Middle
+///         nodes are then generated on demand too.
 /// @param crew    processes that share the proof of such layers; null: this process only.
-/// @throw NotSweepable "sweep.second_order"  a cell is not valid for any position of its inner nodes; names
-///         the face whose middle node causes it, and a sufficient size.
+/// @throw NotSweepable "sweep.second_order"  a cell is not valid by its Bézier bounds (`quality::judge()`);
+///         names the face whose middle node causes it, and a sufficient size.
 /// @throw InvalidInput "sweep.too_many"  there are more nodes than node numbers.
 /// @throw Cancelled
 /// @note  Deterministic for any number of threads. O(cells), plus the harmonic spread, which is needed only
