@@ -6,7 +6,6 @@
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_core.h>
 #include <lacuna/quads/detail/pave_rows.h>
-#include <lacuna/quads/detail/raise_flat_quads.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/detail/triangle_quads.h>
@@ -31,30 +30,18 @@ bool is_conforming(const PlanarQuads& mesh)
     return std::ranges::find(opposite, mesh::kBadSide) == opposite.end();
 }
 
-/// Open folded quads by moving nodes, then by adding nodes (pillows).
+/// Open folded quads by cleaning, then by moving nodes.
 void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
 {
+    if (attempt.worst > setting.flat) return;
     const std::size_t fixed = setting.region.points.size();
-    for (int round = 0; round < 2; ++round) {
-        Attempt tried = attempt;
-        if (round > 0) pillow_folds(tried.mesh, setting.flat);
-        raise_flat_quads(tried.mesh, fixed);
-        judge(tried);
-        if (tried.worst <= setting.flat && round == 0) {
-            clean_quads(tried.mesh, fixed, {.size = setting.size}, context);
-            raise_flat_quads(tried.mesh, fixed);
-            judge(tried);
-        }
-        if (tried.worst <= setting.flat) {
-            // Only untangle here; the opened quads are smoothed with the rest later.
-            smooth_plane(tried.mesh.points, tried.mesh.quads, fixed,
-                         {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
-            judge(tried);
-        }
-        const bool better = round == 0 || tried.worst > attempt.worst;
-        if (better) attempt = std::move(tried);
-        if (!better || attempt.worst > setting.flat) break;
-    }
+    clean_quads(attempt.mesh, fixed, {.size = setting.size}, context);
+    judge(attempt);
+    if (attempt.worst > setting.flat) return;
+    // Only untangle here; the opened quads are smoothed with the rest later.
+    smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed,
+                 {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
+    judge(attempt);
 }
 
 void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thorough,

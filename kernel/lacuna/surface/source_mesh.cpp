@@ -6,14 +6,12 @@
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/geometry/shared/transfinite.h>
 #include <lacuna/surface/detail/face_sides.h>
-#include <lacuna/surface/detail/raise_quads.h>
 #include <lacuna/surface/shared/fill_face.h>
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -64,7 +62,6 @@ public:
             result_.notes.push_back(std::move(line));
         }
         put_triangles_last();
-        raise();
         // Face normals point outward, but normals of quads must point along the sweep.
         for (Quad& quad : result_.quads.quads) quad = mesh::turned_over(quad);
         return std::move(result_);
@@ -74,19 +71,6 @@ private:
     [[nodiscard]] bool is_filled(FaceId face) const
     {
         return !seeds_.kept.contains(face) && !seeds_.corners.contains(face);
-    }
-
-    /// Improve poor quads by moving nodes that are not given. With boundary layers no node is moved.
-    void raise()
-    {
-        if (!seeds_.rows.empty()) return;
-        NodeFreedom freedom{{}, std::move(inside_)};
-        for (const auto& [edge, nodes] : result_.on_edge) {
-            const std::vector<SeedPiece>& pieces = seeds_.pieces.at(edge);
-            if (rim_.contains(edge) || pieces.size() > 1 || pieces.front().fixed) continue;
-            freedom.edges.push_back({edge, nodes, seeds_.fractions(edge)});
-        }
-        result_.moved_on_edge = raise_poor_quads(result_.quads, model_, freedom, context_);
     }
 
     void put_triangles_last()
@@ -128,7 +112,6 @@ private:
             i += chain.size() - 1;
             node_of_[use_from(model_, use)] = chain.front();
             if (use.reversed) std::ranges::reverse(chain);
-            rim_.insert(use.edge);
             result_.on_edge[use.edge] = std::move(chain);
         }
         result_.links.push_back(std::move(nodes));
@@ -212,7 +195,6 @@ private:
             Projector(model_, {face}).project(inside, context_);
         const auto first = static_cast<Index>(result_.quads.nodes.size());
         result_.quads.nodes.insert(result_.quads.nodes.end(), inside.begin(), inside.end());
-        inside_.push_back({face, first, static_cast<Index>(result_.quads.nodes.size())});
         const auto node = [&](std::size_t i, std::size_t j) {
             if (j == 0) return side[0][i];
             if (j == m) return side[2][i];
@@ -330,10 +312,8 @@ private:
         if (filling.finding) refuse_rows(face, rim, *filling.finding);
         how_ = filling.how.empty() ? "free" : filling.how;
         std::vector<Index> node = std::move(boundary);
-        const auto first = static_cast<Index>(result_.quads.nodes.size());
         for (std::size_t p = rim.size(); p < filling.points.size(); ++p)
             node.push_back(add_node(filling.points[p]));
-        inside_.push_back({face, first, static_cast<Index>(result_.quads.nodes.size())});
         for (const Quad& q : filling.quads) {
             Quad mapped{};
             for (std::size_t i = 0; i < 4; ++i) mapped[i] = node[static_cast<std::size_t>(q[i])];
@@ -350,8 +330,6 @@ private:
     SourceMesh result_;
     std::string how_; ///< method for the last face
     std::map<VertexId, Index> node_of_;
-    std::set<EdgeId> rim_;                      ///< edges of the linking surfaces
-    std::vector<NodeFreedom::OnFace> inside_{}; ///< nodes of faces that were meshed
 };
 
 } // namespace

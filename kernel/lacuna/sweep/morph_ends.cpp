@@ -25,8 +25,7 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
     std::vector<std::optional<Vec3>> places(source.quads.nodes.size());
     for (const auto& [edge, image] : imprint.images) {
         const std::vector<Index>& nodes = source.on_edge.at(edge);
-        const auto moved = source.moved_on_edge.find(edge);
-        std::vector<double> at = moved != source.moved_on_edge.end() ? moved->second : seeds.fractions(edge);
+        std::vector<double> at = seeds.fractions(edge);
         for (double& f : at) {
             f = image.from + f * (image.to - image.from);
             if (f < 0 || f > 1) f -= std::floor(f); // the position lies past the start of a closed edge

@@ -51,9 +51,7 @@ void add_middles(const Model& model, const surface::SourceMesh& source, const su
         return static_cast<Index>(shell.nodes.size()) - 1;
     };
     for (const auto& [edge, nodes] : source.on_edge) {
-        const auto moved = source.moved_on_edge.find(edge);
-        const std::vector<double> at = moved != source.moved_on_edge.end() ? moved->second
-                                                                           : seeds.fractions(edge);
+        const std::vector<double> at = seeds.fractions(edge);
         std::vector<double> half;
         for (std::size_t i = 0; i + 1 < at.size(); ++i) half.push_back((at[i] + at[i + 1]) / 2);
         const std::vector<Vec3> places = surface::edge_points(model, edge, half);

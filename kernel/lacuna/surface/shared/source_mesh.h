@@ -22,9 +22,6 @@ struct SourceMesh {
     std::vector<LinkingNodes> links;
     std::vector<Index> first;                     ///< first quad node of each linking surface
     std::map<EdgeId, std::vector<Index>> on_edge; ///< quad nodes of each source edge, in its direction
-    /// For nodes of `on_edge` that are not at the positions of the seeds: their positions, as fractions of
-    /// the edge.
-    std::map<EdgeId, std::vector<double>> moved_on_edge;
     std::vector<std::string> notes; ///< for each face, a line that states the method
 };
 
@@ -32,9 +29,7 @@ struct SourceMesh {
 ///
 /// Kept faces have their own quads, every node bit for bit. Mapped faces are meshed transfinitely in arc
 /// length and projected onto the face. Free faces are flattened, filled by `mesher`, and mapped back to the
-/// exact surface. Faces share nodes on common edges and vertices. Finally poor quads of all faces are
-/// improved together in space; nodes on edges between source faces may slide along these edges, unless they
-/// are given.
+/// exact surface. Faces share nodes on common edges and vertices.
 /// @throw NotSweepable  a face needs `mesher` but there is none, or a face cannot be flattened; names it.
 SourceMesh mesh_source(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                        const Seeds& seeds, const SizeFields& sizes, const quads::PlanarQuadMesher& mesher,
