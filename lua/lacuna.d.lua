@@ -60,7 +60,7 @@
 ---@field faces? lacuna.FaceRefs instead of roles: these faces make the volume, and their roles are found
 ---@field reading? integer with roles to be found: which of the voids that were found, from 1
 ---@field full_turn? boolean the walls are a ring, swept round its whole turn; no ends; default false
----@field along? lacuna.Along with a source alone: the path along which it is swept
+---@field along? lacuna.Along with a source, and given walls if any: the path along which it is swept
 ---@field fill_to? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal: only the part of the void behind this plane
 ---@field class? lacuna.Class override
 ---@field name? string what the cells are called: their group, set or property in files; default "volume"
@@ -823,12 +823,12 @@ function lacuna.params(defaults) end
 function lacuna.assembly(volumes) end
 
 ---@class lacuna.InterfaceOptions
----@field faces string|(string|string[])[] "all", a group, or an array of groups and of pairs of regions
----@field element? string Abaqus's word for the cells: "COH3D8", "GK3D8" or one that begins so; default "COH3D8"
+---@field faces string|integer|(string|integer|string[])[] "all", a group, or an array of groups and pairs of regions; in the mesh of one sweep also numbers of layers, each the number below a split
+---@field element? string Abaqus's word for the cells: "COH3D8", "GK3D8" or one that begins so, or "none"; default "COH3D8"
 ---@field name? string region and group of the cells; default "interface"
 
---- Double the nodes of faces between two regions, and put a cell of no thickness on each.
----@param mesh lacuna.AssemblyMesh
+--- Double the nodes of faces between two regions or layers, and put a cell of no thickness on each.
+---@param mesh lacuna.Mesh|lacuna.AssemblyMesh
 ---@param options lacuna.InterfaceOptions
 ---@return lacuna.AssemblyMesh
 function lacuna.split_interface(mesh, options) end

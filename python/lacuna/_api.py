@@ -313,7 +313,7 @@ class Model(Shown):
             volume, and their roles are found
         reading: int; with roles to be found: which of the voids that were found, from 1
         full_turn: bool; the walls are a ring, swept round its whole turn; no ends; default False
-        along: dict; with a source alone: the path along which it is swept
+        along: dict; with a source, and given walls if any: the path along which it is swept
         fill_to: list[(x, y, z)]; point and normal: only the part of the void behind this plane
         class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"; override
         name: str; what the cells are called: their group, set or property in files; default "volume"
@@ -1366,10 +1366,12 @@ def assembly(volumes):
 
 
 def split_interface(mesh, faces, **keywords):
-    """Double the nodes of faces between two regions, and put a cell of no thickness on each.
+    """Double the nodes of faces between two regions or layers, and put a cell of no thickness on each.
 
-    faces: str | list[str | list[str]]; "all", a group, or an array of groups and of pairs of regions
-    element: str; Abaqus's word for the cells: "COH3D8", "GK3D8" or one that begins so; default "COH3D8"
+    faces: str | int | list[str | int | list[str]]; "all", a group, or an array of groups and pairs of
+        regions; in the mesh of one sweep also numbers of layers, each the number below a split
+    element: str; Abaqus's word for the cells: "COH3D8", "GK3D8" or one that begins so, or "none"; default
+        "COH3D8"
     name: str; region and group of the cells; default "interface"
     """
     return call("module", "split_interface", mesh, options_of(None, keywords, faces=faces))
