@@ -383,19 +383,32 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
                    context, arguments.msh);
 }
 
+/// Note sets of nodes that files written a layer at a time do not hold.
+void note_columns(const std::vector<io::ColumnSet>& columns, const io::OutputPath& path,
+                  const RunContext& context)
+{
+    if (!columns.empty())
+        log_line(context,
+                 formatted("note: {}: {} sets of nodes are not written a layer at a time; mesh:write "
+                           "writes them",
+                           path.text(), columns.size()));
+}
+
 /// Write the mesh of an assembly, in parts if asked to.
 void write_parts(const fill::FilledParts& state, const io::OutputPath& path, WriteArguments& arguments,
                  const Crew* crew, const RunContext& context)
 {
     if (!state.tets.empty() || !state.interfaces.empty()) return write_mixed(state, path, arguments, context);
     const auto layered = [](const sweep::Swept& part) { return part.layers.has_value(); };
-    if (std::ranges::all_of(state.swept.parts, layered)) // which processes can share
+    if (std::ranges::all_of(state.swept.parts, layered)) { // which processes can share
+        note_columns(state.columns, path, context);
         return team::write_parts(state.swept, path,
                                  {.binary = arguments.msh.binary,
                                   .version = arguments.msh.version,
                                   .all_groups = arguments.msh.all_groups,
                                   .unit = state.unit},
                                  crew, context);
+    }
     const io::Format& format = io::needed_mesh_format("write", path.text());
     if (!arguments.with.empty()) return write_joined(state, format, path, arguments, context);
     std::vector<mesh::LayeredPart> parts;
@@ -641,9 +654,11 @@ void write_layered(const fill::FilledVolume& filled, const io::OutputPath& path,
     report_progress(context, "writing " + path.text());
     if (!swept.layers) {
         const io::Format& format = format_of(path.text(), arguments);
+        arguments.deck.columns = filled.columns;
         add_fields(swept, format, arguments, context);
         return io::write_mesh(format, mesh, path, arguments.msh, arguments.deck, context);
     }
+    note_columns(filled.columns, path, context);
     team::write_layered({mesh, *swept.layers}, *swept.plan, path,
                         {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), filled.material,
                          arguments.msh.partition, arguments.msh.all_groups, filled.unit},
