@@ -60,7 +60,7 @@
 ---@field faces? lacuna.FaceRefs instead of roles: the faces of the volume; their roles are detected
 ---@field reading? integer where roles are detected and several volumes are possible: number of the volume, from 1
 ---@field full_turn? boolean the walls form a closed ring, swept through 360 degrees without ends; default false
----@field along? lacuna.Along where only a source is given: the path along which it is swept
+---@field along? lacuna.Along where only a source, and walls if any, are given: the path along which the source is swept
 ---@field fill_to? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal of a plane: only the part of the void behind it is filled
 ---@field class? lacuna.Class class to use instead of the detected one
 ---@field name? string name of the group, set or property of the cells in files; default "volume"
@@ -831,12 +831,12 @@ function lacuna.params(defaults) end
 function lacuna.assembly(volumes) end
 
 ---@class lacuna.InterfaceOptions
----@field faces string|(string|string[])[] "all", a group, or an array of groups and pairs of regions
----@field element? string Abaqus element type of the cells: "COH3D8", "GK3D8", or a type that begins with one of these; default "COH3D8"
+---@field faces string|integer|(string|integer|string[])[] "all", a group, or an array of groups and pairs of regions; in the mesh of one sweep also numbers of layers, each the number below a split
+---@field element? string Abaqus element type of the cells: "COH3D8", "GK3D8", or a type that begins with one of these, or "none"; default "COH3D8"
 ---@field name? string region and group of the cells; default "interface"
 
---- Duplicate the nodes of faces between two regions, and insert a cell of zero thickness at each face.
----@param mesh lacuna.AssemblyMesh
+--- Duplicate the nodes of faces between two regions or layers, and insert a cell of zero thickness at each face.
+---@param mesh lacuna.Mesh|lacuna.AssemblyMesh
 ---@param options lacuna.InterfaceOptions
 ---@return lacuna.AssemblyMesh
 function lacuna.split_interface(mesh, options) end

@@ -91,10 +91,12 @@ void read_text(lua_State* L, int index, const Where& where, std::string& text)
     guard(L, [&] { text = word; });
 }
 
-/// "all", a group, or an array of groups and of pairs of regions
+/// "all", a group, a number of layers, or an array of groups, numbers and pairs of regions
 void read_interface_faces(lua_State* L, int index, const Where& where, fill::InterfaceFaces& faces)
 {
-    const char* const expected = "\"all\", a group, or an array of groups and pairs of regions { a, b }";
+    const char* const expected =
+        "\"all\", a group, a number of layers, or an array of groups, numbers and pairs "
+        "of regions { a, b }";
     const auto add = [&](int at, const Where& element) {
         if (lua_type(L, at) == LUA_TSTRING) {
             const char* name = read_string(L, at, element);
@@ -106,6 +108,11 @@ void read_interface_faces(lua_State* L, int index, const Where& where, fill::Int
             });
             return;
         }
+        if (lua_type(L, at) == LUA_TNUMBER) {
+            const int level = read_whole(L, at, element, 1);
+            guard(L, [&] { faces.levels.push_back(level); });
+            return;
+        }
         if (lua_type(L, at) != LUA_TTABLE || lua_rawlen(L, at) != 2) fail_value(L, element, expected, at);
         lua_rawgeti(L, at, 1);
         lua_rawgeti(L, at, 2);
@@ -114,7 +121,7 @@ void read_interface_faces(lua_State* L, int index, const Where& where, fill::Int
         const char *a = lua_tostring(L, -2), *b = lua_tostring(L, -1);
         guard(L, [&] { faces.pairs.emplace_back(a, b); });
     };
-    if (lua_type(L, index) == LUA_TSTRING) return add(index, where);
+    if (lua_type(L, index) != LUA_TTABLE) return add(index, where);
     read_array(L, index, where, expected, add);
 }
 
@@ -140,15 +147,17 @@ int split_interface(lua_State* L)
 {
     lua_settop(L, 2);
     const Box<AssemblyMeshState>* const mesh = test_box<AssemblyMeshState>(L, 1);
-    if (mesh == nullptr || !*mesh)
-        fail_value(L, {"split_interface", "mesh"}, "the mesh of an assembly or of a volume that was cut", 1);
+    const Box<MeshState>* const one = test_box<MeshState>(L, 1);
+    if ((mesh == nullptr || !*mesh) && (one == nullptr || !*one))
+        fail_value(L, {"split_interface", "mesh"}, "a mesh of hexahedra", 1);
     auto& faces = temporary<fill::InterfaceFaces>(L);
     read_options(L, 2, "split_interface", kInterfaceOptions, faces);
     RunContext& context = push_context(L);
     auto& box = new_box<AssemblyMeshState>(L);
     guard(L, [&] {
-        auto made = std::make_shared<AssemblyMeshState>(**mesh);
-        static_cast<fill::FilledParts&>(*made) = fill::split_interface(**mesh, faces, context);
+        auto made = std::make_shared<AssemblyMeshState>();
+        static_cast<fill::FilledParts&>(*made) = fill::split_interface(
+            mesh != nullptr ? **mesh : fill::as_parts(**one), faces, context);
         box = std::move(made);
     });
     return 1;

@@ -228,18 +228,12 @@ const io::Deck& deck_with(const WriteArguments& arguments, io::Deck& merged, con
     return merged;
 }
 
-/// A mesh that joins the decks, and the material of its region.
-struct JoinedMesh {
-    std::variant<const mesh::HexMesh*, const mesh::TetPart*> mesh;
-    std::string material;
-};
-
-/// The decks of `with` without the parts of `without`, joined with the meshes that fill their voids.
-/// @param before  returns the positions of the meshes in the joined deck
-io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& arguments,
-                     io::JoinedBefore& before, const RunContext& context)
+/// The decks of `with` without the parts of `without`, joined with the mesh that fills their voids.
+fill::JoinedDeck joined_deck(const fill::FilledParts& mesh, const io::Format& format,
+                             const WriteArguments& arguments, const RunContext& context)
 {
     io::MeshDeckOptions options = arguments.deck;
+    options.format = format.deck;
     io::Deck merged;
     const io::Deck deck = io::skin_as_sets(deck_with(arguments, merged, context), options.format);
     io::LeftOut split;
@@ -250,31 +244,18 @@ io::Deck joined_deck(std::span<const JoinedMesh> meshes, const WriteArguments& a
             log_line(context, split.kept.notes[n]);
     }
     const ModelState& model = *arguments.with.front();
-    io::Deck joined;
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        options.material = meshes[m].material;
-        const io::Deck& with = m > 0 ? joined : without ? split.kept : deck;
-        joined = std::visit(
-            [&](const auto* mesh) {
-                return io::join_deck(with, model.model, model.scale, *mesh, options, context,
-                                     split.gone.get(), &before);
-            },
-            meshes[m].mesh);
-        options.first_node = options.first_cell = 0;
-    }
-    return io::close_gap(std::move(joined), context);
+    return fill::joined_deck(without ? split.kept : deck, model.model, model.scale, mesh, options,
+                             split.gone.get(), context);
 }
 
-void write_mesh(const io::Format& format, const mesh::HexMesh& mesh, const io::OutputPath& path,
-                const WriteArguments& arguments, const RunContext& context)
+/// Write the decks of `with`, joined with a mesh.
+void write_joined(const fill::FilledParts& mesh, const io::Format& format, const io::OutputPath& path,
+                  WriteArguments& arguments, const RunContext& context)
 {
-    if (arguments.with.empty())
-        return io::write_mesh(format, mesh, path, arguments.msh, arguments.deck, context);
-    WriteArguments all = arguments;
-    all.deck.format = format.deck;
-    const JoinedMesh one{&mesh, arguments.deck.material};
-    io::JoinedBefore before;
-    io::write_deck(joined_deck({&one, 1}, all, before, context), format, path, context, arguments.msh);
+    for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
+    fill::JoinedDeck joined = joined_deck(mesh, format, arguments, context);
+    arguments.msh.periodic = std::move(joined.periodic);
+    io::write_deck(joined.deck, format, path, context, arguments.msh);
 }
 
 /// An option that was given but that the format does not have; null: none.
@@ -359,48 +340,21 @@ int write(lua_State* L)
     RunContext& context = push_context(L);
     const Host& lent = host(L);
     guard(L, [&] {
-        const mesh::HexMesh& mesh = state.swept.mesh;
         const io::Format& format = format_of(path.text(), arguments);
         count_parts(arguments, path, lent.crew);
         refuse_interfaces(arguments);
-        for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
         arguments.deck.material = state.material;
+        arguments.deck.columns = state.columns;
         arguments.msh.unit = state.unit;
         report_progress(context, "writing " + path.text());
         add_fields(state.swept, format, arguments, context);
-        write_mesh(format, mesh, path, arguments, context);
+        if (!arguments.with.empty())
+            write_joined(fill::as_parts(state), format, path, arguments, context);
+        else
+            io::write_mesh(format, state.swept.mesh, path, arguments.msh, arguments.deck, context);
         write_options_beside(lent, path, arguments);
     });
     return 0;
-}
-
-/// The deck of an assembly's mesh, joined with the decks whose voids it fills. The periodic pairs in
-/// `arguments` then refer to points of that deck.
-io::Deck joined_deck(const fill::FilledParts& state, WriteArguments& arguments, const RunContext& context)
-{
-    for (const Box<ModelState>& model : arguments.with) refresh(*model, context);
-    std::vector<JoinedMesh> meshes;
-    for (std::size_t p = 0; p < state.regions.size(); ++p)
-        meshes.push_back({&state.swept.parts[p].mesh, state.materials[p]});
-    for (std::size_t t = 0; t < state.tets.size(); ++t)
-        meshes.push_back({&state.tets[t].mesh, state.materials[state.regions.size() + t]});
-    io::JoinedBefore before;
-    io::Deck joined = joined_deck(meshes, arguments, before, context);
-    if (state.swept.periodic.empty()) return joined;
-    std::map<Index, Index> point; // the deck's, for nodes of the mesh
-    for (std::size_t m = 0; m < meshes.size(); ++m)
-        for (std::size_t n = 0; n < before.points[m].size(); ++n) {
-            const std::size_t t = m - state.regions.size();
-            point[m < state.regions.size() ? state.swept.numbering[m].of(static_cast<Index>(n))
-                                           : state.tets[t].number[n]] = before.points[m][n];
-        }
-    arguments.msh.periodic = state.swept.periodic;
-    for (mesh::PeriodicNodes& periodic : arguments.msh.periodic) {
-        periodic.onto.translation() /= arguments.with.front()->scale;
-        for (auto& pair : periodic.pairs)
-            for (Index& node : pair) node = point.at(node);
-    }
-    return joined;
 }
 
 /// Write a mesh that has tetrahedra. Its parts become one deck.
@@ -422,12 +376,22 @@ void write_mixed(const fill::FilledParts& state, const io::OutputPath& path, Wri
     if (arguments.msh.orientation && !state.tets.empty())
         throw InvalidInput(Message("lua.mixed_write", "write: tetrahedra have no sweep direction")
                                .remedy("leave out 'orientation'"));
+    if (!arguments.with.empty()) return write_joined(state, format, path, arguments, context);
     arguments.deck.format = format.deck;
     for (const sweep::Swept& part : state.swept.parts) arguments.msh.oriented.push_back(&part.mesh);
-    const io::Deck deck = arguments.with.empty()
-                              ? fill::whole_deck(state, arguments.deck, arguments.msh.interfaces, context)
-                              : joined_deck(state, arguments, context);
-    io::write_deck(deck, format, path, context, arguments.msh);
+    io::write_deck(fill::whole_deck(state, arguments.deck, arguments.msh.interfaces, context), format, path,
+                   context, arguments.msh);
+}
+
+/// Note sets of nodes that files written a layer at a time do not hold.
+void note_columns(const std::vector<io::ColumnSet>& columns, const io::OutputPath& path,
+                  const RunContext& context)
+{
+    if (!columns.empty())
+        log_line(context,
+                 formatted("note: {}: {} sets of nodes are not written a layer at a time; mesh:write "
+                           "writes them",
+                           path.text(), columns.size()));
 }
 
 /// Write the mesh of an assembly, in parts if asked to.
@@ -436,18 +400,17 @@ void write_parts(const fill::FilledParts& state, const io::OutputPath& path, Wri
 {
     if (!state.tets.empty() || !state.interfaces.empty()) return write_mixed(state, path, arguments, context);
     const auto layered = [](const sweep::Swept& part) { return part.layers.has_value(); };
-    if (std::ranges::all_of(state.swept.parts, layered)) // which processes can share
+    if (std::ranges::all_of(state.swept.parts, layered)) { // which processes can share
+        note_columns(state.columns, path, context);
         return team::write_parts(state.swept, path,
                                  {.binary = arguments.msh.binary,
                                   .version = arguments.msh.version,
                                   .all_groups = arguments.msh.all_groups,
                                   .unit = state.unit},
                                  crew, context);
-    const io::Format& format = io::needed_mesh_format("write", path.text());
-    if (!arguments.with.empty()) {
-        arguments.deck.format = format.deck;
-        return io::write_deck(joined_deck(state, arguments, context), format, path, context, arguments.msh);
     }
+    const io::Format& format = io::needed_mesh_format("write", path.text());
+    if (!arguments.with.empty()) return write_joined(state, format, path, arguments, context);
     std::vector<mesh::LayeredPart> parts;
     for (std::size_t p = 0; p < state.regions.size(); ++p)
         parts.push_back(
@@ -692,9 +655,11 @@ void write_layered(const fill::FilledVolume& filled, const io::OutputPath& path,
     report_progress(context, "writing " + path.text());
     if (!swept.layers) {
         const io::Format& format = format_of(path.text(), arguments);
+        arguments.deck.columns = filled.columns;
         add_fields(swept, format, arguments, context);
-        return write_mesh(format, mesh, path, arguments, context);
+        return io::write_mesh(format, mesh, path, arguments.msh, arguments.deck, context);
     }
+    note_columns(filled.columns, path, context);
     team::write_layered({mesh, *swept.layers}, *swept.plan, path,
                         {arguments.msh.binary, arguments.msh.version, metrics_of(arguments), filled.material,
                          arguments.msh.partition, arguments.msh.all_groups, filled.unit},
@@ -713,9 +678,8 @@ void write_pieces(const fill::FilledParts& state, const io::OutputPath& path, Wr
     arguments.msh.unit = state.unit;
     if (arguments.with.empty()) {
         arguments.msh.periodic = state.swept.periodic;
+        arguments.deck.columns = state.columns;
         for (const fill::Contact& contact : state.contacts) arguments.deck.contacts.push_back(contact.pair);
-    } else if (!state.contacts.empty()) {
-        log_line(context, "note: write: pairs of faces in contact are not written with a model");
     }
     for (const sweep::LeftOut& out : state.left_out)
         log_line(context, formatted("note: {} has a hole, because a volume was left out: {}", path.text(),

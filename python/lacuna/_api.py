@@ -316,7 +316,8 @@ class Model(Shown):
             volume; their roles are detected
         reading: int; where roles are detected and several volumes are possible: number of the volume, from 1
         full_turn: bool; the walls form a closed ring, swept through 360 degrees without ends; default False
-        along: dict; where only a source is given: the path along which it is swept
+        along: dict; where only a source, and walls if any, are given: the path along which the source is
+            swept
         fill_to: list[(x, y, z)]; point and normal of a plane: only the part of the void behind it is filled
         class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"; class to use instead of the detected one
         name: str; name of the group, set or property of the cells in files; default "volume"
@@ -1420,11 +1421,13 @@ def assembly(volumes):
 
 
 def split_interface(mesh, faces, **keywords):
-    """Duplicate the nodes of faces between two regions, and insert a cell of zero thickness at each face.
+    """Duplicate the nodes of faces between two regions or layers, and insert a cell of zero thickness at each
+    face.
 
-    faces: str | list[str | list[str]]; "all", a group, or an array of groups and pairs of regions
+    faces: str | int | list[str | int | list[str]]; "all", a group, or an array of groups and pairs of
+        regions; in the mesh of one sweep also numbers of layers, each the number below a split
     element: str; Abaqus element type of the cells: "COH3D8", "GK3D8", or a type that begins with one of
-        these; default "COH3D8"
+        these, or "none"; default "COH3D8"
     name: str; region and group of the cells; default "interface"
     """
     return call("module", "split_interface", mesh, options_of(None, keywords, faces=faces))

@@ -190,6 +190,66 @@ for _, shape in ipairs(cornered) do
   end
 end
 
+-- --- given walls -----------------------------------------------------------------------------------------
+
+-- A wall over the side y = -1 of a square, of `rows` by `columns` facets, bent outward by `bulge`; the path
+-- is straight, or a turn about the x axis at y = -3.
+local function walled(rows, columns, bulge, turn, height, keep)
+  local made, points, cells = model({ points = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } },
+    cells = { { 1, 2, 3, 4 } } }, origin, X, Y), {}, {}
+  for j = 0, rows do
+    local h, out = j / rows * height, 0
+    for i = 0, columns do
+      out = bulge * sin(pi * j / rows) * sin(pi * i / columns)
+      local a = turn and -turn * h * pi / 180 or 0
+      points[#points + 1] = turn and { 2 * i / columns - 1, (2 - out) * cos(a) - 3, -(2 - out) * sin(a) }
+        or { 2 * i / columns - 1, -1 - out, 2 * h }
+      if i > 0 and j > 0 then
+        local n = #points
+        cells[#cells + 1] = { n - columns - 2, n - columns - 1, n, n - 1 }
+      end
+    end
+  end
+  made:add_face { name = "side", points = points, cells = cells, keep_mesh = keep }
+  return made:open_volume { source = "start", walls = "side",
+    along = turn and { axis = { { 0, -3, 0 }, X }, angle = turn } or { vector = { 0, 0, 2 } } }
+end
+for _, rows in ipairs { 1, 3 } do
+  for _, columns in ipairs { 1, 4 } do
+    local mesh = sweep(walled(rows, columns, 0, nil, 1), { layers = 3, size = 0.5 }, 8, 1e-12)
+    local found = {}
+    for _, group in ipairs(mesh:groups()) do found[group.name] = group.cells end
+    check.equal(found.side, 12)
+    local void = 0 -- three walls and the target
+    for name in pairs(found) do if name:find "^void:" then void = void + 1 end end
+    check.equal(void, 4)
+  end
+end
+-- Its shape and its mesh win: a bulge adds its volume, and quads stay node for node.
+do
+  local rows, columns, added = 6, 8, 0
+  local void = walled(rows, columns, 0.3, nil, 1)
+  local mesh = sweep(void, { layers = 6, size = 0.25 }, 8 + 0.3 * (4 / pi ^ 2) * 4, 0.01)
+  check.that(mesh:quality().min_scaled_jacobian > 0.3)
+  local kept = walled(4, 5, 0, nil, 1, true):sweep { size = 0.4 }
+  check.near(kept:quality().volume, 8, 1e-12)
+  check.equal(kept.layers, 4)
+  local there = {}
+  for n = 1, kept.nodes do there[("%.15g %.15g %.15g"):format(kept:node(n))] = true end
+  for j = 0, 4 do
+    for i = 0, 5 do
+      check.that(there[("%.15g %.15g %.15g"):format(2 * i / 5 - 1, -1, 2 * j / 4)], "a node of the wall")
+    end
+  end
+end
+-- Along a turn: walls of facets as fine as the path's own, finer and coarser.
+for _, rows in ipairs { 6, 18, 30 } do
+  local mesh = sweep(walled(rows, 2, 0, 90, 1), { layers = 9, size = 0.5 }, 4 * 3 * pi / 2, 0.02)
+  check.that(mesh:quality().min_scaled_jacobian > 0.8)
+end
+check.fails(function() walled(2, 2, 0, nil, 0.7):close() end, "closure.along_walls", "at")
+check.fails(function() walled(6, 2, 0.2, 90, 0.7):close() end, "closure.along_walls", "at")
+
 -- --- edges of the model and decks ------------------------------------------------------------------------
 
 local guided = model(shapes[2], origin, X, Y)
@@ -221,6 +281,19 @@ lines[#lines + 1] = [[
 2, S1
 *SURFACE, NAME=LEFT, TYPE=ELEMENT
 1, S4
+*ELEMENT, TYPE=B31, ELSET=RAIL
+11, 7, 8
+12, 8, 9
+*ELEMENT, TYPE=T3D2
+13, 6, 9
+*ELSET, ELSET=STAY
+13
+*NSET, NSET=CORNERS
+1, 3, 7, 9
+*NSET, NSET=ALL, GENERATE
+1, 9, 1
+*NSET, NSET=MIDDLE
+5
 ]]
 check.write(deck, table.concat(lines, "\n"))
 local plate = lacuna.load(deck)
@@ -233,6 +306,53 @@ local sets = {}
 for _, group in ipairs(slab:groups()) do sets[group.name] = group.cells end
 check.equal(sets.BOTTOM, 6)
 check.equal(sets.LEFT, 3)
+check.equal(sets.RAIL, 6, "beams")
+check.equal(sets.STAY, 3, "a set of trusses")
+-- Sets of nodes are those over them in all layers: of one mesh, a copy, a pattern, a split mesh, an assembly.
+local function node_sets(path)
+  local found, name = {}, nil
+  local file <close> = assert(io.open(path))
+  for line in file:lines() do
+    if line:sub(1, 1) == "*" then
+      name = line:match "^%*NSET, NSET=(.+)"
+      if name then found[name] = found[name] or 0 end
+    elseif name then
+      for _ in line:gmatch "%d+" do found[name] = found[name] + 1 end
+    end
+  end
+  return found
+end
+local function check_sets(mesh, copies)
+  mesh:write(deck .. ".inp")
+  local found = node_sets(deck .. ".inp")
+  for set, nodes in pairs { CORNERS = 4, ALL = 9, MIDDLE = 1 } do
+    check.equal(found[set], nodes * 4 * copies, set)
+  end
+  os.remove(deck .. ".inp")
+end
+check_sets(slab, 1)
+check_sets(slab:copy { translate = { 0, 0, 9 } }, 1)
+check_sets(slab:pattern { translate = { 0, 0, 9 }, count = 2 }, 2)
+check_sets(lacuna.split_interface(slab, { faces = 2, element = "none" }), 5 / 4)
+do
+  local function part(from) return plate:open_volume { source = 1, name = from,
+    along = { vector = { 0, 0, from == "up" and 3 or -3 } } } end
+  check_sets(lacuna.assembly { part "up" }:sweep { layers = 3 }, 1)
+  check_sets(lacuna.assembly { slab, part "down" }:sweep { layers = 3 }, 7 / 4)
+  local turned = plate:open_volume { source = 1, along = { axis = { { -3, 0, 0 }, Y }, angle = 360 } }
+    :sweep { layers = 12 }
+  check_sets(turned, 3)
+  local bent = plate:open_volume { source = 1, along = { vector = { 0, 0, 3 } } }
+    :sweep { layers = 3, order = 2, serendipity = true }
+  bent:write(deck .. ".inp")
+  check.equal(node_sets(deck .. ".inp").CORNERS, 4 * 7, "middle nodes too")
+  os.remove(deck .. ".inp")
+  slab:write(deck .. ".exo")
+  check.equal(lacuna.convert(deck .. ".exo", deck .. ".inp").nodes, slab.nodes)
+  check.equal(node_sets(deck .. ".inp").MIDDLE, 4)
+  os.remove(deck .. ".exo")
+  os.remove(deck .. ".inp")
+end
 local kept_nodes = 0
 for n = 1, slab.nodes do
   local x, y, z = slab:node(n)
@@ -464,6 +584,13 @@ check.fails(function() pair:open_volume { source = { "start", "far" }, along = {
   "touch")
 check.fails(function() pair:open_volume { source = "start", target = "far", along = { vector = Z } } end,
   "alone")
+check.fails(function() pair:open_volume { source = "start", walls = "auto", along = { vector = Z } } end,
+  "alone")
+check.fails(function()
+  pair:open_volume { source = "start", walls = "far", along = { vector = Z } }:close()
+end, "closure.along_walls", "at (9, 0, 0)")
+check.fails(function() pair:open_volume { source = "start", walls = "far",
+  along = { axis = { { 0, 9, 0 }, X }, angle = 360 } } end, "closure.along_walls", "full turn")
 local ball = lacuna.model()
 ball:add_face { name = "ball", points = { origin, X, Y, Z }, cells = { { 1, 3, 2 }, { 1, 2, 4 }, { 1, 4,
   3 }, { 2, 3, 4 } } }

@@ -276,6 +276,49 @@ do
   check.that(text:find "</MeshDomains>%s*<Contact>")
 end
 
+-- With a deck: two bodies of equal meshes fill its gap. Each shares the deck's nodes beside it, and they are
+-- tied to each other and share none, whatever the scale.
+do
+  local prism = lacuna.synthetic.prism { sides = 4, height = 3 }
+  local rest = prism:open_volume { source = "source", target = "target", walls = "auto" }
+  local low, high = table.unpack(rest:cut { plane = { { 0, 0, 1 }, { 0, 0, 1 } } })
+  local middle, top = table.unpack(high:cut { plane = { { 0, 0, 2 }, { 0, 0, 1 } } })
+  local blocks = lacuna.assembly({ low, middle, top }):sweep { size = 0.5, layers = 2 }
+  blocks:write(at "gap.inp")
+  for _, scale in ipairs { 1, 1000 } do
+    local deck = lacuna.load(at "gap.inp", { without = blocks.regions[2], scale = scale })
+    local halves = {}
+    for k, name in ipairs { "lower", "upper" } do
+      local void = deck:open_volume { source = "cut_1", target = "cut_2", name = name, glued = k == 1 }
+      void:close()
+      halves[k] = void:cut { plane = { { 0, 0, 1.5 * scale }, { 0, 0, 1 } } }[k]
+    end
+    local filler = lacuna.assembly(halves):sweep { layers = 1 }
+    check.equal(#filler.contacts, 1)
+    for _, ending in ipairs { "inp", "bdf", "k", "feb" } do
+      filler:write(at("joined." .. ending), { with = deck })
+    end
+    text = read(at "joined.inp")
+    local pair = filler.contacts[1]
+    check.that(text:find("*SURFACE, TYPE=ELEMENT, NAME=" .. pair.slave, 1, true))
+    local tolerance = text:match("%*TIE, NAME=" .. pair.name .. ", POSITION TOLERANCE=([%d.E-]+), ADJUST" ..
+      "=NO\n" .. pair.slave .. ", " .. pair.master .. "\n")
+    check.that(tonumber(tolerance) < 1e-3, "in the deck's lengths")
+    local heights = {}
+    for z in text:match("%*NODE\n([^*]*)"):gmatch "%d+, [^,]+, [^,]+, ([^,\n]+)\n" do
+      local at_height = ("%.3f"):format(tonumber(z))
+      heights[at_height] = (heights[at_height] or 0) + 1
+    end
+    local layer = heights["0.000"]
+    check.equal(heights["1.000"], layer)
+    check.equal(heights["1.500"], 2 * layer)
+    check.equal(heights["2.000"], layer)
+    check.that(read(at "joined.k"):find("*CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET_ID", 1, true))
+    check.that(read(at "joined.bdf"):find("BGSET", 1, true))
+    check.that(read(at "joined.feb"):find("tied-elastic", 1, true))
+  end
+end
+
 -- Other formats hold the groups, and a note says that there are no pairs.
 for _, ending in ipairs { ".vtu", ".msh", ".unv", ".exo" } do
   check.write(at "note.lua", ([[

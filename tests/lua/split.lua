@@ -33,7 +33,12 @@ local function abaqus(path)
       if kind == "NODE" then
         deck.nodes[row[1]] = { row[2], row[3], row[4] }
       elseif kind == "ELEMENT" then
-        deck.elements[name][table.remove(row, 1)] = row
+        if pending then -- the nodes of an element go on
+          table.move(row, 1, #row, #pending + 1, pending)
+        else
+          deck.elements[name][table.remove(row, 1)] = row
+        end
+        pending = line:find ",%s*$" and (pending or row) or nil
       elseif kind == "NSET" then
         for _, tag in ipairs(row) do deck.sets[name][tag] = true end
       end
@@ -254,6 +259,62 @@ do
   check.that(read(at "periodic.msh"):find("$Periodic", 1, true))
 end
 
+-- Nodes are those of the file.
+do
+  local deck = abaqus(at "cross.inp")
+  local whole = lacuna.split_interface(cross, { faces = { { "a", "b" }, { "b", "c" }, { "c", "d" } } })
+  check.equal(whole.nodes, size(deck.nodes))
+  for n = 1, whole.nodes do
+    local p = { whole:node(n) }
+    for axis = 1, 3 do check.near(p[axis], deck.nodes[n][axis], 1e-12) end
+  end
+end
+
+-- Between the layers of one sweep: each level has its nodes twice, and cells stand in the direction of the
+-- sweep. Groups of both sides; nodes and cells of the whole keep their numbers; splits at several levels.
+local function ply(order, layers)
+  return block_model { 0, 2, 0, 1, 0, 3 }:open_volume { source = "source", target = "target", name = "ply",
+    walls = { "south", "north", "west", "east" } }:sweep { layers = layers, size = 0.5, order = order,
+    serendipity = order == 2 or nil }
+end
+for _, levels in ipairs { 1, { 1 }, { 2, 1 } } do
+  local whole = ply(1, 3)
+  local split = lacuna.split_interface(whole, { faces = levels, name = "resin" })
+  local count = levels == 1 and 1 or #levels
+  check.equal(split.nodes, whole.nodes + count * 15)
+  check.equal(split.hexes, whole.hexes)
+  check.equal(split.interface_cells, count * 8)
+  check.near(split:quality().volume, 6, 1e-12)
+  check.near(split.fidelity.volume, 6, 1e-12)
+  check.equal(split.layers.ply, 3)
+  split:write(at "ply.inp")
+  whole:write(at "whole.inp")
+  local deck, before = abaqus(at "ply.inp"), abaqus(at "whole.inp")
+  for n, p in pairs(before.nodes) do
+    for axis = 1, 3 do check.equal(deck.nodes[n][axis], p[axis]) end
+  end
+  for _, cell in pairs(deck.elements.COH3D8) do
+    local p, q, r = deck.nodes[cell[1]], deck.nodes[cell[2]], deck.nodes[cell[3]]
+    local up = (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1])
+    check.that(up > 0, "the direction of the stack")
+    check.that(cell[5] > whole.nodes and cell[1] <= whole.nodes)
+    for k = 1, 4 do
+      check.that(deck.sets[("level_%.0f_target"):format(p[3])][cell[k]])
+      check.that(deck.sets[("level_%.0f_source"):format(p[3])][cell[k + 4]])
+    end
+  end
+  local names = {}
+  for _, group in ipairs(split:groups()) do names[group.name] = group.cells end
+  check.equal(names["level_1:target"], 8)
+  check.equal(names["level_1:source"], 8)
+  check.equal(names.ply, whole.hexes)
+  check.equal(names.west, 6)
+  for _, ending in ipairs { "msh", "vtu", "bdf", "unv", "exo", "k" } do
+    split:write(at("ply." .. ending))
+    check.equal(lacuna.convert(at("ply." .. ending), at "back.exo").nodes, split.nodes, ending)
+  end
+end
+
 -- What is refused.
 local function refused(mesh, options, ...)
   check.fails(function() lacuna.split_interface(mesh, options) end, ...)
@@ -263,14 +324,21 @@ refused(two, {}, "no faces are named")
 refused(two, { faces = "all", element = "SC8R" }, "SC8R", "COH3D8")
 refused(glued, { faces = "all" }, "was split before")
 refused(plate, { faces = "all" }, "assembly")
+refused(plate, { faces = 2 }, "level 2", "inside")
+refused(ply(1, 3), { faces = 3 }, "level 3", "2")
+refused(two, { faces = 1 }, "2 parts")
+refused(3, { faces = 1 }, "a mesh of hexahedra")
+check.fails(function() glued:pattern { translate = { 0, 0, 9 }, count = 2 } end, "was split", "pattern first")
 refused(two, { faces = { { "a" } } }, "pairs of regions")
 check.fails(function() glued:write(at "polyMesh") end, "polyMesh")
 check.fails(function() lacuna.assembly { glued } : sweep { layers = 1 } end, "was split")
 local quadratic = lacuna.assembly {
-  block_model { 0, 1, 0, 1, 0, 1 }:open_volume { source = "source", target = "target", name = "a" },
-  block_model { 1, 2, 0, 1, 0, 1 }:open_volume { source = "source", target = "target", name = "b" } }
+  block_model { 0, 1, 0, 1, 0, 1 }:open_volume { source = "source", target = "target", name = "a",
+    walls = { "south", "north", "west", "east" } },
+  block_model { 1, 2, 0, 1, 0, 1 }:open_volume { source = "source", target = "target", name = "b",
+    walls = { "south", "north", "west", "east" } } }
   :sweep { layers = 1, size = 0.5, order = 2, serendipity = true }
-refused(quadratic, { faces = "all" }, "order 2", "order = 1")
+refused(quadratic, { faces = "all" }, "order 2", '"none"')
 
 -- --- CalculiX --------------------------------------------------------------------------------------------
 
@@ -342,6 +410,62 @@ local before, after = places(abaqus(at "one.inp"), one), places(abaqus(at "glued
 for place, u in pairs(before) do
   for axis = 1, 3 do check.near(after[place][axis], u[axis], 1e-8) end
 end
+
+-- The same at order 2, between regions and between layers: middle nodes are doubled like corners. Tied in
+-- pairs they move as before.
+local function second_order(whole, options, faces, region)
+  options.element = "none"
+  local split = lacuna.split_interface(whole, options)
+  check.equal(split.interface_cells, 0)
+  check.equal(split.hexes, whole.hexes)
+  split:write(at "second.inp")
+  whole:write(at "first.inp")
+  local by, pairs_of, doubled = stacked(abaqus(at "second.inp")), {}, 0
+  for _, tags in pairs(by) do
+    if #tags > 1 then
+      doubled = doubled + 1
+      for axis = 1, 3 do
+        pairs_of[#pairs_of + 1] = ("*EQUATION\n2\n%d, %d, 1., %d, %d, -1.\n"):format(tags[2], axis, tags[1],
+          axis)
+      end
+    end
+  end
+  check.equal(doubled, split.nodes - whole.nodes)
+  local function deck(name, ties)
+    local sections = ""
+    for _, one in ipairs(region) do
+      sections = sections .. "*SOLID SECTION, ELSET=" .. one .. ", MATERIAL=steel\n"
+    end
+    return read(at(name .. ".inp")) .. steel .. sections .. ties .. ([[
+*STEP
+*STATIC
+*BOUNDARY
+FROM, 1, 3
+TO, 1, 3, 0.01
+*NODE PRINT, NSET=TO
+U
+*END STEP
+]]):gsub("FROM", faces[1]):gsub("TO", faces[2])
+  end
+  local before = solve("before", deck("first", ""))
+  local after = solve("after", deck("second", table.concat(pairs_of)))
+  check.that(before and after and size(before) == size(after) and size(after) > 9)
+  local deck_before, deck_after = abaqus(at "first.inp"), abaqus(at "second.inp")
+  local here = places(deck_before, before)
+  for place, u in pairs(places(deck_after, after)) do
+    for axis = 1, 3 do check.near(u[axis], here[place][axis], 1e-8) end
+  end
+  -- Every node is one of a cell.
+  local sides = {}
+  for _, cells in pairs(deck_after.elements) do
+    for _, cell in pairs(cells) do
+      for _, n in ipairs(cell) do sides[n] = sides[n] or cell end
+    end
+  end
+  check.equal(size(sides), split.nodes, "every node is one of a cell")
+end
+second_order(quadratic, { faces = "all" }, { "a_west", "b_east" }, { "a", "b" })
+second_order(ply(2, 3), { faces = { 2 } }, { "source", "target" }, { "ply" })
 
 -- Of the names of thin layers, those that CalculiX knows bend as a beam of the same section.
 local strip = block_model { 0, 10, 0, 1, 0, 0.2 }:open_volume { source = "source", target = "target",

@@ -35,6 +35,8 @@ std::vector<SplineSurfaceData> swept_patches(const geometry::SweptSurface& surfa
 {
     const std::vector<double>& params = surface.params();
     const auto [low, high] = surface.heights();
+    // An interval for each row of facets, of which a full turn has 72, for paths of any number of turns.
+    const std::size_t most = std::max(kMostIntervals, surface.motion()->rows.size());
     std::vector<SplineSurfaceData> patches;
     const std::size_t step = surface.has_kinks() ? 1 : params.size() - 1;
     for (std::size_t i = 0; i + 1 < params.size(); i += step) {
@@ -47,7 +49,7 @@ std::vector<SplineSurfaceData> swept_patches(const geometry::SweptSurface& surfa
                         uv.emplace_back((1 - x) * from + x * to, (1 - y) * low + y * high);
                 return surface.at(uv);
             },
-            precision));
+            precision, most));
     }
     return patches;
 }
@@ -168,8 +170,8 @@ private:
             made.kind = SolidEdge::spline;
             const double precision = edge.origin == Origin::made_void && edge.curve ? motion_precision_
                                                                                     : precision_;
-            made.curve_data = approximate([&](std::span<const double> at) { return shape.at(at); },
-                                          precision);
+            made.curve_data = approximate([&](std::span<const double> at) { return shape.at(at); }, precision,
+                                          std::max(kMostIntervals, edge.points.size()));
         }
         return made;
     }

@@ -86,17 +86,12 @@ public:
             closed.volume.role.assign(walls_.size(), Role::wall);
             closed.volume.full_turn = true;
         }
-        const Model& model = closed.volume.model;
         orient_skin(closed.volume.model, context_);
-        check_crossings(model);
+        check_crossings(closed.volume.model);
         Closure& closure = closed.closure;
         closure.value = VolumeClass::zero;
         closure.algorithms = {"sweep along a path"};
-        for (std::size_t e = 0; e < model.edges.size(); ++e)
-            if (model.edges[e].origin == Origin::made_void) closure.void_edges.emplace_back(e);
-        for (const FaceId face : all_faces(model))
-            if (model[face].origin == Origin::made_void) closure.void_faces.push_back(face);
-        closure.watertight = is_watertight(closed.volume);
+        list_void(closed);
         return closed;
     }
 
@@ -373,6 +368,19 @@ private:
 };
 
 } // namespace
+
+void list_void(Closed& closed)
+{
+    const Model& model = closed.volume.model;
+    Closure& closure = closed.closure;
+    closure.void_edges.clear();
+    closure.void_faces.clear();
+    for (std::size_t e = 0; e < model.edges.size(); ++e)
+        if (model.edges[e].origin == Origin::made_void) closure.void_edges.emplace_back(e);
+    for (const FaceId face : all_faces(model))
+        if (model[face].origin == Origin::made_void) closure.void_faces.push_back(face);
+    closure.watertight = is_watertight(closed.volume);
+}
 
 Closed close_along(const SweptSource& swept, const CloseOptions& options, const RunContext& context)
 {

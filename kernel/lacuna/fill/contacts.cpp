@@ -256,6 +256,7 @@ void append(FilledParts& whole, FilledParts part)
             for (Index& node : pair) node += nodes;
     for (FilledTets& tets : part.tets)
         for (Index& node : tets.number) node += nodes;
+    for (io::ColumnSet& columns : part.columns) columns.part += before;
     for (sweep::SharedFace& face : own.shared) face.a += before, face.b += before;
     for (sweep::NearMiss& miss : own.near_misses) {
         miss.a += before, miss.b += before;
@@ -273,6 +274,7 @@ void append(FilledParts& whole, FilledParts part)
                          part.materials.begin() + static_cast<std::ptrdiff_t>(part.regions.size()));
     move_to(whole.materials, of_parts, whole.regions.size());
     add(whole.materials, part.materials);
+    add(whole.columns, part.columns);
     add(all.parts, own.parts);
     add(all.member, own.member);
     add(all.unswept, own.unswept);

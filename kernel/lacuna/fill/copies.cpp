@@ -229,7 +229,9 @@ FilledParts as_parts(const FilledVolume& mesh)
     parts.swept.numbering.emplace_back(0, std::vector<std::pair<Index, Index>>(), parts.swept.nodes);
     parts.regions = {mesh.swept.mesh.volume_groups.front()};
     parts.materials = {mesh.material};
+    parts.unit = mesh.unit;
     parts.copied = mesh.copied;
+    parts.columns = mesh.columns;
     return parts;
 }
 
@@ -267,6 +269,9 @@ FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const Pattern
                                    "a pattern needs at least {} copy, but {} are requested", needed(1),
                                    found(options.count))
                                .remedy("use count = 1 or more"));
+    if (!mesh.interfaces.empty())
+        throw InvalidInput(Message("fill.split_member", "a mesh that was split cannot be copied in a pattern")
+                               .remedy("make the pattern first, and split it"));
     hold_nodes(mesh, context);
     const std::size_t parts = mesh.regions.size();
     const auto count = static_cast<std::size_t>(options.count);
@@ -316,6 +321,11 @@ FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const Pattern
                 move(part, moves[k]);
                 all.regions.push_back(mesh.regions[p]);
                 all.materials.push_back(mesh.materials[p]);
+            }
+            for (io::ColumnSet columns : mesh.columns) {
+                if (k == 0 || columns.part != p) continue;
+                columns.part = k * parts + p;
+                all.columns.push_back(std::move(columns));
             }
             if (!options.numbered) continue;
             std::string& region = all.regions[k * parts + p];

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/detail/edge_sets.h>
 
+#include <lacuna/closure/shared/along.h>
 #include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/io/shared/solid_nodes.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -33,6 +35,16 @@ public:
             for (const Index node : nodes.at(i)) point_[node] = rim[i];
         for (const io::DeckBlock& block : deck.blocks)
             for (std::size_t e = 0; e < block.count(); ++e) element_[block.tags[e]] = {&block, e};
+        std::unordered_map<io::DeckTag, Index> node;
+        for (const auto& [own, point] : point_) node[deck.point_tags[index(own)]] = own;
+        for (const io::TextLine& line : io::lines_in_text(deck)) {
+            const auto a = node.find(line.ends[0]), b = node.find(line.ends[1]);
+            if (a == node.end() || b == node.end()) continue;
+            lines_.nodes.insert(lines_.nodes.end(), {a->second, b->second});
+            lines_.tags.push_back(line.tag);
+            add(lines_, lines_.count() - 1, 0, line.region);
+        }
+        for (std::size_t e = 0; e < lines_.count(); ++e) element_[lines_.tags[e]] = {&lines_, e};
     }
 
     void run()
@@ -72,6 +84,7 @@ private:
 
     const io::Deck& deck_;
     NamedSides& found_;
+    io::DeckBlock lines_{.shape = io::DeckShape::line2, .type = {}}; ///< elements that the deck keeps as text
     std::unordered_map<Index, Index> point_; ///< by node of the deck: the model's point
     std::unordered_map<io::DeckTag, std::pair<const io::DeckBlock*, std::size_t>> element_;
 };
@@ -109,6 +122,34 @@ std::map<EdgeId, std::vector<std::string>> edge_sets(Model& model,
     for (const EdgeId part : parts) {
         const std::set<std::string> own = names(model[part], 0);
         if (!own.empty()) sets[part].assign(own.begin(), own.end());
+    }
+    return sets;
+}
+
+std::vector<io::ColumnSet> column_sets(const Volume& volume, const sweep::Swept& swept)
+{
+    std::vector<io::ColumnSet> sets;
+    if (!volume.along) return sets;
+    const Model& source = volume.along->source.model;
+    const Index count = swept.mesh.nodes_per_layer;
+    for (const auto& deck : volume.decks) {
+        std::map<io::DeckTag, Index> node; // of the first level, by the deck's node at its column
+        for (const Index first : {0, swept.mesh.layers * count}) { // a sweep may start at either end
+            std::vector<Vec3> places;
+            for (Index n = 0; n < count; ++n) places.push_back(swept.skin()[first + n]);
+            const io::NodesAt at = io::nodes_at(*deck, places, source.tolerance, volume.scale);
+            for (Index n = 0; n < count; ++n)
+                for (const Index point : at.at(index(n))) node.emplace(deck->point_tags[index(point)], n);
+        }
+        for (const io::DeckSet& set : deck->sets) {
+            io::ColumnSet columns{set.name};
+            for (const io::DeckTag tag : set.members)
+                if (const auto known = node.find(tag);
+                    set.kind == io::DeckSet::Kind::nodes && known != node.end())
+                    columns.nodes.push_back(known->second);
+            std::ranges::sort(columns.nodes);
+            if (!columns.nodes.empty()) sets.push_back(std::move(columns));
+        }
     }
     return sets;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/filled.h>
 
+#include <lacuna/io/leave_out.h>
 #include <lacuna/io/shared/mixed_deck.h>
 #include <lacuna/quality/shared/second_order.h>
 
@@ -120,7 +121,8 @@ std::vector<Group> groups(const FilledParts& mesh)
         if (name != "volume") count(regions, name, 3, part.cells.size());
         sum += part.cells.size();
     }
-    for (const SplitInterface& split : mesh.interfaces) count(regions, split.region, 3, split.cells.size());
+    for (const SplitInterface& split : mesh.interfaces)
+        if (!split.cells.empty()) count(regions, split.region, 3, split.cells.size());
     std::ranges::sort(all, {}, &Group::name);
     all.insert(all.end(), regions.begin(), regions.end());
     all.push_back({"volume", 3, sum});
@@ -194,6 +196,40 @@ io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options,
     return deck;
 }
 
+JoinedDeck joined_deck(const io::Deck& deck, const topology::Model& model, double scale,
+                       const FilledParts& mesh, io::MeshDeckOptions options, const io::Deck* gone,
+                       const RunContext& context)
+{
+    for (const Contact& contact : mesh.contacts) {
+        options.contacts.push_back(contact.pair);
+        options.contacts.back().tolerance /= scale;
+    }
+    options.columns = mesh.columns;
+    JoinedDeck joined{deck, mesh.swept.periodic};
+    io::JoinedBefore before;
+    const auto join = [&](const auto& part, std::size_t number) {
+        options.material = mesh.materials[number];
+        joined.deck = io::join_deck(joined.deck, model, scale, part, options, context, gone, &before);
+        options.first_node = options.first_cell = 0;
+    };
+    for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
+        before.number = [&](Index node) { return mesh.swept.numbering[p].of(node); };
+        join(mesh.swept.parts[p].mesh, p);
+    }
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        before.number = [&](Index node) { return mesh.tets[t].number[index(node)]; };
+        join(mesh.tets[t].mesh, mesh.swept.parts.size() + t);
+    }
+    io::add_contacts(joined.deck, options.contacts, before);
+    joined.deck = io::close_gap(std::move(joined.deck), context);
+    for (mesh::PeriodicNodes& periodic : joined.periodic) {
+        periodic.onto.translation() /= scale;
+        for (auto& pair : periodic.pairs)
+            for (Index& node : pair) node = before.points[index(node)];
+    }
+    return joined;
+}
+
 quality::Quality measure(const WholeCells& cells, const RunContext& context)
 {
     return cells.curved.empty() ? quality::measure_cells(cells.nodes, cells.hexes, context, cells.column)
@@ -202,6 +238,11 @@ quality::Quality measure(const WholeCells& cells, const RunContext& context)
 
 Vec3 node(const FilledParts& mesh, std::size_t node)
 {
+    if (!mesh.owner.empty()) {
+        const std::size_t part = index(mesh.owner[node][0]), swept = mesh.swept.parts.size();
+        return part < swept ? mesh.swept.parts[part].mesh.node(index(mesh.owner[node][1]))
+                            : mesh.tets[part - swept].mesh.node(index(mesh.owner[node][1]));
+    }
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
         const mesh::NodeNumbers& number = mesh.swept.numbering[p];
         const std::size_t fresh = node - index(number.first()); // among the nodes that this part has first

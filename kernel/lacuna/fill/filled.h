@@ -28,6 +28,7 @@ struct FilledVolume {
     std::string unit{};   ///< as `Volume::unit`
     bool copied = false;  ///< made by moved(): in an assembly, rounding may move its nodes onto those of
                           ///< other members
+    std::vector<io::ColumnSet> columns{}; ///< from node sets on the source of a path
 };
 
 /// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
@@ -71,8 +72,12 @@ struct FilledParts {
     std::vector<FilledTets> tets;
     std::vector<SplitInterface> interfaces{}; ///< from `split_interface()`
     std::vector<Contact> contacts{};
-    std::string unit{};  ///< as `Volume::unit`
-    bool copied = false; ///< as in `FilledVolume`
+    std::string unit{};                   ///< as `Volume::unit`
+    bool copied = false;                  ///< as in `FilledVolume`
+    std::vector<io::ColumnSet> columns{}; ///< as in `FilledVolume`; `part` is the index in `swept.parts`
+    /// After `split_interface()`: for each node, a part that has it, and its number in that part. Otherwise
+    /// empty.
+    std::vector<std::array<Index, 2>> owner{};
 };
 
 /// A mesh, and the volumes with the roles that they were swept with.
@@ -134,14 +139,30 @@ WholeCells whole_cells(const FilledParts& mesh);
 io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options, bool interfaces = false,
                     const RunContext& context = {});
 
+/// A deck with the meshes that fill its voids.
+struct JoinedDeck {
+    io::Deck deck;
+    std::vector<mesh::PeriodicNodes> periodic; ///< of the deck's points
+};
+/// Join the parts of a mesh to a deck, one after the other, by `io::join_deck()`. Parts share the nodes that
+/// they share in the mesh. Contacts and sets of columns join too.
+/// @param model, scale  as for `io::join_deck()`. @param gone  as there; null: nothing was left out.
+JoinedDeck joined_deck(const io::Deck& deck, const topology::Model& model, double scale,
+                       const FilledParts& mesh, io::MeshDeckOptions options, const io::Deck* gone = nullptr,
+                       const RunContext& context = {});
+
 /// Faces along which a mesh is split.
 struct InterfaceFaces {
     std::vector<std::string> groups{}; ///< faces of these groups that two parts share
     /// Faces between these two regions.
     std::vector<std::pair<std::string, std::string>> pairs{};
     bool all = false; ///< faces between any two regions
+    /// Levels of a mesh of one sweep: the number of layers below each, > 0 and less than the layers.
+    std::vector<int> levels{};
     std::string region = "interface";
-    std::string element = "COH3D8"; ///< Abaqus name of the cells: COH3D8 or GK3D8, or a kind of these
+    /// Abaqus name of the cells: COH3D8 or GK3D8, or a kind of these. "NONE": nodes are duplicated, and there
+    /// are no cells.
+    std::string element = "COH3D8";
 };
 
 /// Split a mesh along cell sides that two parts share: duplicate the nodes, and insert a zero-thickness
@@ -152,13 +173,19 @@ struct InterfaceFaces {
 /// mesh, all parts around its end stay connected, so nodes there are not duplicated. Existing nodes keep
 /// their numbers; duplicates are numbered after them. Nodes 1 to 4 of a cell lie on the part that was meshed
 /// first, and its stacking direction is from nodes 1-4 to nodes 5-8. Duplicates on a periodic face are paired
-/// with those of the part at the image.
+/// with those of the part at the image. At order 2, middle nodes are duplicated in the same way; cells are
+/// then not possible.
+///
+/// A mesh that is split at levels becomes one part between each two levels. Faces below level k are the group
+/// `level_k:target`, those above it `level_k:source`.
 /// @throw InvalidInput "fill.interface_none"     no face is named, or no named face is shared by two parts.
 ///                     "fill.interface_element"  the element is not a zero-thickness one (COH3D8, GK3D8).
-///                     "fill.interface_order"    the mesh is of order 2.
+///                     "fill.interface_levels"   a level is not inside the mesh, or the mesh has several
+///                                               parts.
+///                     "fill.interface_order"    the mesh is of order 2, and the element is not NONE.
 ///                     "fill.interface_split"    the mesh was split before.
 /// @note  O(n log n) in the sides of the skins, O(n) in the nodes.
-FilledParts split_interface(FilledParts mesh, const InterfaceFaces& faces, const RunContext& context = {});
+FilledParts split_interface(FilledParts mesh, InterfaceFaces faces, const RunContext& context = {});
 
 quality::Quality measure(const WholeCells& cells, const RunContext& context = {});
 

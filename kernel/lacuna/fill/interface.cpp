@@ -14,32 +14,40 @@
 namespace lacuna::fill {
 namespace {
 
+constexpr const char* kNoCells = "NONE"; ///< `InterfaceFaces::element` of a split without cells
+
 /// A part of a mesh, swept or of tetrahedra.
 struct PartSkin {
     std::string region;
     const std::vector<mesh::SkinPatch>* patches = nullptr;
     std::vector<Index>* number = nullptr; ///< of each of its nodes in the whole mesh
-    std::vector<Quad> sides{};            ///< of its skin, in its own numbers, seen from outside
+    std::vector<mesh::CellNodes> sides{}; ///< of its skin, in its own numbers, seen from outside
     std::vector<Index> patch{};           ///< of each side
 };
+
+/// Corners of a side, sorted.
+Quad key_of(const mesh::CellNodes& side)
+{
+    const std::size_t corners = side.count % 4 == 3 || side.count == 6 ? 3 : 4;
+    return face_key({side.node[0], side.node[1], side.node[2], side.node[corners - 1]});
+}
 
 template <class Mesh>
 PartSkin skin_of(const Mesh& mesh, std::string region, std::vector<Index>& number)
 {
     PartSkin skin{std::move(region), &mesh.patches, &number};
     for (std::size_t i = 0; i < mesh.skin_count(); ++i) {
-        const mesh::SkinQuad side = mesh::skin_quad(mesh, i);
-        skin.sides.push_back(side.nodes);
-        skin.patch.push_back(side.patch);
+        skin.sides.push_back(mesh::skin_nodes(mesh, i));
+        skin.patch.push_back(mesh::skin_quad(mesh, i).patch);
     }
     return skin;
 }
 
 /// A side that two parts share.
 struct SharedSide {
-    std::size_t a, b;           ///< parts, in their order
-    std::size_t side_a, side_b; ///< in their skins
-    Quad nodes_a, nodes_b;      ///< in the whole mesh before it is split, seen from outside each
+    std::size_t a, b;                 ///< parts, in their order
+    std::size_t side_a, side_b;       ///< in their skins
+    mesh::CellNodes nodes_a, nodes_b; ///< in the whole mesh before it is split, seen from outside each
     bool is_split = false;
 };
 
@@ -63,6 +71,10 @@ public:
         choose();
         number_nodes();
         add_cells(context);
+        mesh_.owner.resize(mesh_.swept.nodes);
+        for (std::size_t p = 0; p < parts_.size(); ++p)
+            for (std::size_t n = 0; n < parts_[p].number->size(); ++n)
+                mesh_.owner[index((*parts_[p].number)[n])] = {static_cast<Index>(p), static_cast<Index>(n)};
         // New nodes break the consecutive numbering, so the number of every node is listed.
         for (std::size_t p = 0; p < mesh_.swept.parts.size(); ++p) {
             const std::vector<Index>& number = numbers_[p];
@@ -74,10 +86,11 @@ public:
     }
 
 private:
-    [[nodiscard]] Quad whole(std::size_t part, std::size_t side) const
+    [[nodiscard]] mesh::CellNodes whole(std::size_t part, std::size_t side) const
     {
-        Quad nodes = parts_[part].sides[side];
-        for (Index& n : nodes) n = (*parts_[part].number)[index(n)];
+        mesh::CellNodes nodes = parts_[part].sides[side];
+        for (std::size_t k = 0; k < nodes.count; ++k)
+            nodes.node[k] = (*parts_[part].number)[index(nodes.node[k])];
         return nodes;
     }
 
@@ -90,7 +103,7 @@ private:
         std::vector<Place> all;
         for (std::size_t p = 0; p < parts_.size(); ++p)
             for (std::size_t i = 0; i < parts_[p].sides.size(); ++i)
-                all.push_back({face_key(whole(p, i)), p, i});
+                all.push_back({key_of(whole(p, i)), p, i});
         std::ranges::sort(all, {}, [](const Place& of) { return std::tuple(of.key, of.part, of.side); });
         for (std::size_t k = 1; k < all.size(); ++k)
             if (all[k].key == all[k - 1].key)
@@ -138,10 +151,9 @@ private:
         for (const SharedSide& side : shared_)
             if (side.is_split)
                 for (const Index n : side.nodes_a) at[n];
-        for (const SharedSide& side : shared_) {
-            for (std::size_t k = 0; k < mesh::corner_count(side.nodes_a); ++k)
-                if (const auto own = at.find(side.nodes_a[k]); own != at.end()) own->second.push_back(&side);
-        }
+        for (const SharedSide& side : shared_)
+            for (const Index n : side.nodes_a)
+                if (const auto own = at.find(n); own != at.end()) own->second.push_back(&side);
         std::vector<std::map<Index, Index>> renumbered(parts_.size()); // of each part
         for (const auto& [node, sides] : at) {
             // `cut` unites parts that share a side that is not split; `joined` unites all parts that share a
@@ -182,22 +194,22 @@ private:
                 for (std::size_t p = 0; p < parts_.size(); ++p)
                     for (std::size_t i = 0; i < parts_[p].sides.size(); ++i) visit(p, whole(p, i));
             };
-            each_side([&](std::size_t p, const Quad& side) {
+            each_side([&](std::size_t p, const mesh::CellNodes& side) {
                 if (std::ranges::all_of(side, [&](Index n) { return images.contains(n); }))
-                    behind[face_key(side)] = p;
+                    behind[key_of(side)] = p;
             });
             std::set<std::array<Index, 2>> pairs;
             const auto now = [&](std::size_t p, Index n) {
                 const auto other = renumbered[p].find(n);
                 return other == renumbered[p].end() ? n : other->second;
             };
-            each_side([&](std::size_t p, const Quad& side) {
+            each_side([&](std::size_t p, const mesh::CellNodes& side) {
                 if (!std::ranges::all_of(side, [&](Index n) { return image.contains(n); })) return;
-                Quad there = side;
-                for (Index& n : there) n = image.at(n);
-                const auto other = behind.find(face_key(there));
-                for (std::size_t k = 0; k < 4 && other != behind.end(); ++k)
-                    pairs.insert({now(p, side[k]), now(other->second, there[k])});
+                mesh::CellNodes there = side;
+                for (std::size_t k = 0; k < there.count; ++k) there.node[k] = image.at(there.node[k]);
+                const auto other = behind.find(key_of(there));
+                for (std::size_t k = 0; k < side.count && other != behind.end(); ++k)
+                    pairs.insert({now(p, side.node[k]), now(other->second, there.node[k])});
             });
             periodic.pairs.assign(pairs.begin(), pairs.end());
         }
@@ -218,22 +230,21 @@ private:
     void add_cells(const RunContext& context)
     {
         SplitInterface made{faces_.region, faces_.element, {}};
-        std::size_t closed = 0;
+        std::size_t split = 0, closed = 0;
         for (const SharedSide& side : shared_) {
             if (!side.is_split) continue;
-            const Quad own = whole(side.a, side.side_a), other = whole(side.b, side.side_b);
-            Quad across = own; // the other part's node of each corner
-            for (std::size_t k = 0; k < 4; ++k)
-                across[k] = other[static_cast<std::size_t>(std::ranges::find(side.nodes_b, side.nodes_a[k]) -
-                                                           side.nodes_b.begin())];
-            if (across == own) {
-                ++closed;
-                continue;
-            }
-            made.cells.push_back(
-                {own[0], own[1], own[2], own[3], across[0], across[1], across[2], across[3]});
+            const mesh::CellNodes own = whole(side.a, side.side_a), other = whole(side.b, side.side_b);
+            mesh::CellNodes across = own; // the other part's node at each place
+            for (std::size_t k = 0; k < own.count; ++k)
+                across.node[k] = other.node[static_cast<std::size_t>(
+                    std::ranges::find(side.nodes_b, side.nodes_a.node[k]) - side.nodes_b.begin())];
+            ++(std::ranges::equal(across, own) ? closed : split);
+            if (std::ranges::equal(across, own) || faces_.element == kNoCells) continue;
+            const auto last = own.count - 1; // a triangle's fourth corner is its third
+            made.cells.push_back({own.node[0], own.node[1], own.node[2], own.node[last], across.node[0],
+                                  across.node[1], across.node[2], across.node[last]});
         }
-        if (made.cells.empty())
+        if (split == 0)
             throw InvalidInput(Message("fill.interface_none",
                                        "split_interface: the named faces have only nodes at the end of the "
                                        "interface, which are not duplicated")
@@ -243,8 +254,9 @@ private:
                                         "nodes are at the end of the interface",
                                         closed));
         mesh_.interfaces.push_back(std::move(made));
-        mesh_.swept.report.push_back(formatted("split_interface: {} cells of {}",
-                                               mesh_.interfaces.back().cells.size(), faces_.element));
+        mesh_.swept.report.push_back(
+            faces_.element == kNoCells ? formatted("split_interface: {} faces without cells", split)
+                                       : formatted("split_interface: {} cells of {}", split, faces_.element));
     }
 
     std::vector<std::vector<Index>> numbers_{}; ///< of the nodes of the swept parts in the whole mesh
@@ -254,33 +266,120 @@ private:
     std::vector<SharedSide> shared_;
 };
 
+/// The name of the faces below (`target`) or above a level.
+std::string at_level(int level, const char* side) { return formatted("level_{}:{}", level, side); }
+
+/// The layers [from, to) of a sweep, as a sweep of its own. Its first and last quads get new patches, unless
+/// they are ends of the whole.
+sweep::Swept layers_of(const sweep::Swept& whole, int from, int to)
+{
+    sweep::Swept part = whole;
+    mesh::HexMesh& mesh = part.mesh;
+    const auto cut = [](auto& list, std::size_t first, std::size_t count) {
+        list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(first));
+        list.resize(count);
+    };
+    mesh.layers = to - from;
+    const auto low = static_cast<std::size_t>(from), count = static_cast<std::size_t>(mesh.layers);
+    const mesh::MiddlePlaces middle(whole.mesh);
+    cut(mesh.nodes, low * index(mesh.nodes_per_layer), (count + 1) * index(mesh.nodes_per_layer));
+    if (mesh.order() > 1) cut(mesh.middles.nodes, middle.side(low, 0), mesh::MiddlePlaces(mesh).count());
+    cut(mesh.wall_patch, low * mesh.rim.size(), count * mesh.rim.size());
+    const auto end = [&](std::vector<Index>& patches, int level, const char* name) {
+        int tag = 0;
+        for (const mesh::SkinPatch& patch : mesh.patches) tag = std::max(tag, patch.tag);
+        patches.assign(patches.size(), static_cast<Index>(mesh.patches.size()));
+        mesh.patches.push_back({tag + 1, {at_level(level, name)}, 0});
+        part.faces.emplace_back();
+    };
+    if (from > 0) {
+        end(mesh.source_patch, from, "source");
+        part.fidelity = {}; // the first part has that of the whole
+        part.report.clear();
+    }
+    if (to < whole.mesh.layers) end(mesh.target_patch, to, "target");
+    return part;
+}
+
+/// A mesh of one sweep as one part between each two levels. The nodes keep their numbers.
+FilledParts divided_at(FilledParts mesh, InterfaceFaces& faces)
+{
+    std::ranges::sort(faces.levels);
+    const sweep::Swept whole = std::move(mesh.swept.parts.front());
+    if (mesh.swept.parts.size() > 1 || !mesh.tets.empty())
+        throw InvalidInput(Message("fill.interface_levels",
+                                   "split_interface: a mesh of {} parts has no common levels",
+                                   found(mesh.swept.parts.size() + mesh.tets.size()))
+                               .remedy("split the mesh of one sweep, or cut the volumes there"));
+    for (const int level : faces.levels)
+        if (level < 1 || level >= whole.mesh.layers)
+            throw InvalidInput(
+                Message("fill.interface_levels",
+                        "split_interface: level {} is not inside the mesh of {} layers", found(level),
+                        whole.mesh.layers)
+                    .remedy("name a number of layers from 1 to {}", needed(whole.mesh.layers - 1)));
+    std::vector<int> levels{0};
+    levels.insert(levels.end(), faces.levels.begin(), faces.levels.end());
+    levels.push_back(whole.mesh.layers);
+    const auto ends = std::ranges::unique(levels);
+    levels.erase(ends.begin(), ends.end());
+    const std::string region = mesh.regions.front(), material = mesh.materials.front();
+    const std::size_t member = mesh.swept.member.empty() ? 0 : mesh.swept.member.front();
+    const std::vector<io::ColumnSet> columns = std::exchange(mesh.columns, {});
+    mesh.swept.parts.clear();
+    mesh.swept.numbering.clear();
+    mesh.swept.member.clear();
+    mesh.regions.clear();
+    mesh.materials.clear();
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+        const int from = levels[i];
+        const sweep::Swept& part = mesh.swept.parts.emplace_back(layers_of(whole, from, levels[i + 1]));
+        const auto corners = static_cast<Index>(part.mesh.nodes.size());
+        const auto low = static_cast<Index>(
+            whole.mesh.nodes.size() + mesh::MiddlePlaces(whole.mesh).side(static_cast<std::size_t>(from), 0));
+        std::vector<std::pair<Index, Index>> number;
+        for (Index n = 0; n < static_cast<Index>(part.mesh.node_count()); ++n)
+            number.emplace_back(n, n < corners ? from * part.mesh.nodes_per_layer + n : low + n - corners);
+        mesh.swept.numbering.emplace_back(0, std::move(number), part.mesh.node_count());
+        mesh.swept.member.push_back(member);
+        mesh.regions.push_back(region);
+        mesh.materials.push_back(material);
+        for (io::ColumnSet column : columns) {
+            column.part = i;
+            mesh.columns.push_back(std::move(column));
+        }
+        if (from > 0) faces.groups.push_back(at_level(from, "source"));
+    }
+    return mesh;
+}
+
 } // namespace
 
-FilledParts split_interface(FilledParts mesh, const InterfaceFaces& faces, const RunContext& context)
+FilledParts split_interface(FilledParts mesh, InterfaceFaces faces, const RunContext& context)
 {
     hold_nodes(mesh, context);
     const std::string& element = faces.element;
     const bool is_thin = element.starts_with("COH3D8") || element.starts_with("GK3D8");
-    if (!is_thin)
+    if (!is_thin && element != kNoCells)
         throw InvalidInput(Message("fill.interface_element",
                                    "split_interface: cells of element = \"{}\" cannot have zero thickness",
                                    found(element))
-                               .remedy("use COH3D8 or GK3D8"));
+                               .remedy("use COH3D8 or GK3D8, or element = \"none\" for a split without "
+                                       "cells"));
     if (!mesh.interfaces.empty())
         throw InvalidInput(Message("fill.interface_split", "split_interface: the mesh was split before")
                                .remedy("name all faces in one call"));
-    if (std::ranges::any_of(mesh.swept.parts,
-                            [](const sweep::Swept& part) { return part.layers || part.mesh.order() > 1; }))
+    if (is_thin &&
+        std::ranges::any_of(mesh.swept.parts, [](const sweep::Swept& part) { return part.mesh.order() > 1; }))
         throw InvalidInput(
-            Message("fill.interface_order",
-                    "split_interface: {} has eight nodes, and the mesh is of "
-                    "order 2",
+            Message("fill.interface_order", "split_interface: {} has eight nodes, and the mesh is of order 2",
                     element)
-                .remedy("sweep with order = 1, or tie the regions: give one of them glued = false"));
+                .remedy("use element = \"none\" for a split without cells, or sweep with order = 1"));
+    if (!faces.levels.empty()) mesh = divided_at(std::move(mesh), faces);
     if (faces.groups.empty() && faces.pairs.empty() && !faces.all)
-        throw InvalidInput(
-            Message("fill.interface_none", "split_interface: no faces are named")
-                .remedy("give faces = \"all\", a group, or pairs of regions: {{ {{ a, b }} }}"));
+        throw InvalidInput(Message("fill.interface_none", "split_interface: no faces are named")
+                               .remedy("give faces = \"all\", a group, pairs of regions: {{ {{ a, b }} }}, "
+                                       "or numbers of layers"));
     Splitter(mesh, faces).split(context);
     return mesh;
 }

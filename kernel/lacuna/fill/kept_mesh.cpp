@@ -6,6 +6,7 @@
 #include <lacuna/healing/shared/weld.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace lacuna::fill {
@@ -76,6 +77,7 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh)
     const bool named = !groups.empty() && groups.front() != "volume";
     auto kept = keep(mesh.swept, named ? groups.front() : "", mesh.material, mesh.copied);
     kept->unit = mesh.unit;
+    kept->columns = mesh.columns;
     return kept;
 }
 
@@ -100,6 +102,8 @@ std::vector<std::unique_ptr<KeptMesh>> keep(FilledParts mesh)
         KeptMesh& kept = *all.emplace_back(keep(mesh.swept.parts[p], group, mesh.materials[p], mesh.copied));
         kept.region = mesh.regions[p];
         kept.unit = mesh.unit;
+        std::ranges::copy_if(mesh.columns, std::back_inserter(kept.columns),
+                             [&](const io::ColumnSet& columns) { return columns.part == p; });
         if (group != "volume") kept.whole = group;
         if (std::ranges::count(mesh.regions, mesh.regions[p]) == 1) continue;
         kept.turn_of = mesh.regions[p];

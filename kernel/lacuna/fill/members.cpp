@@ -8,6 +8,7 @@
 #include <lacuna/core/shared/nearest_word.h>
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/contacts.h>
+#include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/kept_mesh.h>
 #include <lacuna/fill/detail/tets.h>
 #include <lacuna/io/shared/units.h>
@@ -422,6 +423,13 @@ FilledParts sweep_glued(Prepared ready, bool alone, const RunContext& context)
         const sweep::AssemblyMember& member = ready.members[m];
         mesh.regions.push_back(member.turn_of.empty() ? member.region : member.turn_of);
         mesh.materials.push_back(ready.materials[m]);
+        const std::size_t p = mesh.materials.size() - 1;
+        const Part& part = *ready.parts[m];
+        for (io::ColumnSet& columns :
+             part.kept ? part.kept->columns : column_sets(*part.asked->volume, mesh.swept.parts[p])) {
+            columns.part = p;
+            mesh.columns.push_back(std::move(columns));
+        }
     }
     for (const sweep::LeftOut& out : mesh.left_out)
         mesh.swept.report.push_back(formatted("left out: {} [{}]", out.message.text(), out.message.code()));

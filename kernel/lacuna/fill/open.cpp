@@ -77,8 +77,9 @@ topology::OpenVolume open_full_turn(const Model& model, const std::vector<FaceId
     return volume;
 }
 
-/// Note the node sets of decks that hold nodes of a source: groups of a swept mesh are of faces and cells.
-void note_node_sets(const Model& source, const RoleRequest& request, const RunContext& context)
+/// Note the node sets of decks that hold nodes of a source on which the mesh will not have the same nodes.
+void note_node_sets(const Model& source, const RoleRequest& request, const char* why,
+                    const RunContext& context)
 {
     std::vector<std::string> sets;
     for (const auto& deck : request.decks) {
@@ -91,27 +92,38 @@ void note_node_sets(const Model& source, const RoleRequest& request, const RunCo
                 sets.push_back(set.name);
     }
     if (!sets.empty())
-        log_line(context, formatted("note: open_volume: node sets of the source are no groups of the swept "
-                                    "mesh: {}; 'with' of mesh:write keeps them",
-                                    short_list(sets, std::identity())));
+        log_line(context, formatted("note: open_volume: {}, so that the mesh does not have the node sets {}; "
+                                    "'with' of mesh:write keeps them",
+                                    why, short_list(sets, std::identity())));
 }
 
 std::shared_ptr<const closure::SweptSource> open_along(const Model& model, const RoleRequest& request,
                                                        const RunContext& context)
 {
     const bool source = request.roles && !request.roles->source.empty();
-    if (!source || request.find_walls || !request.roles->target.empty() || !request.roles->walls.empty() ||
-        request.full_turn || request.reading > 0 ||
+    if (!source || request.find_walls || !request.roles->target.empty() || request.full_turn ||
+        request.reading > 0 ||
         request.override_class.value_or(topology::VolumeClass::zero) != topology::VolumeClass::zero)
         throw InvalidInput(Message("closure.along_roles",
-                                   "open_volume: 'along' sweeps a source alone, and makes the walls and the "
-                                   "target itself")
-                               .remedy("name the source, and no other role, class or reading"));
-    topology::OpenVolume open = topology::open_volume(model, *request.roles, context);
+                                   "open_volume: 'along' sweeps a source alone, and makes the target and "
+                                   "walls that are not given")
+                               .remedy("name the source, given walls, and no other role, class or reading"));
+    const topology::OpenVolume open = topology::open_volume(model, {request.roles->source, {}, {}}, context);
     auto swept = std::make_shared<closure::SweptSource>(
-        closure::swept_source(model, std::move(open), *request.along, context));
+        closure::swept_source(model, open, *request.along, context));
     swept->sets = edge_sets(swept->source.model, request.decks, request.scale);
-    note_node_sets(swept->source.model, request, context);
+    const auto* const normals = std::get_if<closure::Along::Normals>(&request.along->course);
+    if (normals != nullptr && normals->inside)
+        note_node_sets(open.model, request, "the source is moved", context);
+    else if (swept->on_axis)
+        note_node_sets(open.model, request, "the source has edges on the axis", context);
+    if (request.roles->walls.empty()) return swept;
+    if (swept->full_turn || swept->on_axis)
+        throw InvalidInput(Message("closure.along_walls",
+                                   "open_volume: given walls do not go along a full turn, "
+                                   "or a turn of a source with edges on its axis")
+                               .remedy("leave out the walls"));
+    swept->walls = topology::extract(model, request.roles->walls);
     return swept;
 }
 

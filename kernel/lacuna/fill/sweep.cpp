@@ -8,6 +8,7 @@
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/fill/describe.h>
+#include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/members.h>
 #include <lacuna/io/shared/deck_middles.h>
 #include <lacuna/surface/shared/default_size.h>
@@ -90,6 +91,7 @@ Filled sweep_whole(const Volume& volume, sweep::SweepOptions options, const RunC
     keep_given_middles(sealed, options.second_order);
     FilledVolume mesh{sweep::sweep(sealed.volume, options, context), sealed.material, sealed.unit};
     report_closure(sealed, mesh.swept.report, context);
+    mesh.columns = column_sets(sealed, mesh.swept);
     if (!sealed.name.empty()) mesh.swept.mesh.volume_groups = {sealed.name};
     Filled filled{{}, std::move(mesh)};
     filled.volumes.push_back(std::move(sealed));

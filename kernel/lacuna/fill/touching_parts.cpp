@@ -79,34 +79,6 @@ void keep_near(std::vector<Body>& bodies)
     bodies = std::move(kept);
 }
 
-/// Add the faces of a model; edges made by imprints become given ones.
-void add(ModelBuilder& builder, const Model& more)
-{
-    const auto points = static_cast<Index>(builder.points.size());
-    const std::size_t vertices = builder.vertices.size(), edges = builder.edges.size();
-    const auto moved = [&](Index& p) { p += points; };
-    builder.points.insert(builder.points.end(), more.points.begin(), more.points.end());
-    for (Vertex vertex : more.vertices) {
-        moved(vertex.point);
-        vertex.origin = Origin::given;
-        builder.vertices.push_back(vertex);
-    }
-    for (Edge edge : more.edges) {
-        edge.from = VertexId(edge.from.index() + vertices);
-        edge.to = VertexId(edge.to.index() + vertices);
-        std::ranges::for_each(edge.points, moved);
-        edge.origin = Origin::given;
-        builder.edges.push_back(std::move(edge));
-    }
-    for (Face face : more.faces) {
-        for (Loop& loop : face.loops)
-            for (EdgeUse& use : loop.uses) use.edge = EdgeId(use.edge.index() + edges);
-        for (Triangle& t : face.triangles) std::ranges::for_each(t, moved);
-        for (Quad& q : face.given_quads) std::ranges::for_each(q, moved);
-        builder.faces.push_back(std::move(face));
-    }
-}
-
 /// An edge with an exact curve, and its points.
 struct CurvedEdge {
     Edge edge;
@@ -286,7 +258,7 @@ private:
                 kept.push_back(face);
                 was.push_back(original(b, face));
             }
-            add(parts, extract(volumes_[b].model, kept));
+            add_model(parts, extract(volumes_[b].model, kept));
         }
         // Tags tell the faces that are left after stitching.
         for (std::size_t f = 0; f < was.size(); ++f) parts.faces[f].tag = static_cast<int>(f);
@@ -311,7 +283,7 @@ private:
             result.faces_of[face.index()].emplace_back(whole.faces.size() + others.size());
             others.push_back(face);
         }
-        add(whole, extract(model_, others));
+        add_model(whole, extract(model_, others));
         make_tags_unique(whole.edges);
         make_tags_unique(whole.vertices);
         result.model = std::move(whole).finish();
@@ -354,6 +326,33 @@ std::optional<JoinedParts> leave_out_shared_faces(const Model& model, const std:
     result.note = formatted("note: {} lies between two solids and does not bound the volume",
                             entity_of(model, shared.front()));
     return result;
+}
+
+void add_model(ModelBuilder& builder, const Model& more)
+{
+    const auto points = static_cast<Index>(builder.points.size());
+    const std::size_t vertices = builder.vertices.size(), edges = builder.edges.size();
+    const auto moved = [&](Index& p) { p += points; };
+    builder.points.insert(builder.points.end(), more.points.begin(), more.points.end());
+    for (Vertex vertex : more.vertices) {
+        moved(vertex.point);
+        vertex.origin = Origin::given;
+        builder.vertices.push_back(vertex);
+    }
+    for (Edge edge : more.edges) {
+        edge.from = VertexId(edge.from.index() + vertices);
+        edge.to = VertexId(edge.to.index() + vertices);
+        std::ranges::for_each(edge.points, moved);
+        edge.origin = Origin::given;
+        builder.edges.push_back(std::move(edge));
+    }
+    for (Face face : more.faces) {
+        for (Loop& loop : face.loops)
+            for (EdgeUse& use : loop.uses) use.edge = EdgeId(use.edge.index() + edges);
+        for (Triangle& t : face.triangles) std::ranges::for_each(t, moved);
+        for (Quad& q : face.given_quads) std::ranges::for_each(q, moved);
+        builder.faces.push_back(std::move(face));
+    }
 }
 
 std::optional<JoinedParts> join_touching_parts(const Model& model, const std::vector<FaceId>& named,

@@ -7,11 +7,20 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/closure/shared/round_rims.h>
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/detail/members.h>
+#include <lacuna/fill/detail/touching_parts.h>
+#include <lacuna/geometry/shared/facet_tree.h>
+#include <lacuna/geometry/shared/polyline.h>
+#include <lacuna/healing/shared/stitch.h>
+#include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/hollows.h>
+#include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 #include <utility>
 
 namespace lacuna::fill {
@@ -62,6 +71,90 @@ void reopen(Volume& volume, const RunContext& context)
         });
     volume.volume = topology::open_volume(volume.volume.model, roles, context);
     volume.closure.reset();
+}
+
+/// Largest distance between an edge's chords and the bent line that they stand for.
+double edge_sag(const topology::Model& model)
+{
+    double sag = 0;
+    for (const topology::Edge& edge : model.edges)
+        sag = std::max(sag, geometry::sag(topology::places_at(model, edge.points)));
+    return sag;
+}
+
+/// The skin of a source swept along a path, with given walls in the places of those that the path makes.
+/// @throw NotClosed "closure.along_walls"  a given wall does not end where the path's walls end; names the
+///         place.
+closure::Closed with_given_walls(closure::Closed closed, const topology::Model& walls,
+                                 const RunContext& context)
+{
+    const topology::Model& swept = closed.volume.model;
+    // Both may have chords of the same edges along the path, of different length.
+    const double tolerance = swept.tolerance + edge_sag(swept) + edge_sag(walls);
+    const auto rims_of = [](const topology::Model& model, FaceId face) {
+        std::vector<std::vector<Vec3>> rims;
+        for (const topology::Loop& loop : model[face].loops)
+            rims.push_back(topology::loop_places(model, loop.uses));
+        return rims;
+    };
+    const std::vector<Triangle> facets = topology::facets_of(walls, topology::all_faces(walls));
+    const geometry::FacetTree given(walls.points, facets);
+    const auto is_on = [&](const Vec3& p) { return (given.closest(p).point - p).norm() <= tolerance; };
+    std::vector<FaceId> kept;
+    std::vector<Role> roles;
+    std::vector<Vec3> ends; // of segments around the walls that are replaced
+    std::vector<Triangle> segments;
+    for (const FaceId face : topology::all_faces(swept)) {
+        const auto rims = rims_of(swept, face);
+        const Role role = closed.volume.role[face.index()];
+        if (role != Role::wall || !std::ranges::all_of(rims | std::views::join, is_on)) {
+            kept.push_back(face);
+            roles.push_back(role);
+            continue;
+        }
+        for (const std::vector<Vec3>& rim : rims) {
+            const auto first = static_cast<Index>(ends.size()), count = static_cast<Index>(rim.size());
+            for (Index i = 0; i < count; ++i)
+                segments.push_back({first + i, first + (i + 1) % count, first + i});
+            ends.insert(ends.end(), rim.begin(), rim.end());
+        }
+    }
+    const auto refuse = [](const Vec3& place) {
+        throw NotClosed(
+            Message("closure.along_walls",
+                    "a given wall does not meet the other faces of the volume along this path at {}",
+                    place_with_digits(place, 4))
+                .remedy("give walls that reach from the source to the end of the path, or leave them "
+                        "out"));
+    };
+    if (segments.empty()) refuse(rims_of(walls, FaceId(0)).front().front());
+    const geometry::FacetTree around(ends, segments);
+    for (const FaceId wall : topology::all_faces(walls))
+        for (const std::vector<Vec3>& rim : rims_of(walls, wall))
+            for (const Vec3& p : rim)
+                if ((around.closest(p).point - p).norm() > tolerance) refuse(p);
+    topology::ModelBuilder builder(topology::extract(swept, kept));
+    for (topology::Edge& edge : builder.edges) {
+        // A polyline of a given wall joins an edge of the path as another polyline.
+        if (edge.origin != topology::Origin::made_void ||
+            !std::ranges::all_of(edge.points, [&](Index p) { return is_on(builder.points[index(p)]); }))
+            continue;
+        edge.curve.reset();
+        edge.params.clear();
+    }
+    add_model(builder, walls);
+    roles.resize(builder.faces.size(), Role::wall);
+    topology::Model joined = std::move(builder).finish();
+    healing::stitch(joined, tolerance, context);
+    if (joined.faces.size() != roles.size()) refuse(ends.front());
+    closed.volume.role = std::move(roles);
+    closed.volume.model = std::move(joined);
+    const topology::Model& model = closed.volume.model;
+    if (const auto free = topology::free_edges(closed.volume); !free.empty())
+        refuse(model.at(model[free.front()].points.front()));
+    topology::orient_skin(closed.volume.model, context);
+    closure::list_void(closed);
+    return closed;
 }
 
 } // namespace
@@ -149,6 +242,8 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
                                  ? closure::close_along(*volume.along, asked, context)
                                  : closure::close(volume.volume, volume.match.value_or(matching::Match{}),
                                                   asked, context);
+    if (volume.along && volume.along->walls)
+        closed = with_given_walls(std::move(closed), *volume.along->walls, context);
     volume.volume = std::move(closed.volume);
     volume.closure = std::move(closed.closure);
     return volume;

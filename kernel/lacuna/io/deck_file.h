@@ -9,13 +9,22 @@
 #include <lacuna/topology/model.h>
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace lacuna::io {
+
+/// A set of nodes of a swept mesh: those of the columns over some nodes of its first level.
+struct ColumnSet {
+    std::string name;
+    std::vector<Index> nodes{}; ///< < `HexMesh::nodes_per_layer`, rising
+    std::size_t part = 0;       ///< number of the mesh among those that are written together
+};
 
 struct MeshDeckOptions {
     DeckFormat format = DeckFormat::abaqus; ///< format of the file: nastran, abaqus, unv, msh, vtk, vtu or
@@ -31,6 +40,7 @@ struct MeshDeckOptions {
     /// Contacts of meshes with shared nodes. Formats with `Format::has_contacts` store them. In other formats
     /// only the groups of their faces are written, and a note says so.
     std::vector<mesh::ContactPair> contacts{};
+    std::vector<ColumnSet> columns{}; ///< sets of nodes besides the groups
 };
 
 /// Indices of sets in a deck, by the kind of the set and the group that it holds.
@@ -40,13 +50,17 @@ using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
 struct JoinedBefore {
     GroupSets sets{};                       ///< sets of the meshes' groups
     std::map<std::string, Index> regions{}; ///< regions, by the names of the meshes
-    /// For each mesh that joined a deck read from a file: the deck's point for each node of the mesh.
-    std::vector<std::vector<Index>> points{};
+    std::size_t meshes = 0;                 ///< number of meshes that were added
+    /// The number of each node of the next mesh among the nodes of all meshes that join a deck of a file.
+    /// Null: meshes share no nodes.
+    std::function<Index(Index node)> number{};
+    std::vector<Index> points{}; ///< by this number: the deck's point; -1: none yet
+    std::size_t of_file = 0;     ///< number of points of the deck before the first mesh
 };
 
 /// Combine a deck with the mesh that fills one of its voids into one conformal mesh. The deck keeps its
 /// numbers. Where a node of the mesh's skin coincides with a node of the deck, corner or middle, the deck's
-/// node is used.
+/// node is used. Nodes of meshes that joined before are shared only where `JoinedBefore::number` says so.
 ///
 /// Groups of the skin become sets as in `write_mesh()`; in UNV, sets of nodes. The new region gets the number
 /// after the highest property. If several nodes of the deck coincide, the skin uses the node of the elements

@@ -560,6 +560,7 @@ private:
                 parts_.push_back(number(k));
         if (keyword.starts_with("SECTION_")) highest_section_ = std::max(highest_section_, number(titled));
         if (keyword.starts_with("SET_")) highest_set_ = std::max(highest_set_, number(titled));
+        if (keyword.starts_with("CONTACT_")) highest_contact_ = std::max(highest_contact_, number(0));
     }
 
     void add_nodes()
@@ -729,15 +730,16 @@ private:
     }
 
     /// Add pairs of segment sets: the slave's is surface A, the master's is B. A tie with an offset moves no
-    /// node. If both thicknesses are negative, nodes are tied up to 0.6 times their sum, and no further.
+    /// node. With negative thicknesses (fields 3 and 4 of the third card) the distance alone decides which
+    /// nodes are tied: those up to 0.6 times the sum of both (as PyDYNA's keyword classes and OpenRadioss's
+    /// reader have it), here 1.2 times the tolerance.
     void add_contacts()
     {
-        int number = 0;
         for (const mesh::ContactPair& pair : view_->contacts) {
-            file_.add(
-                formatted("*CONTACT_{}_SURFACE_TO_SURFACE{}_ID{}{:>10}{}\n{:>10}{:>10}{:>10}{:>10}\n{:>10}\n",
-                          pair.tied ? "TIED" : "AUTOMATIC", pair.tied ? "_OFFSET" : "", end_, ++number,
-                          title(pair.name), numbers_[pair.sets[0]], numbers_[pair.sets[1]], 0, 0, 0));
+            file_.add(formatted(
+                "*CONTACT_{}_SURFACE_TO_SURFACE{}_ID{}{:>10}{}\n{:>10}{:>10}{:>10}{:>10}\n{:>10}\n",
+                pair.tied ? "TIED" : "AUTOMATIC", pair.tied ? "_OFFSET" : "", end_, ++highest_contact_,
+                title(pair.name), numbers_[pair.sets[0]], numbers_[pair.sets[1]], 0, 0, 0));
             file_.add(pair.tied ? formatted("{:>10}{:>10}{:>10.3g}{:>10.3g}\n", 1, 1, -pair.tolerance,
                                             -pair.tolerance)
                                 : formatted("{:>10}\n", 0));
@@ -753,8 +755,8 @@ private:
     std::map<Index, std::set<DeckShape>> forms_; ///< shapes of the elements in each region
     std::set<Index> cohesive_;                   ///< regions of cohesive elements
     std::vector<int> parts_;                     ///< parts that the kept text defines
-    int highest_section_ = 0, highest_set_ = 0;  ///< highest numbers in the kept text
-    std::map<std::string, std::set<int>> ids_;   ///< numbers of the sets of each keyword
+    int highest_section_ = 0, highest_set_ = 0, highest_contact_ = 0; ///< in the kept text
+    std::map<std::string, std::set<int>> ids_;                        ///< numbers of the sets of each keyword
     std::vector<DeckTag> shells_;
     std::vector<int> numbers_; ///< of the sets as written
 };

@@ -5,6 +5,7 @@
 #include <lacuna/io/detail/cell_shapes.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/side_nodes.h>
+#include <lacuna/io/detail/texts.h>
 
 #include <algorithm>
 #include <iterator>
@@ -36,29 +37,6 @@ std::size_t place_of(DeckShape shape, std::size_t k)
     return shape == DeckShape::hex27 && k >= 20 ? kCentres[k - 20] : k;
 }
 
-/// Escape a text for an attribute.
-std::string escaped(const std::string& text)
-{
-    std::string safe;
-    for (const char c : text) switch (c) {
-        case '&':
-            safe += "&amp;";
-            break;
-        case '<':
-            safe += "&lt;";
-            break;
-        case '>':
-            safe += "&gt;";
-            break;
-        case '"':
-            safe += "&quot;";
-            break;
-        default:
-            safe += c;
-        }
-    return safe;
-}
-
 class FebioWriter {
 public:
     explicit FebioWriter(const View& view) : view_(view), sides_(*view) {}
@@ -76,8 +54,8 @@ public:
         for (const mesh::ContactPair& pair : view_->contacts)
             file_.add(formatted("    <SurfacePair name=\"{}\">\n      <primary>{}</primary>\n"
                                 "      <secondary>{}</secondary>\n    </SurfacePair>\n",
-                                escaped(pair.name), escaped(surface_names_[pair.sets[0]]),
-                                escaped(surface_names_[pair.sets[1]])));
+                                xml_text(pair.name), xml_text(surface_names_[pair.sets[0]]),
+                                xml_text(surface_names_[pair.sets[1]])));
         file_.add("  </Mesh>\n  <MeshDomains>\n" + domains_ + "  </MeshDomains>\n");
         if (!axes_.empty()) {
             file_.add("  <MeshData>\n");
@@ -90,7 +68,7 @@ public:
                 file_.add(formatted(
                     "    <contact type=\"{}-elastic\" name=\"{}\" surface_pair=\"{}\">\n"
                     "      <auto_penalty>1</auto_penalty>\n{}    </contact>\n",
-                    pair.tied ? "tied" : "sliding", escaped(pair.name), escaped(pair.name),
+                    pair.tied ? "tied" : "sliding", xml_text(pair.name), xml_text(pair.name),
                     pair.tied ? formatted("      <search_radius>{}</search_radius>\n", pair.tolerance) : ""));
             file_.add("  </Contact>\n");
         }
@@ -129,8 +107,8 @@ private:
                 !(*view_->frames)[b][elements[0]].column.isZero()) // unlike cells of no thickness
                 add_axes(b, part, elements);
             file_.sections.push_back(
-                {formatted("    <Elements type=\"{}\" name=\"{}\">\n", word, escaped(part)), elements.count(),
-                 29 * kNumberBytes,
+                {formatted("    <Elements type=\"{}\" name=\"{}\">\n", word, xml_text(part)),
+                 elements.count(), 29 * kNumberBytes,
                  [view = view_, b, all = std::move(elements)](std::size_t begin, std::size_t end, char* out) {
                      all.each(begin, end, [&](std::size_t first, std::size_t last) {
                          const MeshView::Block& of = view->blocks[b];
@@ -150,7 +128,7 @@ private:
             file_.add("    </Elements>\n");
             domains_ += formatted("    <{} name=\"{}\" mat=\"{}\"/>\n",
                                   shape_info(block.shape).dimension == 3 ? "SolidDomain" : "ShellDomain",
-                                  escaped(part), escaped(material));
+                                  xml_text(part), xml_text(material));
         }
     }
 
@@ -159,7 +137,7 @@ private:
     {
         const char* const end = axes_.empty() ? "" : "    </ElementData>\n";
         axes_.push_back(
-            {formatted("{}    <ElementData type=\"mat_axis\" elem_set=\"{}\">\n", end, escaped(part)),
+            {formatted("{}    <ElementData type=\"mat_axis\" elem_set=\"{}\">\n", end, xml_text(part)),
              elements.count(), 11 * kNumberBytes,
              [view = view_, b, elements](std::size_t begin, std::size_t last, char* out) {
                  for (; begin < last; ++begin) {
@@ -209,8 +187,8 @@ private:
         std::set<std::string>& used = set.kind == SetKind::nodes ? node_sets_ : parts_;
         const std::string name = free(set.name, set.name + "_cells", used);
         file_.sections.push_back(
-            section_of_members(formatted("    <{} name=\"{}\">", word, escaped(name)), view_, s, kNumberBytes,
-                               [count = set.count](std::size_t i, DeckTag tag, char* out) {
+            section_of_members(formatted("    <{} name=\"{}\">", word, xml_text(name)), view_, s,
+                               kNumberBytes, [count = set.count](std::size_t i, DeckTag tag, char* out) {
                                    out = put_text(out, tag);
                                    if (i + 1 < count) *out++ = ',';
                                    return out;
@@ -241,7 +219,7 @@ private:
                 formatted("{} edges of shells in the set {} are not written", edges, set.name));
         if (number == 0) return;
         const std::string name = surface_names_[s] = free(set.name, set.name + "_surface", surfaces_);
-        file_.add(formatted("    <Surface name=\"{}\">\n{}    </Surface>\n", escaped(name), text));
+        file_.add(formatted("    <Surface name=\"{}\">\n{}    </Surface>\n", xml_text(name), text));
     }
 
     View view_;

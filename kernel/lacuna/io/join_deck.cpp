@@ -21,9 +21,20 @@ namespace {
 template <class Mesh>
 class Joiner {
 public:
-    Joiner(const Deck& deck, const topology::Model& model, double scale, const Mesh& mesh)
-        : deck_(deck), model_(model), scale_(scale), mesh_(mesh)
+    /// @param before  null: no mesh joined the deck before
+    Joiner(const Deck& deck, const topology::Model& model, double scale, const Mesh& mesh,
+           const JoinedBefore* before)
+        : deck_(deck),
+          model_(model),
+          scale_(scale),
+          mesh_(mesh),
+          of_file_(before != nullptr ? before->of_file : deck.points.size()),
+          known_(mesh.node_count(), -1)
     {
+        for (std::size_t n = 0; before != nullptr && before->number && n < known_.size(); ++n)
+            if (const std::size_t number = index(before->number(static_cast<Index>(n)));
+                number < before->points.size())
+                known_[n] = before->points[number];
     }
 
     /// Whether each quad of the skin is a face of an element of the deck.
@@ -43,6 +54,9 @@ public:
         std::vector<Index> points(mesh_.nodes.size(), -1);
         for (std::size_t n = 0; n < points.size(); ++n) points[n] = point_of(n);
         join_middles(deck_, mesh_, matched_, kSamePlace * model_.diagonal, scale_, points);
+        points.resize(known_.size(), -1);
+        for (std::size_t n = mesh_.nodes.size(); n < points.size(); ++n)
+            if (known_[n] >= 0) points[n] = known_[n];
         return points;
     }
 
@@ -88,9 +102,14 @@ private:
         at_ = nodes_at(deck_, places, kSamePlace * model_.diagonal, scale_);
         node_of_.assign(deck_.points.size(), -1);
         candidates_.resize(mesh_.nodes.size());
-        for (std::size_t i = 0; i < skin_.size(); ++i)
-            for (const Index point : at_.at(i)) node_of_[index(point)] = skin_[i];
-        for (std::size_t i = 0; i < skin_.size(); ++i) candidates_[index(skin_[i])] = at_.at(i);
+        for (std::size_t i = 0; i < skin_.size(); ++i) {
+            const std::size_t node = index(skin_[i]);
+            const auto at = at_.at(i); // rising: points of meshes that joined before come last
+            const auto of_file = std::ranges::lower_bound(at, static_cast<Index>(of_file_)) - at.begin();
+            candidates_[node] = known_[node] >= 0 ? std::span<const Index>(&known_[node], 1)
+                                                  : at.first(static_cast<std::size_t>(of_file));
+            for (const Index point : candidates_[node]) node_of_[index(point)] = skin_[i];
+        }
     }
 
     /// Find the deck's faces and sides on the skin. Where points of the deck coincide, each face and side
@@ -263,8 +282,10 @@ private:
     const topology::Model& model_;
     double scale_;
     const Mesh& mesh_;
-    std::vector<Index> skin_;                        ///< nodes of the mesh's skin
-    NodesAt at_;                                     ///< points of the deck at these nodes
+    std::size_t of_file_;      ///< points of the deck that are not of meshes that joined before
+    std::vector<Index> known_; ///< for each node of the mesh: its point, if a mesh that joined before has it
+    std::vector<Index> skin_;  ///< nodes of the mesh's skin
+    NodesAt at_;               ///< points of the deck at these nodes
     std::vector<std::span<const Index>> candidates_; ///< points of the deck at each node of the mesh, in
                                                      ///< `at_`
     /// Node of the mesh at each of the deck's points; -1: none.
@@ -280,8 +301,9 @@ Deck joined(const Deck& deck, const topology::Model& model, double scale, const 
             const MeshDeckOptions& options, const RunContext& context, const Deck* gone, JoinedBefore* before)
 {
     std::vector<bool> was_there(mesh.skin_count(), false);
-    if (gone != nullptr) was_there = Joiner(*gone, model, scale, mesh).match();
-    Joiner joiner(deck, model, scale, mesh);
+    if (before != nullptr && before->meshes == 0) before->of_file = deck.points.size();
+    if (gone != nullptr) was_there = Joiner(*gone, model, scale, mesh, nullptr).match();
+    Joiner joiner(deck, model, scale, mesh, before);
     const std::vector<Index> points = joiner.points(was_there);
     joiner.note_inside(context);
     AddedMesh added{.points = points, .scale = scale};

@@ -428,10 +428,14 @@ Deck close_gap(Deck deck, const RunContext& context)
             has_any = has_any || (is_part(set, name) && !set.members.empty());
         if (!has_any) empty.push_back(name);
     }
-    std::erase_if(deck.sets, [&](const DeckSet& set) {
+    const auto is_gone = [&](const DeckSet& set) {
         return set.members.empty() && set.sides.empty() &&
                find_word(deck.gap.names, set.name) != deck.gap.names.end();
-    });
+    };
+    for (mesh::ContactPair& pair : deck.contacts)
+        for (std::size_t& set : pair.sets)
+            set -= static_cast<std::size_t>(std::ranges::count_if(std::span(deck.sets).first(set), is_gone));
+    std::erase_if(deck.sets, is_gone);
     if (deck.format == DeckFormat::abaqus)
         for (DeckText& text : deck.texts) text.text = without_sections(text.text, empty);
     deck.gap.names.clear();

@@ -104,6 +104,21 @@ struct SweptParts {
         return {std::move(cells), std::move(sides)};
     }
     [[nodiscard]] std::size_t nodes() const { return mesh::corner_count(mesh) + mesh::middle_count(mesh); }
+    /// All nodes of the columns over nodes of the first level.
+    [[nodiscard]] std::vector<Index> nodes_over(std::span<const Index> first) const
+    {
+        std::vector<Index> all;
+        const mesh::MiddlePlaces middle(mesh);
+        for (const Index node : first) {
+            for (Index level = 0; level <= mesh.layers; ++level) {
+                all.push_back(level * mesh.nodes_per_layer + node);
+                if (level < mesh.layers && mesh.order() > 1)
+                    all.push_back(static_cast<Index>(mesh::corner_count(mesh) +
+                                                     middle.upright(static_cast<std::size_t>(level), node)));
+            }
+        }
+        return all;
+    }
     void check() const { check_skin(mesh); }
 };
 
@@ -149,6 +164,7 @@ struct TetParts {
         return behind;
     }
     [[nodiscard]] std::size_t nodes() const { return mesh.node_count(); }
+    [[nodiscard]] static std::vector<Index> nodes_over(std::span<const Index>) { return {}; }
     static void check() {}
 };
 
@@ -189,12 +205,19 @@ public:
             for (const std::string& group : mesh_.volume_groups) add_volume_set(group);
         if (added_.skin_cells) add_skin_cells();
         if (!abaqus) add_groups();
+        add_columns();
         add_region_card();
         tell_names();
         tell_kept_sets();
-        if (added_.before != nullptr && (joins() || !name().empty()))
-            added_.before->regions.try_emplace(name(), region_);
-        if (added_.before != nullptr && joins()) added_.before->points.push_back(std::move(point_));
+        if (added_.before == nullptr) return;
+        JoinedBefore& before = *added_.before;
+        ++before.meshes;
+        if (joins() || !name().empty()) before.regions.try_emplace(name(), region_);
+        for (std::size_t n = 0; before.number && n < point_.size(); ++n) {
+            const std::size_t number = index(before.number(static_cast<Index>(n)));
+            if (number >= before.points.size()) before.points.resize(number + 1, -1);
+            before.points[number] = point_[n];
+        }
     }
 
 private:
@@ -563,6 +586,26 @@ private:
         return format_of(options_.format).skin == Format::Skin::nodes_and_sides;
     }
 
+    /// Add the sets of the nodes of columns. They extend sets of nodes of the same name.
+    void add_columns()
+    {
+        const std::size_t part = added_.before != nullptr ? added_.before->meshes : 0;
+        for (const ColumnSet& column : options_.columns) {
+            if (column.part != part) continue;
+            DeckSet set{.kind = DeckSet::Kind::nodes, .name = column.name};
+            for (const Index node : parts_.nodes_over(column.nodes)) set.members.push_back(point_tag(node));
+            const auto same = std::ranges::find_if(deck_.sets, [&](const DeckSet& other) {
+                return other.kind == set.kind && same_word(other.name, set.name);
+            });
+            if (same == deck_.sets.end()) {
+                add_set(set, column.name, column.name);
+                continue;
+            }
+            same->members.insert(same->members.end(), set.members.begin(), set.members.end());
+            tidy(*same);
+        }
+    }
+
     void add_group(const std::string& name, const std::vector<std::uint32_t>& quads)
     {
         DeckSet set;
@@ -756,17 +799,6 @@ std::vector<Quad> numbered_skin(const mesh::HexMesh& mesh, const Number& number)
     return skin;
 }
 
-/// List contact pairs with the sets of their sides.
-void add_contacts(Deck& deck, const MeshDeckOptions& options, const JoinedBefore& before)
-{
-    deck.contacts = options.contacts;
-    for (mesh::ContactPair& pair : deck.contacts)
-        for (const std::size_t s : {0, 1})
-            if (const auto set = before.sets.find({DeckSet::Kind::sides, pair.groups[s]});
-                set != before.sets.end())
-                pair.sets[s] = set->second;
-}
-
 /// An empty deck of a format.
 Deck new_deck(DeckFormat format)
 {
@@ -778,6 +810,16 @@ Deck new_deck(DeckFormat format)
 }
 
 } // namespace
+
+void add_contacts(Deck& deck, std::span<const mesh::ContactPair> pairs, const JoinedBefore& before)
+{
+    deck.contacts.assign(pairs.begin(), pairs.end());
+    for (mesh::ContactPair& pair : deck.contacts)
+        for (const std::size_t s : {0, 1})
+            if (const auto set = before.sets.find({DeckSet::Kind::sides, pair.groups[s]});
+                set != before.sets.end())
+                pair.sets[s] = set->second;
+}
 
 Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool interfaces,
                        const RunContext& context)
@@ -810,7 +852,7 @@ Deck deck_without_bulk(std::span<BulkPart> parts, MeshDeckOptions options, bool 
         tidy(place.sets);
         options.first_node = options.first_cell = 0;
     }
-    add_contacts(deck, options, before);
+    add_contacts(deck, options.contacts, before);
     return deck;
 }
 
@@ -860,7 +902,7 @@ Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedT
     };
     for (std::size_t p = 0; p < swept.size(); ++p) add(SweptParts{swept[p].mesh}, p);
     for (std::size_t t = 0; t < tets.size(); ++t) add(TetParts{tets[t].mesh}, swept.size() + t);
-    add_contacts(deck, options, before);
+    add_contacts(deck, options.contacts, before);
     return deck;
 }
 
@@ -869,6 +911,7 @@ void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region
     const auto is_taken = [&](const std::string& name) {
         return std::ranges::any_of(deck.sets, [&](const DeckSet& set) { return same_word(set.name, name); });
     };
+    if (cells.empty()) return;
     const std::string name = free_name(region, deck.format, is_taken);
     deck.regions.push_back({highest_tag(deck.regions) + 1, name, {}});
     DeckTag tag = 0;

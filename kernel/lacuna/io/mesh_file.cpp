@@ -36,6 +36,14 @@ void tell_contacts(const Format& format, const mesh::MeshView& view, const MeshF
          path, context, team);
 }
 
+/// Note sets of columns that the format does not hold.
+void note_columns(const Format& format, const MeshDeckOptions& deck, std::vector<std::string>& notes)
+{
+    if (deck.columns.empty() || (format.is_numbered && format.has_node_sets)) return;
+    notes.push_back(formatted("sets of nodes are not written: {}",
+                              short_list(deck.columns, [](const ColumnSet& set) { return set.name; })));
+}
+
 void check_version(const Format& format, const MeshFileOptions& options)
 {
     if (!format.has_option("version")) return;
@@ -90,6 +98,7 @@ void write_as_deck(const Format& format, std::span<BulkPart> parts, const Output
     if (format.is_folder && !options.periodic.empty())
         notes.emplace_back(
             "pairs of periodic nodes are not written: make the patches cyclic with createPatch");
+    note_columns(format, deck_options, notes);
     write_view(
         row_of(format), view, [&] { return parts_of(*view, parts, options.partition); }, notes, options, path,
         context, team);
@@ -109,9 +118,11 @@ void write_swept(const Format& format, const mesh::HexMesh& mesh, std::unique_pt
     const std::shared_ptr<mesh::MeshView> view = view_of(mesh, *nodes, fields);
     const BulkPart whole{mesh, nullptr, nullptr};
     if (options.orientation) add_orientation({&whole, 1}, true, *view);
+    std::vector<std::string> notes;
+    note_columns(format, deck, notes);
     write_view(
-        row_of(format), view, [&] { return parts_of(mesh, options.partition); }, {}, options, path, context,
-        team);
+        row_of(format), view, [&] { return parts_of(mesh, options.partition); }, notes, options, path,
+        context, team);
 }
 
 void note_sets(const Format& format, const Deck& deck, std::vector<std::string>& notes)

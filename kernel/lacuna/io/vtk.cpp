@@ -4,6 +4,7 @@
 #include <lacuna/core/message.h>
 #include <lacuna/core/shared/team.h>
 #include <lacuna/io/detail/cell_shapes.h>
+#include <lacuna/io/detail/texts.h>
 #include <lacuna/io/detail/view_piece.h>
 
 #include <algorithm>
@@ -121,22 +122,6 @@ struct VtuArray {
     }
 };
 
-std::string escaped(std::string_view name)
-{
-    std::string text;
-    for (const char c : name) {
-        if (c == '&')
-            text += "&amp;";
-        else if (c == '<')
-            text += "&lt;";
-        else if (c == '"')
-            text += "&quot;";
-        else
-            text += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-    }
-    return text;
-}
-
 /// Choose the order of the arrays in the appended data. meshio 5 finds an array by its offset. It reads a
 /// wrong array if the offset equals the base64 offset of an earlier array. The order is changed to avoid such
 /// equal offsets.
@@ -199,7 +184,7 @@ std::string pvtu_head(const std::vector<VtuArray>& arrays, int ghosts)
 std::string pvtu_end(const std::vector<std::string>& pieces)
 {
     std::string text;
-    for (const std::string& name : pieces) text += "<Piece Source=\"" + escaped(name) + "\"/>\n";
+    for (const std::string& name : pieces) text += "<Piece Source=\"" + xml_text(name) + "\"/>\n";
     return text + "</PUnstructuredGrid>\n</VTKFile>\n";
 }
 
@@ -216,7 +201,7 @@ std::vector<Section> xml_sections(const MeshView& view, std::vector<VtuArray> ar
     // `order_behind()`.
     for (const auto& [name, values] : view.lists) {
         text += formatted("<DataArray type=\"Int32\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">",
-                          escaped(name), values.size());
+                          xml_text(name), values.size());
         for (const int value : values) text.append(" ").append(std::to_string(value));
         text += "</DataArray>\n";
     }

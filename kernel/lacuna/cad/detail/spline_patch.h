@@ -20,8 +20,6 @@ using cad_protocol::SplineSurfaceData;
 SplineAxisData even_axis(std::size_t count);
 /// Axis with `spans` knot spans of equal length in [0, 1]; it has spans + degree poles.
 SplineAxisData axis_of_spans(std::size_t spans, int degree);
-/// Values of all basis functions at a parameter: one for each pole.
-Eigen::VectorXd basis(const SplineAxisData& axis, double parameter);
 /// The values of all basis functions at several parameters: one row for each parameter.
 Eigen::MatrixXd basis_rows(const SplineAxisData& axis, std::span<const double> parameters);
 Vec3 point_at(const SplineCurveData& curve, double parameter);
@@ -37,9 +35,14 @@ using CurveFunction = std::function<std::vector<Vec3>(std::span<const double>)>;
 using SurfaceFunction =
     std::function<std::vector<Vec3>(std::span<const double> u, std::span<const double> v)>;
 
-/// Interpolate a function at equidistant parameters. Their number is doubled until, half way between them,
-/// the spline deviates by at most `precision`, or until a maximum is reached. A straight line gets degree 1.
-SplineCurveData approximate(const CurveFunction& function, double precision);
-SplineSurfaceData approximate(const SurfaceFunction& function, double precision);
+/// Default limit on the intervals between the interpolated points of a spline: enough for ten turns.
+inline constexpr std::size_t kMostIntervals = 512;
+/// Interpolate a function at equidistant parameters. The number of intervals is doubled until, half way
+/// between the points, the spline deviates by at most `precision`, or until there are `most`. A straight line
+/// gets degree 1.
+SplineCurveData approximate(const CurveFunction& function, double precision,
+                            std::size_t most = kMostIntervals);
+SplineSurfaceData approximate(const SurfaceFunction& function, double precision,
+                              std::size_t most = kMostIntervals);
 
 } // namespace lacuna::cad

@@ -25,6 +25,8 @@ struct SweptSource {
     /// Set if edges of the source lie on the axis of its turn. Such a volume is swept with wedges
     /// (`sweep/shared/turn_at_axis.h`), and not sealed.
     std::optional<Along::Axis> on_axis{};
+    /// Given walls alone, which replace the walls that the motion makes in their places; none: empty.
+    std::optional<topology::Model> walls{};
 };
 
 /// Give a source the motion along a path.
@@ -49,6 +51,9 @@ void refuse_edges_on_axis(const SweptSource& swept);
 /// @throw NotClosed "closure.along_folds"  the path bends within the width of the source, or layers along the
 ///         normals would fold. "closure.along_crosses"  the volume would cross itself. Both name the place.
 Closed close_along(const SweptSource& swept, const CloseOptions& options, const RunContext& context);
+
+/// Set the void edges and faces of a closure, and whether the volume is watertight, from the volume.
+void list_void(Closed& closed);
 
 /// The two halves of a full turn, sealed. They share both ends.
 std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& context);

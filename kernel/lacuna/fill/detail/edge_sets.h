@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/fill/filled.h>
+#include <lacuna/fill/volume.h>
 #include <lacuna/io/deck.h>
 #include <lacuna/topology/model.h>
 
@@ -19,5 +21,9 @@ namespace lacuna::fill {
 std::map<EdgeId, std::vector<std::string>> edge_sets(topology::Model& model,
                                                      std::span<const std::shared_ptr<const io::Deck>> decks,
                                                      double scale);
+
+/// For a volume that is swept from a source alone: the node sets of its decks that hold nodes of the source,
+/// as sets of the columns over these nodes. Otherwise empty.
+std::vector<io::ColumnSet> column_sets(const Volume& volume, const sweep::Swept& swept);
 
 } // namespace lacuna::fill

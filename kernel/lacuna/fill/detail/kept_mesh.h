@@ -28,7 +28,8 @@ struct KeptMesh {
     std::string unit;
     std::string whole;   ///< volume that this mesh is a piece of; empty: the mesh is no piece
     bool copied = false; ///< as in `FilledVolume`
-    std::string turn_of; ///< for a piece of a full turn: region of the whole turn
+    std::vector<io::ColumnSet> columns{}; ///< likewise
+    std::string turn_of;                  ///< for a piece of a full turn: region of the whole turn
 };
 
 std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh);

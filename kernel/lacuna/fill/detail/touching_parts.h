@@ -10,6 +10,9 @@
 
 namespace lacuna::fill {
 
+/// Add the faces of a model, without joining edges. All edges and vertices become given ones.
+void add_model(topology::ModelBuilder& builder, const topology::Model& more);
+
 /// A model whose parts no longer touch: they are connected along the rims of their contacts instead.
 struct JoinedParts {
     topology::Model model;

@@ -31,6 +31,23 @@ inline void add_once(std::vector<std::string>& names, const std::string& name)
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
 }
 
+/// A text for an attribute of an XML file.
+inline std::string xml_text(std::string_view text)
+{
+    std::string safe;
+    for (const char c : text) {
+        if (c == '&')
+            safe += "&amp;";
+        else if (c == '<')
+            safe += "&lt;";
+        else if (c == '"')
+            safe += "&quot;";
+        else
+            safe += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    }
+    return safe;
+}
+
 /// Call `take(line)` for every line of a text, without the line end.
 template <class Take>
 void each_line(std::string_view text, const Take& take)

@@ -35,8 +35,10 @@ Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedT
 /// @param element  Abaqus type of the hexahedra, such as "COH3D8"
 void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region, const std::string& element);
 
-/// As `join_deck()` of `deck_file.h`, for tetrahedra and pyramids. If other parts of their mesh joined the
-/// deck before, nodes at the same place are shared with these parts.
+/// List contact pairs of meshes that were added to a deck, with the sets of their sides.
+void add_contacts(Deck& deck, std::span<const mesh::ContactPair> pairs, const JoinedBefore& before);
+
+/// As `join_deck()` of `deck_file.h`, for tetrahedra and pyramids.
 Deck join_deck(const Deck& deck, const topology::Model& model, double scale, const mesh::TetPart& mesh,
                const MeshDeckOptions& options, const RunContext& context = {}, const Deck* gone = nullptr,
                JoinedBefore* before = nullptr);
