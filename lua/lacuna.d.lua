@@ -835,7 +835,7 @@ function lacuna.assembly(volumes) end
 ---@field element? string Abaqus element type of the cells: "COH3D8", "GK3D8", or a type that begins with one of these, or "none"; default "COH3D8"
 ---@field name? string region and group of the cells; default "interface"
 
---- Duplicate the nodes of faces between two regions or layers, and insert a cell of zero thickness at each face.
+--- Duplicate the nodes of faces between two regions or layers, and insert a cell of zero thickness at each.
 ---@param mesh lacuna.Mesh|lacuna.AssemblyMesh
 ---@param options lacuna.InterfaceOptions
 ---@return lacuna.AssemblyMesh

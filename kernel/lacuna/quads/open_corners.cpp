@@ -163,4 +163,14 @@ private:
 
 void open_corners(PlanarQuads& mesh, const PlanarRegion& region) { CornerOpener(mesh, region).run(); }
 
+void pillow_folds(PlanarQuads& mesh, double least)
+{
+    for (std::size_t q = 0, n = mesh.quads.size(); q < n; ++q) {
+        if (scaled_jacobian(mesh.points, mesh.quads[q]) > least) continue;
+        const std::array<Quad, 5> made = pillow(mesh.points, mesh.quads[q]);
+        mesh.quads[q] = made[0];
+        mesh.quads.insert(mesh.quads.end(), made.begin() + 1, made.end());
+    }
+}
+
 } // namespace lacuna::quads::paving

@@ -30,18 +30,27 @@ bool is_conforming(const PlanarQuads& mesh)
     return std::ranges::find(opposite, mesh::kBadSide) == opposite.end();
 }
 
-/// Open folded quads by cleaning, then by moving nodes.
+/// Open folded quads by moving nodes, then by adding nodes (pillows).
 void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
 {
-    if (attempt.worst > setting.flat) return;
     const std::size_t fixed = setting.region.points.size();
-    clean_quads(attempt.mesh, fixed, {.size = setting.size}, context);
-    judge(attempt);
-    if (attempt.worst > setting.flat) return;
-    // Only untangle here; the opened quads are smoothed with the rest later.
-    smooth_plane(attempt.mesh.points, attempt.mesh.quads, fixed,
-                 {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
-    judge(attempt);
+    for (int round = 0; round < 2; ++round) {
+        Attempt tried = attempt;
+        if (round > 0)
+            pillow_folds(tried.mesh, setting.flat);
+        else if (tried.worst <= setting.flat)
+            clean_quads(tried.mesh, fixed, {.size = setting.size}, context);
+        judge(tried);
+        if (tried.worst <= setting.flat) {
+            // Only untangle here; the opened quads are smoothed with the rest later.
+            smooth_plane(tried.mesh.points, tried.mesh.quads, fixed,
+                         {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
+            judge(tried);
+        }
+        const bool better = round == 0 || tried.worst > attempt.worst;
+        if (better) attempt = std::move(tried);
+        if (!better || attempt.worst > setting.flat) break;
+    }
 }
 
 void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thorough,

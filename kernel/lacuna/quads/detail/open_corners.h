@@ -10,4 +10,8 @@ namespace lacuna::quads::paving {
 /// at the node is pillowed.
 void open_corners(PlanarQuads& mesh, const PlanarRegion& region);
 
+/// Pillow each quad whose smallest sine is at most `least`: put a smaller quad inside it and four quads
+/// around that one. The new nodes can move.
+void pillow_folds(PlanarQuads& mesh, double least);
+
 } // namespace lacuna::quads::paving
