@@ -136,4 +136,43 @@ Fillet{2}{13,15}{%d}]]):format(round))
     check.that(math.abs(quality.volume / (60 * 60 * 40 - taken) - 1) < 0.01, at .. ": volume")
   end
 end
+
+-- A family of such products in a carton: cylinders and boxes, rounds of 2 to 40 % of the side, on the floor,
+-- hovering and tilted. A box on the floor is refused: the rounds of its corners meet the floor in one vertex.
+local tried, meshed = 0, 0
+for n = 1, 200, check.whole and 1 or 67 do
+  local draw = check.random(n)
+  local is_box, place = n % 2 == 0, n // 2 % 3
+  local a, b, h, lift = draw(16, 30), draw(16, 30), draw(12, 24), place > 0 and draw(6, 12) or 0
+  local round = draw(0.02, 0.4) * math.min(a, h, is_box and b or h)
+  local solid = is_box
+    and ("Box(2) = {%g,%g,%g, %g,%g,%g};\nFillet{2}{13:24}{%g}"):format(-a / 2, -b / 2, lift, a, b, h, round)
+    or ("Cylinder(2) = {0,0,%g, 0,0,%g, %g};\nFillet{2}{13,15}{%g}"):format(lift, h, a / 2, round)
+  local taken
+  if is_box then
+    local u, v, w = a - 2 * round, b - 2 * round, h - 2 * round
+    taken = u * v * w + 2 * round * (u * v + v * w + w * u) + math.pi * round ^ 2 * (u + v + w)
+      + 4 / 3 * math.pi * round ^ 3
+  else
+    taken = math.pi * a ^ 2 / 4 * h - (4 - math.pi) * math.pi * (a / 2 - 0.2234 * round) * round ^ 2
+  end
+  local turn = ""
+  if place == 2 then
+    local way = draw(0, 2 * math.pi)
+    turn = ("Rotate{{%g,%g,0},{0,0,%g},%g}{Volume{2};}"):format(math.cos(way), math.sin(way), lift + h / 2,
+      math.rad(draw(1, 10)))
+  end
+  local path = params.scratch .. "/filleted.geo"
+  check.write(path, 'SetFactory("OpenCASCADE");\nBox(1) = {-35,-35,0, 70,70,55};\n' .. solid .. "\n" .. turn)
+  tried = tried + 1
+  local fine, mesh = pcall(function() return lacuna.load(path):open_volume():sweep { size = 4 } end)
+  if fine then
+    meshed = meshed + 1
+    local quality = mesh:quality()
+    check.that(quality.certified and quality.min_scaled_jacobian >= 0.1,
+      ("filleted product %d: %g"):format(n, quality.min_scaled_jacobian))
+    check.that(math.abs(quality.volume / (70 * 70 * 55 - taken) - 1) < 0.01, n .. ": volume")
+  end
+end
+check.that(meshed >= 0.8 * tried, ("%d of %d filleted products meshed"):format(meshed, tried))
 check.done()

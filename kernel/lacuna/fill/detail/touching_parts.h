@@ -21,8 +21,8 @@ struct JoinedParts {
     std::string note; ///< names a pair of faces in contact
 };
 
-/// Leave out the faces that solids share where one stands on all of the other's top: three faces of the volume
-/// meet at each of their edges, so that two are left.
+/// Leave out the faces that solids share where one stands on all of the other's top: three faces of the
+/// volume meet at each of their edges, so that two are left.
 /// @param named  faces of the volume, or its ends if `all_follow`: these stay, and all faces may be walls.
 /// @return  empty if there are none.
 std::optional<JoinedParts> leave_out_shared_faces(const topology::Model& model,
