@@ -342,6 +342,11 @@ do
   local turned = plate:open_volume { source = 1, along = { axis = { { -3, 0, 0 }, Y }, angle = 360 } }
     :sweep { layers = 12 }
   check_sets(turned, 3)
+  local of_turn = {}
+  for _, group in ipairs(turned:groups()) do of_turn[group.name] = group.cells end
+  check.equal(of_turn.BOTTOM, 24, "sets of both halves of a full turn")
+  check.equal(of_turn.LEFT, 12)
+  check.equal(of_turn.RAIL, 24)
   local bent = plate:open_volume { source = 1, along = { vector = { 0, 0, 3 } } }
     :sweep { layers = 3, order = 2, serendipity = true }
   bent:write(deck .. ".inp")

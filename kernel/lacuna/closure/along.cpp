@@ -405,8 +405,7 @@ std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& 
     SweptSource half{swept.source, geometry::part_of_motion(swept.motion, 0, kHalf), false, swept.sets};
     StepPiece first{.volume = close_along(half, {}, context).volume, .turn_to = kHalf};
     const Model& model = first.volume.model;
-    // The source of the second half is the target of the first half. Its edges have the order of the source's
-    // edges.
+    // The source of the second half is the target of the first half. Its edges have another order.
     half.source.model = extract(model, first.volume.faces(Role::target));
     half.source.role.assign(half.source.model.faces.size(), Role::source);
     half.motion = geometry::part_of_motion(swept.motion, kHalf, 1);
