@@ -731,8 +731,8 @@ private:
 
     /// Add pairs of segment sets: the slave's is surface A, the master's is B. A tie with an offset moves no
     /// node. With negative thicknesses (fields 3 and 4 of the third card) the distance alone decides which
-    /// nodes are tied: those up to 0.6 times the sum of both (as PyDYNA's keyword classes and OpenRadioss's
-    /// reader have it), here 1.2 times the tolerance.
+    /// nodes are tied (PyDYNA's keyword classes). The limit is the sum of both, or 0.6 times the sum in
+    /// converters to OpenRadioss; half the sum is the tolerance, which is below either.
     void add_contacts()
     {
         for (const mesh::ContactPair& pair : view_->contacts) {
