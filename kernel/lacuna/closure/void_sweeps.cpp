@@ -27,7 +27,7 @@ constexpr std::size_t kMostOthers = 3;
 /// Whether a sweep of a closed skin with ends at several heights can be cut into pieces.
 bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context)
 {
-    OpenVolume volume{skin, std::vector<Role>(skin.faces.size())};
+    OpenVolume volume{skin, std::vector<Role>(skin.faces.size()), std::nullopt};
     set_ends(volume, roles);
     return unless_refused([&] {
                return has_steps(volume, context) ? cut_steps(volume, context) : std::vector<StepPiece>();

@@ -506,7 +506,7 @@ void BulkData::finish()
     // No continuation with these names exists, so the names were only remarks: pass on the cards as they are.
     std::map<std::uint64_t, const Waiting*> in_order;
     for (const auto& [name, waiting] : cards_) in_order.emplace(waiting.card.place.number(), &waiting);
-    for (const auto& [place, waiting] : in_order) hand_over(waiting->card, waiting->use);
+    for (const auto& [number, waiting] : in_order) hand_over(waiting->card, waiting->use);
     cards_.clear();
 }
 

@@ -305,7 +305,8 @@ std::string orientation_text(const MeshView& view)
 
 DeckFile nastran_file(const View& view, const MeshFileOptions& options, const mesh::ViewParts* /*parts*/)
 {
-    static const MeshView::KeptText own{.head = "BEGIN BULK\n", .cards = {}, .tail = "ENDDATA\n"};
+    static const MeshView::KeptText own{
+        .head = "BEGIN BULK\n", .cards = {}, .tail = "ENDDATA\n", .instance = {}, .points = {}, .cells = {}};
     const MeshView::KeptText& kept = view->kept ? *view->kept : own;
     DeckFile file;
     file.add(kept.head + unit_comment(*view, "$", options.unit));

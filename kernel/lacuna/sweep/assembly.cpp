@@ -920,7 +920,7 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
         } catch (const MemberFailed& failed) {
             // Its index among all members; `failed.member` counts only those that are swept.
             std::size_t m = 0;
-            for (std::size_t before = 0; left[m].unswept || before++ < failed.member;) ++m;
+            for (std::size_t swept_members = 0; left[m].unswept || swept_members++ < failed.member;) ++m;
             AssemblyMember& member = left[m];
             const Fallback fallback = member.options.fallback;
             if (fallback == Fallback::wedges && !member.options.wedges) {

@@ -803,7 +803,7 @@ private:
             }
         }
         if (const auto found = bias_.find(same_.find(e)); found != bias_.end() && !edge.closed) {
-            at = layer_heights({.count = count, .bias = found->second.second});
+            at = layer_heights({.count = count, .bias = found->second.second, .heights = {}});
             if (!run_alike(edges_[found->second.first], edge)) reverse_heights(at);
         }
         if (const auto found = rows_.find(same_.find(e)); found != rows_.end())

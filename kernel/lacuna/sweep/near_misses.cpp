@@ -103,7 +103,7 @@ public:
                 refuse_parted(faces, overlap);
                 continue;
             }
-            NearMiss miss{pair_.a, pair_.b, faces.first, faces.second};
+            NearMiss miss{pair_.a, pair_.b, faces.first, faces.second, std::nullopt};
             miss.least = overlap.least;
             miss.reach_in = overlap.depth > overlap.gap;
             miss.width = std::max(overlap.depth, overlap.gap);
@@ -250,8 +250,7 @@ private:
                 continue;
             const FaceId face = uses.front().face;
             const bool of_a = own == pair_.a;
-            NearMiss miss{pair_.a, pair_.b, of_a ? face : nearest, of_a ? nearest : face};
-            miss.edge = EdgeId(e);
+            NearMiss miss{pair_.a, pair_.b, of_a ? face : nearest, of_a ? nearest : face, EdgeId(e)};
             miss.edge_of = own;
             miss.least = least;
             miss.width = most;
