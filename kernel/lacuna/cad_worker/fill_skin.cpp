@@ -49,8 +49,8 @@ int add_volume(const FillSkinRequest& skin, const UnitFrame& frame)
         const Vec3 inside = frame.inside(p);
         at.insert(at.end(), inside.begin(), inside.end());
     }
-    // Each shell is a face and a loop of its own. Gmsh identifies a volume by the faces around it, and would
-    // fill a cavity that the same face bounds.
+    // Each shell is a face and a loop of its own. Gmsh identifies a volume by its faces: if one face held the
+    // outer shell and the shell of a cavity, Gmsh would fill the cavity too.
     std::vector<int> loops;
     for (const std::vector<Triangle>& shell : skin.shells) {
         const int face = gmsh::model::addDiscreteEntity(2);

@@ -42,8 +42,8 @@ VoidFilling parallel_cap(const OpenVolume& volume, const std::vector<Loop>& loop
     const Follower follower(capped, matching::side_lines(capped, context), context);
     if (!follower.leads()) {
         throw NotClosed(Message("closure.nothing_parallel",
-                                "{}{} cannot be parallel to the given end: the walls do not determine its "
-                                "motion to their rim",
+                                "{}{} cannot be parallel to the given end: the walls do not determine the "
+                                "motion that takes the given end to their other rim",
                                 face.words, face.entity)
                             .remedy("use cap = \"flat\""));
     }

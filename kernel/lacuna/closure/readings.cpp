@@ -117,7 +117,8 @@ std::optional<Reading> without_ends(FlatFilling filled, const RunContext& contex
     return reading;
 }
 
-/// The void whose missing faces all follow from their rims. The sealed skin is then read as a whole body.
+/// The reading in which the rims determine all missing faces. Its ends are those that are found on the sealed
+/// skin, as for a volume without missing faces.
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {

@@ -315,9 +315,9 @@ FilledParts divided_at(FilledParts mesh, InterfaceFaces& faces)
         if (level < 1 || level >= whole.mesh.layers)
             throw InvalidInput(
                 Message("fill.interface_levels",
-                        "split_interface: level {} is not inside the mesh of {} layers", found(level),
-                        whole.mesh.layers)
-                    .remedy("name a number of layers from 1 to {}", needed(whole.mesh.layers - 1)));
+                        "split_interface: a split above layer {} is requested, but the mesh has {} layers",
+                        found(level), whole.mesh.layers)
+                    .remedy("name a layer from 1 to {}", needed(whole.mesh.layers - 1)));
     std::vector<int> levels{0};
     levels.insert(levels.end(), faces.levels.begin(), faces.levels.end());
     levels.push_back(whole.mesh.layers);

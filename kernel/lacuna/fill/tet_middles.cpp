@@ -22,8 +22,9 @@ using namespace topology;
 
 namespace {
 
-/// Call `visit(from, to, place)` for the sides of all cells, then of the skin, with the place of each middle
-/// node in the two lists of `TetMiddles`, one after the other. @return  their lengths
+/// Call `visit(from, to, place)` for the sides of all cells, then of the skin. `place` is the index of the
+/// side's middle node in `TetMiddles::of_cells` followed by `TetMiddles::of_skin`.
+/// @return  the lengths of these two lists
 template <class Visit>
 std::pair<std::size_t, std::size_t> each_side(const mesh::TetPart& mesh, const Visit& visit)
 {

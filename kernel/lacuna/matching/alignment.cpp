@@ -64,7 +64,7 @@ std::vector<Vec3> with(std::vector<Vec3> points, const std::vector<Vec3>& more)
 /// Number of possible starts on a loop paired by length: its given nodes, or samples.
 std::size_t places_of(const LoopShape& target) { return target.by_sides ? given_sides(target) : kSamples; }
 
-/// The samples of a target under an alignment, which correspond to those of the source from its start.
+/// The samples of a target under an alignment, in the order of the corresponding `source_samples()`.
 std::vector<Vec3> target_samples(const LoopShape& target, const Alignment& alignment, bool by_length)
 {
     return by_length ? even_samples(target, target.length * alignment.offset, alignment.backward)

@@ -71,7 +71,7 @@ int CleanMesh::right_angles(Index p) const
         any = true;
         last = at(net_.from(QuadNet::before(side))) - at(p);
     });
-    // An angle halfway between two numbers suits both, so the present number is kept.
+    // An angle about halfway between two multiples of 90° suits either valence, so the present one is kept.
     const double fit = turn_between(first, last) / kRightAngle;
     const int valence = net_.valence(p);
     return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));

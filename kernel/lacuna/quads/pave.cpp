@@ -108,12 +108,13 @@ void check(const PlanarRegion& region)
 Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     check(region);
-    if (options.exact_rows < 0 || (options.exact_rows > 0 && !region.row_height)) {
-        throw InvalidInput(Message("surface.pave_rows",
-                                   "{} rows of exact height are requested for a region {} a row height",
-                                   found(options.exact_rows), region.row_height ? "with" : "without")
-                               .remedy("give a height and 0 rows or more"));
-    }
+    if (options.exact_rows < 0)
+        throw InvalidInput("surface.pave_rows", "exact_rows must be 0 or more, not {}",
+                           found(options.exact_rows));
+    if (options.exact_rows > 0 && !region.row_height)
+        throw InvalidInput(Message("surface.pave_rows", "exact_rows = {}, but the region has no row_height",
+                                   found(options.exact_rows))
+                               .remedy("give a row_height, or exact_rows = 0"));
     if (options.exact_rows > 0) return pave_inside_rows(region, options, context);
     AttemptChooser chooser(region, options, context);
     chooser.run();

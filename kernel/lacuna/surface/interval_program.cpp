@@ -87,7 +87,8 @@ public:
     }
 
     /// Descend from the rounded wishes, and write the values of the set's variables.
-    /// @return  false if the result violates a floor
+    /// @return  false if there is no integer start or coefficients leave the range, or if the result violates
+    ///          a floor or the lower bound of a variable
     bool solve(std::vector<int>& counts)
     {
         rows_of_.resize(own_.size());

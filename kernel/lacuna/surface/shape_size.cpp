@@ -156,7 +156,7 @@ private:
                 parts.pop_back();
                 const RimPoint at{a + (from + to) / 2 * along, inward,
                                   turning.between(start + from, start + to) / (to - from)};
-                // Because of its own curvature, sides of the edge are not longer than this anyway.
+                // Sides here are no longer than this anyway: by the requested size and the edge's curvature.
                 const double bend = at.curvature * sizing.curvature / kFullTurn;
                 const double most = 1 / std::max(1 / asked(at.point), bend);
                 // Places that are wider than this do not reduce the size.

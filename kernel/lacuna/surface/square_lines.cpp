@@ -34,8 +34,10 @@ constexpr double kShortest = 0.75, kLongest = 1.35;
 constexpr double kEnds = 2;
 /// Nodes move only if the largest cosine falls by this: 3°. Heuristic.
 constexpr double kWorthIt = 0.05;
-/// A grid's lines count as straight at a side if the adjacent sides deviate from their chords by at most this
-/// share of a line's length. Only then do the walls determine the sections above. Heuristic.
+/// The lines between two opposite sides of a grid count as straight if the directions of the other two sides,
+/// at both ends, deviate from their chords by at most this share of the chord. Only straight lines between
+/// rims are also squared in the sections above the source, where the walls give nothing but their ends.
+/// Heuristic.
 constexpr double kStraight = 0.1;
 using Line = SectionLine;
 

@@ -648,11 +648,12 @@ private:
             const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
             const AssemblyMember &own = members_[end.member], &other = members_[edges_[e].member];
             throw NotSweepable(
-                Message("assembly.layers_rows",
-                        "the boundary layers of {} of {} need at least {} sides on {} of {}, one "
-                        "more than rows end there, but {} are given or requested",
-                        entity_in(own, end.face), own.region, needed(taken + 1),
-                        entity_in(other, edges_[e].edge), other.region, found(count))
+                Message(
+                    "assembly.layers_rows",
+                    "the boundary layers of {} of {} need at least {} sides on {} of {}, because {} rows end "
+                    "there, but it has {}",
+                    entity_in(own, end.face), own.region, needed(taken + 1), entity_in(other, edges_[e].edge),
+                    other.region, taken, found(count))
                     .remedy("use a smaller 'count' of rows, or more layers or intervals there"));
         }
     }

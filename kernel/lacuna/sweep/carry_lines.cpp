@@ -259,10 +259,13 @@ public:
         bool changed = true;
         for (int round = 0; changed; ++round) {
             if (round == kRounds)
-                throw NotSweepable(Message("sweep.lines_go_round",
-                                           "imprinting the lines of shared ends does not terminate: "
-                                           "each line requires another one")
-                                       .remedy("share these faces as a whole"));
+                throw NotSweepable(
+                    Message("sweep.lines_go_round",
+                            "the lines inside the ends of these volumes cannot be imprinted on "
+                            "their neighbours: after {} rounds, every line still requires "
+                            "another line",
+                            kRounds)
+                        .remedy("divide the volumes so that neighbours share whole faces"));
             changed = false;
             for (std::size_t m = 0; m < volumes_.size(); ++m) {
                 check_cancelled(context_);

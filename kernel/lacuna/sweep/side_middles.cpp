@@ -62,8 +62,8 @@ public:
     }
 
 private:
-    /// A side lies on an edge if its nodes are near it, as a share of the side; nodes may be off the edge's
-    /// chords by their sag.
+    /// Largest distance of a side's nodes from an edge on which the side lies, as a share of the side's
+    /// length. Nodes on a curved edge are off its chords by the sag of the chords.
     static constexpr double kNear = 0.1;
 
     struct Curve {

@@ -230,8 +230,8 @@ Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunConte
 /// the actual error was up to 1.6 times the estimate.
 constexpr double kWanted = 0.006;
 
-/// Report the volume difference, and numbers that would avoid it. The error of straight sides grows with the
-/// square of their length.
+/// Report the volume difference, and the 'size' and 'layers' that should keep it within 1 %. The error of
+/// straight sides grows with the square of their length.
 std::string volume_in_words(const Swept& swept)
 {
     const double lost = volume_lost(swept.fidelity), part = std::sqrt(kWanted / std::abs(lost));

@@ -23,19 +23,19 @@ using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 ///
 /// The best cut of a piece leaves the least length still to cut (`length_to_cut()`) in pieces without ends,
 /// which are then cut in turn. A piece has ends if `read_ends()` finds them, or if its closed skin has a
-/// sweep direction, and `can_sweep` accepts them. Cutting stops where no cut reduces that length. Cuts are
-/// undone if each of the resulting pieces lacks ends and cannot be divided at its middle or, with nothing
-/// left to cut, across an edge between coplanar faces.
+/// sweep direction, and `can_sweep` accepts them. Cutting stops where no cut reduces that length. A piece
+/// without ends that has no length left to cut is divided: at its middle, across an edge between coplanar
+/// faces, or at a centre, that is, by three planes at right angles through the centre of a sphere or the apex
+/// of a cone. A cut is undone if none of the resulting pieces has ends or is divided.
 ///
 /// If a piece is left without ends, the whole volume is tried in four other ways, in this order:
 /// - as one piece with ends along an axis, the rounds at their rims divided (`split_round_rims()`);
 /// - cut in steps between all faces that face along an axis (`cut_steps()`);
 /// - divided at its middle (`midpoint_blocks()`);
-/// - with nothing left to cut, cut by three planes at right angles through the centre of a sphere or the apex
-///   of a cone, into parts that have ends or are divided at their middles.
+/// - divided at a centre, if no cut was made and no length is left to cut.
 ///
-/// If none of these succeeds, each piece without ends is divided at its own middle or, with nothing left to
-/// cut, at such a centre, where that is possible.
+/// If none of these succeeds, the pieces of the cuts are kept. Those that still have a length to cut are
+/// divided at their middles where that is possible.
 /// @param least  the least distance between a cut and an edge beside it, unless the volume itself is that
 ///               thin there [model length].
 /// @return  pieces with their ends; those without ends cannot be swept. The volume itself if no cut helps.

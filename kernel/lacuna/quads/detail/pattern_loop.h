@@ -97,8 +97,8 @@ std::vector<int> rows_to_try(int fitting);
 /// @pre  `loop` is unchanged since `head_loop()`.
 void set_soft_rows(PatternLoop& loop, int rows);
 
-/// Whether grid lines can follow a loop all around: the loop has no soft turns, and the grid turns at every
-/// corner that suits only one quad.
+/// Whether grid lines can follow a loop all around: the loop has no soft turns and turns by nothing in all,
+/// and the grid turns at every corner that suits only one quad.
 /// @pre  `loop` is unchanged since `head_loop()`, in a polar frame.
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop);
 

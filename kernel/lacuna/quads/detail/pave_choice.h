@@ -36,9 +36,10 @@ public:
 
     /// Run all steps below until a further one cannot improve the result.
     void run();
-    /// Try grids, then the cut quads of a coarser region. If the result is not good: with few quads, pave
-    /// with weights for few quads, without rows and with rows; then, if it is still not good, try every
-    /// promising style of rows with the default weights.
+    /// Try grids, then, with many quads, the quads of a coarser region, each cut in four. If neither is good:
+    /// with few quads, pave without rows with the weights for few quads, and with rows with the first of
+    /// `cut_weight_rows()`. If the result is poor, or there are more quads, pave with the default weights:
+    /// with rows, then without rows if that failed or if the region is small and not yet good enough.
     void try_default_weights();
     /// The score of a style with other cut weights; the attempt is not kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
@@ -113,8 +114,8 @@ private:
 /// The sets of weights with which small regions are also cut, in the order of trial.
 std::span<const CutWeights> cut_weight_rows();
 
-/// A quad counts as folded if its sine is below this value: a sweep cannot use a flatter quad. The value is
-/// lower if given corners are that sharp.
+/// A quad counts as folded if the smallest sine of its corners is below this value: a sweep cannot use a
+/// flatter quad. The value is lower if given corners are that sharp.
 double flat_below(const PlanarRegion& region);
 
 } // namespace lacuna::quads::paving

@@ -14,7 +14,7 @@ namespace lacuna::sweep {
 /// Give coincident nodes one number: nodes of shared faces, nodes on the borders of all faces, and middle
 /// nodes. Borders are included because volumes that touch along an edge share no face.
 /// @post  `number` and `nodes` of the assembly are set.
-/// @note  O(nodes + skin nodes log).
+/// @note  O(n + s log s) for n nodes, of which s lie on the skin.
 void number_nodes(SweptAssembly& assembly);
 
 /// Check that no node on the borders of a part's faces lies inside a side of another part. Volumes that touch
