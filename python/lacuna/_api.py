@@ -1421,8 +1421,8 @@ def assembly(volumes):
 
 
 def split_interface(mesh, faces, **keywords):
-    """Duplicate the nodes of faces between two regions or layers, and insert a cell of zero thickness at each
-    face.
+    """Duplicate the nodes of faces between two regions or layers, and insert a cell of zero thickness at
+    each.
 
     faces: str | int | list[str | int | list[str]]; "all", a group, or an array of groups and pairs of
         regions; in the mesh of one sweep also numbers of layers, each the number below a split

@@ -328,7 +328,7 @@ TEST_CASE("INCLUDE reads files beside the deck or below it, and no others")
     CHECK(has(read("INCLUDE '" + folder.file("outside.inc") + "'\n"), "deck's folder"));
     CHECK(has(read("INCLUDE '/etc/passwd'\n"), "deck's folder"));
     CHECK(has(read("INCLUDE 'none.inc'\n"), "there is no file"));
-    CHECK(has(read("INCLUDE 'x.bdf'\n"), "include itself"));
+    CHECK(has(read("INCLUDE 'x.bdf'\n"), "includes itself"));
     std::filesystem::create_symlink(folder.file("outside.inc"), folder.file("deck/link.inc"));
     CHECK(has(read("INCLUDE 'link.inc'\n"), "deck's folder"));
 }

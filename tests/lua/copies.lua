@@ -260,7 +260,7 @@ check.that(tostring(apart.report):find("copies come within 0.0001", 1, true), "a
 check.fails(function() one:copy {} end, "translate", "rotate", "mirror")
 check.fails(function() one:copy { translate = X, mirror = { origin, X } } end, "mirror", "translate")
 check.fails(function() one:copy { rotate = { origin, Z } } end, "angle")
-check.fails(function() one:copy { mirror = { origin, origin } } end, "no length")
+check.fails(function() one:copy { mirror = { origin, origin } } end, "a direction of length 0")
 check.fails(function() one:copy { shift = X } end, "shift", "translate")
 check.fails(function() one:pattern { translate = X } end, "count")
 check.fails(function() one:pattern { translate = X, count = 0 } end, "count")

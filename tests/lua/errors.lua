@@ -47,7 +47,7 @@ local failures = {
     parts:add_face { points = apart,
       cells = { { 1, 2, 3 }, { 4, 5, 6 } } }
     parts:faces()
-  end, "1 faces" },
+  end, "became 2" },
   { "io.no_file", function() lacuna.load "nowhere.stl" end, "nowhere.stl" },
 }
 for _, failure in ipairs(failures) do

@@ -6,6 +6,7 @@
 #include <lacuna/quads/detail/open_corners.h>
 #include <lacuna/quads/detail/pave_core.h>
 #include <lacuna/quads/detail/pave_rows.h>
+#include <lacuna/quads/detail/raise_flat_quads.h>
 #include <lacuna/quads/detail/row_heights.h>
 #include <lacuna/quads/detail/smooth_plane.h>
 #include <lacuna/quads/detail/triangle_quads.h>
@@ -36,11 +37,14 @@ void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContex
     const std::size_t fixed = setting.region.points.size();
     for (int round = 0; round < 2; ++round) {
         Attempt tried = attempt;
-        if (round > 0)
-            pillow_folds(tried.mesh, setting.flat);
-        else if (tried.worst <= setting.flat)
-            clean_quads(tried.mesh, fixed, {.size = setting.size}, context);
+        if (round > 0) pillow_folds(tried.mesh, setting.flat);
+        raise_flat_quads(tried.mesh, fixed);
         judge(tried);
+        if (tried.worst <= setting.flat && round == 0) {
+            clean_quads(tried.mesh, fixed, {.size = setting.size}, context);
+            raise_flat_quads(tried.mesh, fixed);
+            judge(tried);
+        }
         if (tried.worst <= setting.flat) {
             // Only untangle here; the opened quads are smoothed with the rest later.
             smooth_plane(tried.mesh.points, tried.mesh.quads, fixed,
