@@ -315,10 +315,10 @@ std::optional<JoinedParts> leave_out_shared_faces(const Model& model, const std:
     std::vector<FaceId> kept, shared;
     for (const FaceId face : all_faces(model)) {
         const bool is_end = all_follow && std::ranges::find(named, face) != named.end();
-        const std::vector<EdgeUse> sides = uses_of(model[face]);
-        const bool is_shared = !is_end && !sides.empty() &&
-                               std::ranges::all_of(
-                                   sides, [&](const EdgeUse& use) { return uses[use.edge.index()] == 3; });
+        const bool is_shared = !is_end && !model[face].loops.empty() &&
+                               std::ranges::all_of(uses_of(model[face]), [&](const EdgeUse& use) {
+                                   return uses[use.edge.index()] == 3;
+                               });
         if (!is_shared) result.faces_of[face.index()].emplace_back(kept.size());
         (is_shared ? shared : kept).push_back(face);
     }
