@@ -135,7 +135,9 @@ local promised = {
   ['class = "0"'] = function()
     prism():open_volume { source = "source", along = { vector = { 0, 0, 1 } }, class = "0" }
   end,
-  fill_to = function() prism():open_volume { source = "source", fill_to = { { 0, 0, 0.5 }, { 0, 0, 1 } } } end,
+  fill_to = function()
+    prism():open_volume { source = "source", walls = "auto", fill_to = { { 0, 0, 0.5 }, { 0, 0, 1 } } }
+  end,
   quads = function() return prism().quads end,
   split_interface = function() return assert(lacuna.split_interface) end,
   auto = function() volume():cut { auto = true } end,
