@@ -9,6 +9,7 @@
 #include <lacuna/matching/detail/nearest.h>
 #include <lacuna/matching/detail/problem.h>
 #include <lacuna/matching/detail/splits.h>
+#include <lacuna/topology/shared/names_of.h>
 
 #include <Eigen/Geometry>
 
@@ -363,10 +364,14 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     }
     if (result.source_loops.size() != result.target_loops.size()) {
         throw NotClosed(
-            "matching.loop_counts",
-            "the source has {} {} and the target has {}; both ends of a sweep need the same number",
-            found(result.source_loops.size()), result.source_loops.size() == 1 ? "loop" : "loops",
-            found(result.target_loops.size()));
+            Message(
+                "matching.loop_counts",
+                "the source has {} {} and the target has {}; both ends of a sweep, {} and {}, need the same "
+                "number",
+                found(result.source_loops.size()), result.source_loops.size() == 1 ? "loop" : "loops",
+                found(result.target_loops.size()), entities_of(model, volume.faces(Role::source)),
+                entities_of(model, volume.faces(Role::target)))
+                .remedy("if a body stands on an end, its top belongs to that end: name it, too"));
     }
     Problem problem = problem_of(volume, options, result, context);
     if (options.method == Method::nearest) {
