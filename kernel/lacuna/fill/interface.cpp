@@ -28,7 +28,7 @@ struct PartSkin {
 /// Corners of a side, sorted.
 Quad key_of(const mesh::CellNodes& side)
 {
-    const std::size_t corners = side.count % 4 == 3 || side.count == 6 ? 3 : 4;
+    const std::size_t corners = side.count == 3 || side.count == 6 ? 3 : 4;
     return face_key({side.node[0], side.node[1], side.node[2], side.node[corners - 1]});
 }
 
