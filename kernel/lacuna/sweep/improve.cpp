@@ -85,7 +85,8 @@ private:
 
     [[nodiscard]] bool out_of_time() const
     {
-        if (options_.spent->work > options_.work) return true;
+        // A mesh that is still folded has the limit to itself, because it would be refused.
+        if ((best_quality_.least > 0 ? options_.spent->work : work_) > options_.work) return true;
         if (!(options_.seconds > 0)) return false;
         const auto now = std::chrono::steady_clock::now();
         if (!options_.spent->start) options_.spent->start = now;
@@ -118,7 +119,9 @@ private:
         };
         x = geometry::minimise(
             [&](const Eigen::VectorXd& at, Eigen::VectorXd& gradient) {
-                options_.spent->work += static_cast<double>(region_.cells.size());
+                const auto cells = static_cast<double>(region_.cells.size());
+                work_ += cells;
+                options_.spent->work += cells;
                 return energy_(at, gradient);
             },
             std::move(x), how);
@@ -200,6 +203,7 @@ private:
     ImproveOptions options_;
     const Sliding& sliding_;
     const RunContext& context_;
+    double work_ = 0; ///< number of cell evaluations
     RegionEnergy energy_{region_, places_of(mesh_, region_), context_};
     std::vector<Vec3> best_ = places_of(mesh_, region_);
     RegionQuality best_quality_ = measure(region_, best_, context_);

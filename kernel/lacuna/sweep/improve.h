@@ -29,7 +29,8 @@ struct ImproveOptions {
     double work = 4e7;        ///< maximum number of cell evaluations, > 0; about 20 seconds of one core
     double seconds = 0;       ///< no step begins after this time, >= 0; 0: only `work` limits
     // `work` counts evaluations instead of time, so that the result is the same on every machine.
-    /// For copies of these options that share the limits `work` and `seconds`; null: each has its own.
+    /// For copies of these options that share the limits `work` and `seconds`; null: each has its own. Cells
+    /// that are folded are not subject to the shared `work`.
     std::shared_ptr<ImproveSpent> spent{};
 };
 
