@@ -35,8 +35,8 @@ class Report(list):
 
 
 class NoFaces(list):
-    """The empty result of a selection, `words`. A role refuses it by these words, as a misspelt selector would
-    else leave the role's faces out; `[]` says that there are none."""
+    """The empty result of a selection by a selector of these `words`. A role refuses it, so that a selector that
+    matches nothing is not taken for `[]`, a role without faces."""
 
     __slots__ = ("words",)
 
@@ -45,7 +45,8 @@ class NoFaces(list):
         self.words = words
 
     def __add__(self, other):
-        return other if isinstance(other, list) and not self else super().__add__(other)
+        nothing = isinstance(other, NoFaces) and not self and not other
+        return NoFaces(self.words) if nothing else super().__add__(other)
 
 
 def plain(value):

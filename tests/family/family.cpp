@@ -153,6 +153,7 @@ PrismOptions options_of(const Member& member)
             return part.role == Role::target;
         case VolumeClass::V:
             return part.role != Role::wall;
+        case VolumeClass::zero:
         case VolumeClass::closed:
             break;
         }

@@ -308,10 +308,10 @@ TEST_CASE("an MSH has a surface and physical groups for every face, named as in 
         CHECK(one.physical.size() == msh.physical.size());
         for (const auto& [tag, groups] : one.physical) {
             REQUIRE(groups.size() == 1);
-            const std::string& name = one.names.at({2, groups[0]});
-            const auto is_it = [&](int group) { return msh.names.at({2, group}) == name; };
+            const std::string& own = one.names.at({2, groups[0]});
+            const auto is_it = [&](int group) { return msh.names.at({2, group}) == own; };
             CHECK(std::ranges::any_of(msh.physical.at(tag), is_it));
-            if (tag == volume.model.faces.front().tag) CHECK(name == "a 'given' name");
+            if (tag == volume.model.faces.front().tag) CHECK(own == "a 'given' name");
         }
     }
 }

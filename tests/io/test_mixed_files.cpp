@@ -207,7 +207,7 @@ TEST_CASE(
     for (const auto& [a, b] : mesh::side_corners(io::DeckShape::pyramid14))
         deck.points.push_back((deck.points[index(a)] + deck.points[index(b)]) / 2);
     deck.points.emplace_back(0.5, 0.5, 0.01);
-    io::DeckBlock block{.shape = io::DeckShape::pyramid14};
+    io::DeckBlock block{.shape = io::DeckShape::pyramid14, .type = {}};
     for (std::size_t p = 0; p < deck.points.size(); ++p) {
         block.nodes.push_back(static_cast<Index>(p));
         deck.point_tags.push_back(static_cast<io::DeckTag>(p) + 1);

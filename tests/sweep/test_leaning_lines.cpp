@@ -104,5 +104,5 @@ TEST_CASE("bores whose node lines would run through each other are refused")
     };
     HalfRings beside{ends(), 0}, crossed{ends(), 0};
     test::check_valid(swept(beside).mesh);
-    CHECK_THROWS_AS(swept(crossed, {.loops = {{1, 2}, {2, 1}}}), NotClosed);
+    CHECK_THROWS_AS(swept(crossed, {.vertices = {}, .loops = {{1, 2}, {2, 1}}, .flip = {}}), NotClosed);
 }

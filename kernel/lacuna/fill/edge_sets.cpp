@@ -3,7 +3,7 @@
 
 #include <lacuna/closure/shared/along.h>
 #include <lacuna/geometry/shared/polyline.h>
-#include <lacuna/io/shared/solid_nodes.h>
+#include <lacuna/io/shared/text_lines.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/split_edge.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <ranges>
+#include <ranges>
 #include <set>
 #include <unordered_map>
 
@@ -133,6 +135,8 @@ std::vector<io::ColumnSet> column_sets(const Volume& volume, const sweep::Swept&
     const Model& source = volume.along->source.model;
     const Index count = swept.mesh.nodes_per_layer;
     for (const auto& deck : volume.decks) {
+        const auto is_of_nodes = [](const io::DeckSet& set) { return set.kind == io::DeckSet::Kind::nodes; };
+        if (std::ranges::none_of(deck->sets, is_of_nodes)) continue;
         std::map<io::DeckTag, Index> node; // of the first level, by the deck's node at its column
         for (const Index first : {0, swept.mesh.layers * count}) { // a sweep may start at either end
             std::vector<Vec3> places;
@@ -141,11 +145,10 @@ std::vector<io::ColumnSet> column_sets(const Volume& volume, const sweep::Swept&
             for (Index n = 0; n < count; ++n)
                 for (const Index point : at.at(index(n))) node.emplace(deck->point_tags[index(point)], n);
         }
-        for (const io::DeckSet& set : deck->sets) {
+        for (const io::DeckSet& set : deck->sets | std::views::filter(is_of_nodes)) {
             io::ColumnSet columns{set.name};
             for (const io::DeckTag tag : set.members)
-                if (const auto known = node.find(tag);
-                    set.kind == io::DeckSet::Kind::nodes && known != node.end())
+                if (const auto known = node.find(tag); known != node.end())
                     columns.nodes.push_back(known->second);
             std::ranges::sort(columns.nodes);
             if (!columns.nodes.empty()) sets.push_back(std::move(columns));

@@ -131,7 +131,7 @@ void prove(FilledTets& tets, const RunContext& context)
     tets.quality = std::move(proved.quality);
 }
 
-void require_quality(FilledTets& tets, const sweep::SweepOptions& options, const RunContext& context)
+void require_quality(const FilledTets& tets, const sweep::SweepOptions& options)
 {
     if (tets.quality.min_scaled_jacobian < options.min_scaled_jacobian)
         throw NotSweepable(Message("quality.below_limit",
@@ -139,13 +139,15 @@ void require_quality(FilledTets& tets, const sweep::SweepOptions& options, const
                                    tets.region, found(tets.quality.min_scaled_jacobian),
                                    needed(options.min_scaled_jacobian))
                                .remedy("use a smaller 'size'"));
-    if (tets.quality.min_scaled_jacobian < kSliver) {
-        tets.report.push_back(
-            formatted("the least scaled Jacobian of the tetrahedra is {:.2g}; a smaller 'size' "
-                      "where faces nearly touch makes better ones",
-                      tets.quality.min_scaled_jacobian));
-        log_line(context, formatted("note: {}: {}", tets.region, tets.report.back()));
-    }
+}
+
+void note_slivers(FilledTets& tets, const RunContext& context)
+{
+    if (!(tets.quality.min_scaled_jacobian < kSliver)) return;
+    tets.report.push_back(formatted("the least scaled Jacobian of the tetrahedra is {:.2g}; a smaller 'size' "
+                                    "where faces nearly touch makes better ones",
+                                    tets.quality.min_scaled_jacobian));
+    log_line(context, formatted("note: {}: {}", tets.region, tets.report.back()));
 }
 
 } // namespace
@@ -202,7 +204,8 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
         tets.quality = std::move(elevated.quality);
         order_2 = std::move(elevated.report);
     }
-    require_quality(tets, options, context);
+    require_quality(tets, options);
+    note_slivers(tets, context);
     report_progress(context, "shape of the skin");
     tets.fidelity = sweep::compare(volume, tets.mesh, tets.faces, tets.quality.volume,
                                    {options.max_deviation}, context);

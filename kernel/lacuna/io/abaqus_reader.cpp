@@ -538,9 +538,9 @@ private:
         });
         scope.builder.resolve(
             nodes, [&](std::uint64_t place, const Message& why) { files_.place_of(place).fail(why); });
-        const std::vector<DeckTag> tags = element_tags(deck);
-        if (scope.sections.empty()) take_sets_for_sections(scope, tags);
+        if (scope.sections.empty()) take_sets_for_sections(scope);
         if (scope.sections.empty()) return;
+        const std::vector<DeckTag> tags = element_tags(deck);
         std::vector<Index*> regions;
         for (DeckBlock& block : deck.blocks)
             for (Index& region : block.regions) regions.push_back(&region);
@@ -553,17 +553,20 @@ private:
         }
     }
 
-    /// Without a section, the element sets are the regions if each element is in exactly one of them, as in
-    /// decks that other programs convert.
-    static void take_sets_for_sections(Scope& scope, std::vector<DeckTag> tags)
+    /// Without sections, and where *ELEMENT names no set, the element sets are the regions if each element is
+    /// in exactly one of them. Other programs convert regions to such sets.
+    static void take_sets_for_sections(Scope& scope)
     {
+        const Deck& deck = scope.builder.deck();
+        if (std::ranges::find(deck.regions, scope.name, &DeckRegion::name) == deck.regions.end()) return;
         std::vector<Scope::Section> sections;
-        std::vector<DeckTag> members;
-        for (const DeckSet& set : scope.builder.deck().sets) {
+        std::vector<DeckTag> members, tags = element_tags(deck);
+        for (const DeckSet& set : deck.sets) {
             if (set.kind != DeckSet::Kind::elements) continue;
             sections.push_back({set.name, "", set.members});
             members.insert(members.end(), set.members.begin(), set.members.end());
         }
+        if (members.size() != tags.size()) return;
         std::ranges::sort(tags);
         std::ranges::sort(members);
         if (members == tags) scope.sections = std::move(sections);

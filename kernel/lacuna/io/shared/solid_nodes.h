@@ -4,22 +4,9 @@
 #include <lacuna/io/deck.h>
 #include <lacuna/mesh/second_order.h>
 
-#include <array>
-#include <string>
-#include <vector>
-
 namespace lacuna::io {
 
 /// The nodes of a solid of a deck, in the form of `mesh::merged_nodes()`.
 mesh::CellNodes solid_nodes(const DeckBlock& block, std::size_t element);
-
-/// A line element that a deck keeps as text.
-struct TextLine {
-    DeckTag tag;
-    std::array<DeckTag, 2> ends;
-    std::string region; ///< "pid:7" in Nastran; otherwise empty, and sets of the deck contain the element
-};
-/// The trusses and beams in the text of an Abaqus or Nastran deck.
-std::vector<TextLine> lines_in_text(const Deck& deck);
 
 } // namespace lacuna::io
