@@ -26,8 +26,8 @@ using namespace topology;
 
 namespace {
 
-/// For each edge of `moved`, the source halfway along the motion: the names of the sets of the source edge
-/// whose image it is.
+/// `moved` is the source, moved halfway along the motion. For each of its edges: the names of the sets that
+/// contain the corresponding edge of the source.
 std::map<EdgeId, std::vector<std::string>> sets_above(const SweptSource& swept, const Model& moved)
 {
     std::map<EdgeId, std::vector<std::string>> sets;
@@ -98,7 +98,7 @@ public:
 private:
     [[nodiscard]] bool is_rim(EdgeId edge) const { return given_.uses_of_edge(edge).size() == 1; }
     [[nodiscard]] std::size_t last() const { return rows_.size() - 1; }
-    /// The points of the source in a row.
+    /// The points of the source, moved to a row of the motion.
     [[nodiscard]] std::vector<Vec3> section(std::size_t row) const
     {
         std::vector<Vec3> places = given_.points;
@@ -109,7 +109,7 @@ private:
         return places;
     }
 
-    /// First and last row of facets between a level and the next.
+    /// Indices of the first and the last row between a level and the next level.
     [[nodiscard]] std::pair<std::size_t, std::size_t> rows_between(std::size_t level) const
     {
         const auto row = [&](double height) {
@@ -120,7 +120,8 @@ private:
 
     // --- checks -------------------------------------------------------------------------------------------
 
-    /// Every facet of the source must advance along its normal from row to row, all in the same sense.
+    /// Check that every facet of the source advances along its normal from one row to the next, or that every
+    /// facet advances against its normal.
     void check_advance(const std::vector<Vec3>& low, const std::vector<Vec3>& high, std::size_t row)
     {
         for (const FaceId face : all_faces(given_)) {
@@ -178,7 +179,7 @@ private:
     {
         const std::vector<Triangle> facets = facets_of(model, all_faces(model));
         const geometry::FacetTree tree(model.points, facets, context_);
-        std::size_t given_facets = 0; // of the source, which come first
+        std::size_t given_facets = 0; // facets of the source; they come first in `facets`
         for (const Face& face : model.faces)
             given_facets += face.origin == Origin::given ? face.triangles.size() : 0;
         const auto corners = [&](const Triangle& t) {
@@ -204,8 +205,8 @@ private:
 
     // --- points and edges ----------------------------------------------------------------------------------
 
-    /// Add the points of all rows. Rim points get one in each row, other points only one in the last row, on
-    /// the target.
+    /// Add the points of all rows. A rim point has an image in every row, any other point only in the last
+    /// row, on the target.
     void place_points()
     {
         at_row_.assign(rows_.size(), std::vector<Index>(given_.points.size(), -1));
@@ -305,7 +306,7 @@ private:
             }
             for (std::size_t row = low; row < high; ++row) {
                 for (std::size_t i = 0; i + 1 < own.points.size(); ++i) {
-                    // The source has the edge on the left of its use, the wall on the right.
+                    // Along the use of the edge, the source lies on the left and the wall on the right.
                     const std::size_t a = use.reversed ? i : i + 1, b = use.reversed ? i + 1 : i;
                     const auto corner = [&](std::size_t at, std::size_t up) {
                         return std::pair(at_row_[up][index(own.points[at])],
@@ -358,12 +359,13 @@ private:
     ModelBuilder builder_;
     std::vector<bool> source_points_;
     std::vector<Index> used_;                ///< points of the source's facets
-    std::vector<std::vector<Index>> at_row_; ///< by row and point of the source: the point there; -1: none
+    std::vector<std::vector<Index>> at_row_; ///< by row and point of the source: its image in that row; -1:
+                                             ///< none
     std::map<std::pair<VertexId, std::size_t>, VertexId> vertices_;
     std::set<std::pair<VertexId, std::size_t>> paths_; ///< source vertices and levels whose void edge along
                                                        ///< the path exists
     std::vector<FaceId> walls_;
-    std::vector<Vec3> reach_; ///< by point of the source: the vector it moves by, if each point has its own
+    std::vector<Vec3> reach_; ///< by point of the source: its displacement, if each point has its own
     double sense_ = 0;        ///< sign of the advance of the source's facets along their normals
 };
 

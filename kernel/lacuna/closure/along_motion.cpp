@@ -28,18 +28,19 @@ using namespace topology;
 
 namespace {
 
-/// Number of intervals at which functions of the height are sampled; cubics join the values. A choice: one
-/// period of a sine over the whole height is reproduced to one part in a million.
+/// Number of intervals in which a function of the height is sampled; cubics join the sampled values. A
+/// choice: one period of a sine over the whole height is reproduced to one part in a million.
 constexpr int kProfileSteps = 128;
-/// Number of intervals at which a path given as a function is sampled. A path of five turns is reproduced to
+/// Number of intervals in which a path given as a function is sampled. A path of five turns is reproduced to
 /// 1e-6 of their radius.
 constexpr int kPathSteps = 1024;
-/// Number of samples of a CAD curve on each of its chords, if it is used as a path.
+/// Number of samples for each chord of a CAD curve that is used as a path.
 constexpr int kCurveSteps = 8;
 
 // --- twist and scale ---------------------------------------------------------------------------------------
 
-/// A profile: linear, or a function that is sampled at even heights and interpolated by cubics.
+/// A profile as a function of the height: linear, or the user's function, sampled at even heights and
+/// interpolated by cubics.
 std::function<double(double)> sampled(const Along::Profile& profile, double first, const char* name)
 {
     if (!profile.at) {
@@ -228,7 +229,7 @@ std::optional<EdgeId> edge_on_axis(const Model& model, const Vec3& point, const 
 }
 
 /// Refuse a source that touches its axis, where cells would have no width.
-/// @param wedges  whether the volume can be swept with wedges, which the remedy then names.
+/// @param wedges  whether the volume can be swept with wedges; the remedy then says so.
 void check_axis(const Model& model, const Vec3& point, const Vec3& axis, bool wedges = false)
 {
     if (const auto edge = edge_on_axis(model, point, axis))
@@ -305,7 +306,7 @@ struct PointVectors {
     }
 };
 
-/// Normal of a round face at a place, on the side of its facets.
+/// Unit normal of a round face at a place, directed away from the face's centre or axis.
 Vec3 round_normal(const RoundShape& shape, const Vec3& place)
 {
     Vec3 out = place - shape.centre;
@@ -313,9 +314,9 @@ Vec3 round_normal(const RoundShape& shape, const Vec3& place)
     return out.normalized();
 }
 
-/// For each point of a source, the offset to the corner of the parallel faces at distance 1: its component
-/// along the normal of every face at the point is 1. Faces that meet without a crease share their mean
-/// normal.
+/// For each point of a source: the displacement that moves all faces at the point to the parallel faces at
+/// distance 1. Its component along the normal of each of these faces is 1. Faces that meet without a crease
+/// share their mean normal.
 std::vector<Vec3> unit_offsets(const Model& model)
 {
     std::vector<std::vector<std::pair<FaceId, Vec3>>> normals(model.points.size());
@@ -343,8 +344,8 @@ std::vector<Vec3> unit_offsets(const Model& model)
         Eigen::MatrixXd rows(std::ssize(sums), 3);
         for (std::size_t i = 0; i < sums.size(); ++i)
             rows.row(static_cast<Eigen::Index>(i)) = sums[i].stableNormalized().transpose();
-        // Threshold for pivots. The pivots of two unit normals that differ by the crease angle are 1 and 0.5,
-        // the sine of 30°.
+        // A pivot below this threshold counts as zero. The pivots of two unit normals that differ by the
+        // crease angle are 1 and 0.5, the sine of 30°.
         constexpr double kDependent = 0.1;
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
         solver.setThreshold(kDependent);
@@ -473,7 +474,8 @@ geometry::Motion motion_to_face(const OpenVolume& source, const Along::ToFace& t
     motion.reach = [tree, way, vectors = std::make_shared<const PointVectors>(model, std::move(reach))](
                        const Vec3& place) -> Vec3 {
         const geometry::FacetTree::RayHit hit = tree->first_along(place, way);
-        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way); // rounding may miss at the rim
+        return hit.triangle < 0 ? (*vectors)(place) : Vec3(hit.t * way); // at the rim, the ray may miss by
+                                                                         // rounding
     };
     return motion;
 }
@@ -511,7 +513,7 @@ struct MotionMaker {
                                        "along: a full turn ends on its source, which twist and scale change")
                                    .remedy("leave them out, or use a smaller angle"));
         geometry::Motion motion = geometry::screw(along.point, axis, angle, 0);
-        if (swept.full_turn) motion.levels = {0, 0.5, 1}; // its halves are swept one after the other
+        if (swept.full_turn) motion.levels = {0, 0.5, 1}; // the two halves are swept one after the other
         return distorted(std::move(motion), centre, start_of_turn(along.point, axis, centre), by);
     }
     geometry::Motion operator()(const Along::Helix& along) const

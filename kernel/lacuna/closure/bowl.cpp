@@ -23,7 +23,7 @@ namespace {
 /// cut. A hollow has one such face, a box six; a lower number may miss a small mouth.
 constexpr std::size_t kMostMouths = 4;
 /// Number of heights between bottom and mouth at which the inclination is sampled, and where the skin may be
-/// cut. The rounding of a rim by a thirtieth of the depth still covers two of these heights.
+/// cut. A fillet whose height is a thirtieth of the depth still covers two of these heights.
 constexpr std::size_t kBins = 64;
 /// A skin whose steepest inclination is below this (11°) is only a bottom [radians]. A lower value separates
 /// walls that hardly rise; a higher one finds no walls in shallow bowls.

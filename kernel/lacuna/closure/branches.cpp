@@ -39,13 +39,14 @@ constexpr double kConcave = 15;
 constexpr double kDeepest = 0.5;
 /// Cosine of 30°. Two branches share a plane along the main body if the normals of their planes, up to sign,
 /// differ by less than this angle. An edge within this angle of the axis runs along the axis. A higher value
-/// adds planes at small angles to each other; a lower one lets branches to different sides share a plane.
+/// adds planes at small angles to each other; a lower value lets branches on different sides share a plane.
 constexpr double kSameSide = 0.87;
 /// Cosine of 44°. A face at the mouth is an end of its branch, not a wall, if its normal is within this angle
 /// of the branch's direction: about half way between an end square to the branch and a wall along it.
 constexpr double kAlongWay = 0.72;
-/// Lines along a main body closer than this share of its widest mouth are merged, as they would bound a
-/// sliver. A higher value moves lines further from the centres of their mouths.
+/// Lines along the main body that are closer to each other than this share of the widest mouth are merged,
+/// because the strip between them would be a sliver. A higher value moves lines further from the centres of
+/// their mouths.
 constexpr double kBeside = 0.1;
 /// Number of chords of the dip, a parabola: each has a sag of 1/256 of its depth.
 constexpr int kChords = 16;
@@ -311,7 +312,7 @@ private:
     [[nodiscard]] std::vector<geometry::Plane> planes_along(const std::vector<const Mouth*>& mouths) const
     {
         const Model& model = volume_.model;
-        std::vector<std::array<Vec3, 2>> across; // ends of lines across the ends of the main body
+        std::vector<std::array<Vec3, 2>> across; // end points of the edges that cross an end of the main body
         for (std::size_t e = 0; e < model.edges.size(); ++e) {
             const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
             const bool inner = uses.size() == 2 && uses[0].face != uses[1].face &&
@@ -438,7 +439,7 @@ private:
     }
 
     /// Heights of the two sides of a mouth that are normal to the axis, such as those of a square duct on a
-    /// flat wall; empty if there are not two. The part between them is swept along the axis, with the duct's
+    /// flat wall; empty unless there are two. The part between them is swept along the axis, with the duct's
     /// sides as parts of its ends.
     [[nodiscard]] std::vector<double> sides_across(const Mouth& mouth) const
     {
@@ -677,7 +678,7 @@ std::vector<StepPiece> cut_into_pieces(const OpenVolume& volume, const RunContex
     for (const StepPiece& arm : cut_branches(volume, context)) {
         for (StepPiece& piece : cut_steps(arm.volume, context)) result.push_back(std::move(piece));
     }
-    // A round that is shared by two pieces must stay whole.
+    // Round rims are split only in a single piece: a round rim that two pieces share must stay whole.
     if (result.size() == 1) split_round_rims(result.front().volume, RoundsOf::walls, context);
     std::ranges::stable_sort(result, {}, &StepPiece::level);
     return result;

@@ -113,7 +113,8 @@ constexpr double kBend = 100 * kDegree;
 /// Above this angle between the ends, a straight closing may have been meant as a bend; a note says so.
 constexpr double kLean = 20 * kDegree;
 
-/// Relative difference of an alternative volume; 0 if the alternative is impossible.
+/// Difference between an alternative volume and the volume taken, relative to the latter; 0 if the
+/// alternative cannot be sealed.
 double share_between(double taken, const std::optional<double>& other)
 {
     return other ? std::abs(*other - taken) / taken : 0;
@@ -133,7 +134,8 @@ bool asks_for_shape(const CloseOptions& options)
 }
 
 /// Note an assumption about missing walls next to a missing end. The uncertain share of the volume is
-/// estimated by a bulge of these walls by a quarter of their width, which is 4 area / perimeter.
+/// estimated as the volume of a bulge of these walls by a quarter of their width. The width of a wall is
+/// taken as 4 area / perimeter.
 void assume_walls(const OpenVolume& sealed, const Message& note, Closure& closure)
 {
     const double taken = enclosed_volume(sealed);
@@ -253,7 +255,7 @@ private:
         if (!options_.trial) instead = volume_sealed_as({other}, match);
         const double share = share_between(taken, instead);
         if (leads() && !(share > kSameVolume))
-            return; // bent walls are reported only if the volume differs, inclined ends always
+            return; // bent walls are reported only if the volumes differ; inclined ends are always reported
         const std::string text =
             follows
                 ? "a loop of the source has no wall, and void faces there follow the walls of another loop"
@@ -361,7 +363,7 @@ bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
     });
 }
 
-/// @throw NotClosed  the shape that was sealed is ambiguous and was not asked for.
+/// @throw NotClosed  the sealed shape is ambiguous, and no option asks for it.
 void refuse_guess(const Closed& closed, const CloseOptions& options)
 {
     if (options.take_guess || asks_for_shape(options)) return;
@@ -432,7 +434,8 @@ Closed close_rest(const OpenVolume& volume, const matching::Match& match, Volume
     const std::vector<FaceId> stubs = lend_stubs_to_ends(lent);
     if (stubs.empty() || climbs_open_rims(volume, match)) return seal(volume, match, whole, options, context);
 
-    // The middle of a stack is missing: the gap is between the partial walls and is matched there.
+    // The middle of the volume is missing. The gap lies between the partial walls, so their open rims are
+    // matched.
     lent.override_class.reset();
     Closed closed = seal(lent, match_ends(lent, options, context), classify(lent).value, options, context);
     closed.closure.value = whole;

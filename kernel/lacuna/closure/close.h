@@ -18,25 +18,26 @@ namespace lacuna::closure {
 
 /// Shape of a void edge between its two vertices.
 enum class EdgeShape {
-    /// Between ends at more than 100° to each other without walls that join them: `smooth`. Otherwise
-    /// `straight`, or `follow` if straight edges would stray from the walls. If the first choice crosses
-    /// given faces or encloses no volume, the first other shape that seals the volume.
+    /// `smooth` between ends that no wall joins and that are at more than 100° to each other. Otherwise
+    /// `straight`, or `follow` if straight edges would stray from the walls. If this shape crosses given
+    /// faces or encloses no volume, the other shapes are tried in order, and the first one that seals the
+    /// volume is taken.
     automatic,
     straight, ///< as in the paper
     follow,   ///< bent like the given walls beside it
-    smooth,   ///< a cubic tangent to the walls at both ends, otherwise normal to the faces
+    smooth,   ///< a cubic; at each end it is tangent to the walls or, without walls, normal to the end face
 };
 
 /// Shape of a missing end (class IV).
 enum class Cap {
     automatic, ///< flat, or parallel if flat would cross the given faces
     flat,      ///< in the plane of its rim, or interpolated from its rim's heights (Algorithm 4)
-    parallel,  ///< the given end's shape, moved to the rim by the motion of the walls
+    parallel,  ///< the given end's shape, moved to the rim by the motion that the walls define
 };
 
 /// Treatment of a given end's holes without walls.
 enum class Holes {
-    automatic, ///< an error if the other end is missing; otherwise closed as matched
+    automatic, ///< an error if the other end is missing; otherwise joined to the loops they are matched with
     cover,     ///< closed by a face in the end's surface
     through,   ///< extended to the other end
 };
@@ -87,8 +88,8 @@ struct Along {
         const topology::Model* model = nullptr; ///< model that `face` belongs to
         FaceId face;
     };
-    /// A value that changes along the sweep: linear from its value at the source to `last` at the other end,
-    /// or a function of the relative height in [0, 1].
+    /// A value that changes along the sweep: linear from the source to `last` at the other end, or a function
+    /// of the relative height in [0, 1].
     struct Profile {
         double last = 0;
         std::function<double(double height)> at{}; ///< null: linear
@@ -135,7 +136,7 @@ struct Closed {
 Closed close(const topology::OpenVolume& volume, const matching::Match& match,
              const CloseOptions& options = {}, const RunContext& context = {});
 
-/// Log a closure's notes, assumptions as `note: … [code]`, as close() does.
+/// Log the notes of a closure as close() does. Assumptions are logged as `note: … [code]`.
 void log_notes(const Closure& closure, const RunContext& context);
 
 /// The user's void edges that join the rims of source and target, as pairs (source, target) of vertex tags,

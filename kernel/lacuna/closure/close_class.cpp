@@ -139,11 +139,12 @@ void close_between_ends(OpenVolume& volume, matching::Match match, const Tools& 
     add_void_walls(volume, tools, closure);
 }
 
-/// Whether a rim is a hole in walls: the walls next to it lie in its plane. Walls that end at a rim stand
-/// across its plane.
+/// Whether a rim is a hole in walls: the walls next to it lie in its plane. Walls that merely end at a rim
+/// are at an angle to its plane.
 bool is_hole_of_walls(const OpenVolume& volume, const Rim& rim)
 {
-    const double kBetween = std::numbers::sqrt2 / 2; // 45°, halfway between the two
+    const double kBetween = std::numbers::sqrt2 / 2; // 45°, halfway between walls in the plane and walls
+                                                     // square to it
     const Model& model = volume.model;
     const std::vector<Index> around = loop_points(model, rim.uses);
     const std::set<Index> on_rim(around.begin(), around.end());
@@ -224,8 +225,8 @@ void close_class_four(OpenVolume& volume, const Tools& tools, Closure& closure)
 }
 
 /// Close class V by eq. (5) to (8) of the paper: the free loops, sorted into two sets, bound source and
-/// target. Departure: a floor round a loop becomes part of that end, because as a wall it would get cells of
-/// zero thickness.
+/// target. Departure: a flat wall that surrounds a loop (a floor) becomes part of the loop's end, because as
+/// a wall it would get cells of zero thickness.
 void close_class_five(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
     note(closure, "Algorithm 11");

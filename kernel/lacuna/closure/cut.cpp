@@ -66,9 +66,9 @@ public:
     using Region = std::vector<std::vector<Vec2>>;
 
     /// @param suits  whether to cut a region of the plane inside the volume; empty: cut all.
-    /// @param least  for a cut found by a search, the least distance from edges beside it. The inner points
-    ///               of its lines across flat faces are removed, because the sizes of the pieces are not
-    ///               known yet.
+    /// @param least  set for a cut found by a search: the least distance between the cut and edges beside it.
+    ///         Cut lines across flat faces then lose their inner points, because the sizes of the pieces are
+    ///         not known yet.
     std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits, std::optional<double> least)
     {
         find_walks();
@@ -161,8 +161,10 @@ private:
     /// Refuse a cut that leaves a thin strip beside an edge.
     void refuse_thin(double least) const
     {
-        std::vector<char> joined(model_.vertices.size(), 0); // by an edge that meets the plane
-        std::vector<std::pair<EdgeId, Vec3>> near;           // edges with their places next to the plane
+        std::vector<char> joined(model_.vertices.size(), 0); // by vertex: whether it ends an edge that meets
+                                                             // the plane
+        std::vector<std::pair<EdgeId, Vec3>> near;           // edges near the plane, each with its nearest
+                                                             // place
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             const Edge& edge = model_.edges[e];
             double low = kInfinity, high = -kInfinity, next = least;
@@ -268,7 +270,8 @@ private:
 
     void add_partitions(const WalkImprint& made)
     {
-        std::vector<std::vector<EdgeUse>> loops, skin; // with and without edges across gaps
+        std::vector<std::vector<EdgeUse>> loops, skin; // `loops` includes the new edges across gaps, `skin`
+                                                       // does not
         std::vector<std::vector<EdgeUse>> open;
         for (std::size_t w = 0; w < walks_.size(); ++w) {
             if (walks_[w].closed) {

@@ -21,7 +21,7 @@ using namespace topology;
 
 namespace {
 
-/// Length of the mean normal of a cylinder that turns by a right angle.
+/// Length of the mean unit normal of a cylinder that turns by a right angle.
 constexpr double kQuarterTurn = 2 * std::numbers::sqrt2 / std::numbers::pi;
 
 bool are_parallel(const Vec3& a, const Vec3& b) { return a.cross(b).norm() < kParallel; }
@@ -48,7 +48,7 @@ std::optional<Bend> round_bend(const Model& model, FaceId face, bool faces_void)
         outward += (a - shape->centre).dot((b - a).cross(c - a));
     }
     if ((outward > 0) != faces_void) return std::nullopt;
-    const double turned = area / shape->radius / kRightAngle; // length times right angles
+    const double turned = area / shape->radius / kRightAngle; // length times number of right angles
     return Bend{{}, face, turned * (1 - mean_normal / kQuarterTurn), shape->axis};
 }
 
@@ -72,7 +72,7 @@ double length_to_cut(const std::vector<Share>& shares)
     return 2 * all - most;
 }
 
-/// An interval along a normal.
+/// A range of heights along a normal.
 struct Interval {
     double low = kInfinity, high = -kInfinity;
 
@@ -137,7 +137,7 @@ private:
                 bend.face.valid() ? bend.face.index() : model_.uses_of_edge(bend.edge).front().face.index()));
     }
 
-    /// Normals of flat faces and common normals of two axes, without parallel ones.
+    /// Normals of flat faces and common normals of two axes. Parallel normals are listed once.
     [[nodiscard]] std::vector<Vec3> normals() const
     {
         std::vector<Vec3> found;
@@ -220,7 +220,7 @@ private:
     const Model& model_;
     const std::vector<Bend>& bends_;
     std::size_t most_;
-    std::vector<std::size_t> feature_; ///< by bend
+    std::vector<std::size_t> feature_; ///< by bend: the feature that it belongs to
     std::vector<std::pair<double, geometry::Plane>> between_;
     std::vector<CutPlane> planes_;
 };

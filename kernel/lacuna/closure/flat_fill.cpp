@@ -83,7 +83,7 @@ std::vector<FaceId> faces_at(const Model& model, const Rim& rim)
     return {faces.begin(), faces.end()};
 }
 
-/// The kinds of missing faces that are looked for.
+/// Kinds of missing faces that loops are filled with: flat faces only, or any.
 enum class Missing { flat, any };
 
 std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const RunContext& context)
@@ -156,8 +156,8 @@ std::optional<FlatFilling> fill_loops(const Model& model, const std::vector<Face
     volume.model = extract(model, faces);
     orient_consistently(volume.model);
     volume.role.assign(faces.size(), Role::wall);
-    // Two things are refused: a ridge across a notch, if its straight edge would be outside the rim; a bent
-    // face that folds.
+    // Filling fails in two cases: the straight edge of a ridge across a notch would be outside the rim, or a
+    // bent face folds.
     return unless_refused([&]() -> std::optional<FlatFilling> {
                const std::optional<ToFill> loops = loops_to_fill(result, missing, context);
                if (!loops) return std::nullopt;
@@ -186,8 +186,8 @@ bool prove(FlatFilling& filling, const RunContext& context)
 }
 
 /// Largest angle between the source's plane and a new face of the missing end [degrees]; chamfers and roof
-/// slopes are below it. Steeper new faces, such as the risers of steps, are walls, unless no new face is
-/// flatter.
+/// slopes are below it. Steeper new faces, such as the risers of steps, are walls. If all are steeper, the
+/// least steep form the end.
 constexpr double kSlope = 60;
 
 /// Make the new faces that face away from the source its target; the others stay walls.

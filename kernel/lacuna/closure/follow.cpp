@@ -57,7 +57,7 @@ double off_line(const Vec3& point, const Vec3& from, const Vec3& way)
     return (off - off.dot(way) * way).norm();
 }
 
-/// The upper median of some numbers. @pre there are some
+/// The upper median of some numbers. @pre not empty
 double median(std::vector<double> values)
 {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

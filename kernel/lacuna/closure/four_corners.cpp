@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// Mismatch of the first and third side if the first is moved along the others.
+/// Mismatch between the first and the third side when the first is moved along the second and the fourth.
 double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
 {
     std::array<std::vector<Vec3>, 4> side;

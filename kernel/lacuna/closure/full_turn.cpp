@@ -24,15 +24,15 @@ using namespace topology;
 
 namespace {
 
-/// Number of planes tried through each principal axis. Straight rings with up to this number of sides are cut
-/// near the middle of a side.
+/// Number of planes tried through each principal axis. Polygonal rings with at most this number of sides are
+/// cut near the middle of a side.
 constexpr int kDirections = 8;
 /// Section lengths that differ by less than this share count as equal, and the plane found first is tried
 /// first. Otherwise the sag of facets would decide between planes through a round wall.
 constexpr double kAsShort = 0.02;
 
-/// Sections used to measure the length of the turn. With these, the chords of a half circle are short by
-/// 0.2 %; each section costs a pass over the walls.
+/// Sections used to measure the length of the turn. With this number, the chords of a half circle are too
+/// short by 0.2 %; each section costs a pass over the walls.
 constexpr std::size_t kSections = 16;
 /// Share of the turn of a piece if the lengths cannot be measured.
 constexpr double kHalf = 0.5;
@@ -78,7 +78,8 @@ std::vector<Candidate> candidates_of(const Model& model, const RunContext& conte
     std::vector<Candidate> found;
     for (int a = 0; a < 3; ++a) {
         const Vec3 axis = walls.axis.col(a);
-        // On a round wall start at a vertex: a plane near its seam, but not through it, would leave a sliver.
+        // Start at a vertex: on a round wall, a plane near the seam, but not through it, would leave a
+        // sliver.
         Vec3 first = Vec3::Zero();
         for (const Vertex& vertex : model.vertices) {
             const Vec3 out = model.at(vertex.point) - walls.centre;

@@ -44,7 +44,8 @@ constexpr double kRough = 0.05;
 
 /// Volume between a face and heights over a plane [model length³].
 struct Between {
-    double all = 0, above = 0; ///< on both sides, and the part above the face minus the part below
+    double all = 0, above = 0; ///< `all`: on both sides of the face; `above`: the part above it minus the
+                               ///< part below it
 };
 
 /// @return  empty if the heights are undefined over part of the face.
@@ -112,8 +113,8 @@ std::vector<double> turns_of(const std::vector<Vec3>& chain)
 bool is_straight_between_kinks(const Model& model, const EdgeUse& use)
 {
     // An edge is straight between kinks if its `kKinks` sharpest kinks make at least the share `kTurnedThere`
-    // of its turn. A ridge, a chamfer or a notch has up to three kinks. A curve of four facets counts too;
-    // with more kinks, finer curves would.
+    // of its turn. A ridge, a chamfer or a notch has up to three kinks. A curve of four segments counts too;
+    // a larger `kKinks` would also admit finer curves.
     constexpr std::size_t kKinks = 3;
     constexpr double kTurnedThere = 0.9;
     if (is_straight(model, {use})) return true;
@@ -149,7 +150,7 @@ bool is_end_in_doubt(const Model& model, double enclosed, FaceId face)
     return beside_thin_plate(model, face).all >= kBendDoubt * enclosed;
 }
 
-/// Whether a missing end was blended between four sides, of which no two opposite ones are straight.
+/// Whether a missing end was blended between four sides and no two opposite sides are straight.
 bool is_end_between_bent_sides(const OpenVolume& sealed, FaceId face)
 {
     const Model& model = sealed.model;
@@ -272,7 +273,7 @@ std::vector<NamedEntity> given_beside(const Model& model, FaceId face)
     return beside;
 }
 
-/// Largest distance of the other void faces from the plane of one [model length].
+/// Largest distance of the other void faces from the mean plane of one void face [model length].
 double reach_of_others(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
     const geometry::Plane plane = mean_plane(model, face);
@@ -369,7 +370,8 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                    .remedy("if the true face bulges otherwise, give it"),
                std::abs(beside_thin_plate(model, face).above) / enclosed);
     for (const FaceId face : closure.void_faces) {
-        // If roles are named, one wall is missing there. Otherwise the void face may stand for several faces.
+        // If the user named the roles, exactly one wall is missing there. Otherwise the void face may stand
+        // for several faces.
         if (by == RolesBy::finding && !is_membrane(model, face) &&
             (is_untold(model, face) || closes_hole_in_bent_face(model, face)))
             assume(closure,

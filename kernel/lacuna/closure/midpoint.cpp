@@ -31,8 +31,8 @@ using namespace topology;
 
 namespace {
 
-/// The edges at a vertex as three right-handed axes, seen from inside the volume, and for each edge the face
-/// at the vertex that is not bounded by it.
+/// The edges at a vertex as three right-handed axes, seen from inside the volume. For each edge: the face at
+/// the vertex that the edge does not bound.
 struct Net {
     std::array<EdgeId, 3> edge;
     std::array<FaceId, 3> across;
@@ -137,7 +137,8 @@ public:
     }
 
     /// Move the middles of faces (unless `fixed`) and of the volume along the coordinate axes, by shorter and
-    /// shorter steps, where this improves the blocks at them. Those of cuts stay: a neighbour may have them.
+    /// shorter steps, where this improves the blocks at them. The middles of cut faces stay, because a
+    /// neighbouring piece may have them too.
     void improve(bool fixed, const RunContext& context)
     {
         constexpr double kFirst = 0.25, kShorter = 0.8,
@@ -201,9 +202,9 @@ private:
     std::vector<Vec3> places_;
     std::size_t faces_ = 0;                   ///< position of the first middle of a face
     std::vector<geometry::FacetTree> facets_; ///< by face
-    std::vector<bool> is_cut_;                ///< by face
+    std::vector<bool> is_cut_;                ///< by face: whether it was made by a cut
     std::vector<Block> blocks_;
-    std::vector<std::vector<std::size_t>> blocks_at_; ///< by place
+    std::vector<std::vector<std::size_t>> blocks_at_; ///< by place: the blocks with a corner there
 };
 
 /// A copy of a volume whose faces are split.
@@ -231,7 +232,8 @@ protected:
         }
         model_ = std::move(builder).finish();
         const Vec3 middle = model_.at(centre);
-        std::vector<SectionWalk> walks; // earlier walks run along edges by now, but still separate parts
+        std::vector<SectionWalk> walks; // earlier walks now run along edges; they are kept because they still
+                                        // separate parts of the face
         std::vector<std::vector<EdgeUse>> lines;
         for (const Index start : from) {
             const geometry::Plane plane = geometry::plane_across(middle,

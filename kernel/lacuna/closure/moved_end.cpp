@@ -145,7 +145,7 @@ public:
 private:
     [[nodiscard]] bool is_free(EdgeId edge) const { return volume_.model.uses_of_edge(edge).size() == 1; }
 
-    /// Index the free uses of the walls by their start vertex. False if two leave one vertex.
+    /// Index the free uses of the walls by their start vertex. False if two of them leave the same vertex.
     bool index_rim(const Rim& rim)
     {
         const Model& model = volume_.model;
@@ -217,7 +217,7 @@ private:
         return true;
     }
 
-    /// Add ring walls without an edge that leads up: their other rim is free.
+    /// Add the rim of ring walls that have no edge from rim to rim. Their top is the only free rim.
     bool add_tube(const Rim& rim)
     {
         const Model& model = volume_.model;
@@ -295,8 +295,9 @@ private:
         return goes_straight(width) && moves_all(width);
     }
 
-    /// Whether the missing parts of the end's rim are straight sides between corners with walls, and the tops
-    /// lie in one plane and are straight where their feet are: the missing sides are then straight too.
+    /// Whether the missing sides of the moved end can be taken as straight lines. This holds if the sides
+    /// without walls are straight and lie between corners with walls, and if the tops of the walls lie in one
+    /// plane and are straight where their feet are straight.
     [[nodiscard]] bool goes_straight(double width) const
     {
         const auto straight = [&](const std::vector<EdgeUse>& uses) {
@@ -338,7 +339,7 @@ private:
     [[nodiscard]] bool tells_scale() const
     {
         // Least share of the outline that must have walls for these to determine its taper: two walls of five
-        // do, one of four, or a single bore, does not.
+        // do; one wall of four, or a single bore, does not.
         constexpr double kTold = 1.0 / 3;
         double longest = 0, told = 0;
         for (const std::vector<Stretch>& rim : rims_) {

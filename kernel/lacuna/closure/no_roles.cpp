@@ -49,8 +49,8 @@ std::string cut_in_words(const Model& model, const Vec3& point, const Vec3& norm
                      place.x(), place.y(), place.z(), normal.x(), normal.y(), normal.z());
 }
 
-/// A cut, in recipe syntax, by the plane of a flat face at a concave edge, if its pieces have two ends each;
-/// empty if there is none.
+/// A cut, in recipe syntax, by the plane of a flat face at a concave edge. All its pieces have two ends.
+/// Empty if no such cut is found.
 std::string cut_at_concave_edge(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;

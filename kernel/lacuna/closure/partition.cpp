@@ -35,9 +35,9 @@ namespace {
 
 /// Bounds of the search, so that a part with hundreds of features ends in seconds.
 constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
-/// Ends are searched only in the pieces of this many cuts, those that leave the least to cut, because the
-/// search costs more than the cut. Also the number of planes between features, and of axes for steps, that
-/// are tried.
+/// Only for this many cuts, those that leave the least length to cut, the ends of the pieces are searched,
+/// because a search costs more than a cut. The same number limits the planes between features and the axes
+/// for steps that are tried.
 constexpr std::size_t kMostRead = 6;
 
 /// A piece and, if it has no ends, the bends and the length that are left to cut.
@@ -82,7 +82,7 @@ bool find_ends(StepPiece& piece, const CanSweep& can_sweep, const RunContext& co
 std::vector<StepPiece> divided_at_middle(const OpenVolume& volume, std::size_t most,
                                          const CanSweep& can_sweep, const RunContext& context)
 {
-    // Refused: an edge is too short to be split.
+    // midpoint_blocks() refuses an edge that is too short to be split.
     auto blocks = unless_refused([&] { return midpoint_blocks(volume, most, context); });
     std::vector<StepPiece> made;
     if (!blocks) return made;
@@ -93,8 +93,8 @@ std::vector<StepPiece> divided_at_middle(const OpenVolume& volume, std::size_t m
     return made;
 }
 
-/// Parts that are given ends or divided at their middles; empty if that fails for one of them, or if there
-/// would be more than `most` pieces.
+/// Give each part ends, or divide it at its middle. Empty if that fails for a part, or if there would be more
+/// than `most` pieces.
 std::vector<StepPiece> finished(std::vector<StepPiece> parts, std::size_t most, const CanSweep& can_sweep,
                                 const RunContext& context)
 {
@@ -111,7 +111,7 @@ std::vector<StepPiece> finished(std::vector<StepPiece> parts, std::size_t most, 
 }
 
 /// Cut a volume across an edge between coplanar faces, where an earlier cut ended, into parts that have ends
-/// or are divided at their middles; empty if no such edge has such parts.
+/// or are divided at their middles; empty if no such cut gives such parts.
 std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_t most,
                                             const CanSweep& can_sweep, const RunContext& context)
 {
@@ -124,7 +124,7 @@ std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_
                    to = model.at(model[model[EdgeId(e)].to].point);
         const geometry::Plane across = geometry::plane_across(from,
                                                               plane->normal.cross(to - from).normalized());
-        // Refused: the edge is bent, or the volume stays in one piece.
+        // The cut is refused if the edge is bent or the volume stays in one piece.
         auto parts = unless_refused([&] { return cut_at_edges(volume, across, {EdgeId(e)}, 0, context); });
         if (!parts || parts->size() < 2) continue;
         std::vector<StepPiece> made = finished(std::move(*parts), most, can_sweep, context);
@@ -133,8 +133,9 @@ std::vector<StepPiece> divided_at_flat_edge(const OpenVolume& volume, std::size_
     return {};
 }
 
-/// Normals of the flat faces of a volume, without parallel ones, those with the largest area first.
-/// @param both  only those along which faces face in both directions
+/// Normals of the flat faces of a volume, those with the largest area first. Parallel normals are listed
+/// once.
+/// @param both  whether flat faces must face in both directions along a normal.
 std::vector<Vec3> axes_of(const OpenVolume& volume, bool both)
 {
     struct Axis {
@@ -177,8 +178,9 @@ std::vector<Vec3> centres_of(const Model& model)
     return centres;
 }
 
-/// Three directions at right angles to each other. They are normals of flat faces, the way from one centre to
-/// the next, or else ways to points of edges, so that no cut runs closely beside a seam.
+/// Three directions at right angles to each other. They are normals of flat faces or directions from one
+/// centre to another. Where there are none, they point to vertices or to points of edges, so that no cut runs
+/// closely beside a seam.
 std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& centres,
                                   const OpenVolume& volume)
 {
@@ -186,7 +188,7 @@ std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& c
     std::vector<Vec3> axes = axes_of(volume, false);
     for (const Vec3& other : centres)
         if (other != centre) axes.push_back((other - centre).normalized());
-    std::vector<Vec3> out; // to vertices, then to points of edges
+    std::vector<Vec3> out; // vectors from the centre to vertices, then to points of edges
     for (const Vertex& vertex : model.vertices) out.push_back(model.at(vertex.point) - centre);
     for (const Edge& edge : model.edges)
         for (const Index p : edge.points) out.push_back(model.at(p) - centre);
@@ -205,9 +207,8 @@ std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& c
     return {first, second, first.cross(second)};
 }
 
-/// Cut a volume by three planes at right angles through the centre of a sphere or the apex of a cone, such as
-/// a ball into octants, into parts that have ends or are divided at their middles; empty if no centre has
-/// such parts.
+/// Cut a volume by three planes at right angles through the centre of a sphere or the apex of a cone. A ball
+/// is cut into octants. Each part gets ends or is divided at its middle. Empty if this fails at every centre.
 std::vector<StepPiece> divided_at_centre(const OpenVolume& volume, std::size_t most,
                                          const CanSweep& can_sweep, const RunContext& context)
 {
@@ -215,7 +216,7 @@ std::vector<StepPiece> divided_at_centre(const OpenVolume& volume, std::size_t m
     for (const Vec3& centre : centres) {
         check_cancelled(context);
         std::vector<StepPiece> parts{{volume}};
-        // Refused: a plane passes closely beside an edge, or a part is not cut in two.
+        // The cuts are refused if a plane passes closely beside an edge, or does not cut a part in two.
         const auto cut = unless_refused([&] {
             for (const Vec3& normal : directions_at(centre, centres, volume)) {
                 const geometry::Plane plane = geometry::plane_across(centre, normal);
@@ -274,7 +275,7 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, std::size_t& t
     return cuts;
 }
 
-/// The best cut of a piece; empty if none reduces the length that is left to cut in pieces without ends.
+/// The best cut of a piece; empty if no cut reduces the length that is left to cut in pieces without ends.
 std::vector<CutPart> best_cut(const CutPart& part, double least, std::size_t& tried,
                               const CanSweep& can_sweep, const RunContext& context)
 {
@@ -290,7 +291,7 @@ std::vector<CutPart> best_cut(const CutPart& part, double least, std::size_t& tr
             own.has_ends = find_ends(own.piece, can_sweep, context);
             if (!own.has_ends) cut.left += own.left;
         }
-        if (cut.parts.size() == 2 && without_ends(cut) == 0) return std::move(cut.parts); // none is better
+        if (cut.parts.size() == 2 && without_ends(cut) == 0) return std::move(cut.parts); // no cut is better
     }
     const auto better = [&](const CutTried& a, const CutTried& b) {
         return std::tuple(a.left, without_ends(a), a.parts.size()) <
@@ -301,19 +302,21 @@ std::vector<CutPart> best_cut(const CutPart& part, double least, std::size_t& tr
     return std::move(best->parts);
 }
 
-/// Cuts a volume, and its parts in turn, as long as a cut leaves less to cut in parts without ends.
+/// Cuts a volume, and its parts in turn, as long as a cut reduces the length left to cut in parts without
+/// ends.
 class Cutter {
 public:
-    /// @param can_sweep_block  the same for a block of a part that is divided at its middle
-    /// @param least            the least distance between a cut and an edge beside it
+    /// @param can_sweep  whether a part can be swept
+    /// @param can_sweep_block  whether a block can be swept, if a part is divided into blocks
+    /// @param least  the least distance between a cut and an edge beside it
     Cutter(const CanSweep& can_sweep, const CanSweep& can_sweep_block, double least,
            const RunContext& context)
         : can_sweep_(can_sweep), can_sweep_block_(can_sweep_block), least_(least), context_(context)
     {
     }
 
-    /// Cut a part without ends, and its parts in turn. Returns the part itself unless one of its parts has
-    /// ends, or has nothing left to cut and is divided at its middle.
+    /// Cut a part without ends, and its parts in turn. Returns the part itself unless one of the resulting
+    /// parts has ends or was divided.
     std::vector<CutPart> cut(CutPart part)
     {
         check_cancelled(context_);

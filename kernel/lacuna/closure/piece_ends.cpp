@@ -201,13 +201,14 @@ private:
     };
     struct OneFace {
         std::vector<std::vector<Side>> loops;
-        FaceSet beside = 0, touched = 0; ///< faces that share an edge with it; faces that share a vertex
+        FaceSet beside = 0, touched = 0; ///< `beside`: faces that share an edge with it; `touched`: faces
+                                         ///< that share a vertex with it
         Vec3 normal = Vec3::Zero();      ///< mean normal: shorter than 1 if the face bends
         double area = 0;
     };
 
-    /// Whether a face is a ring from end to end, or has four sides: one at either end, and one at each of two
-    /// walls or two at the same wall.
+    /// Whether a face is a ring from end to end, or has four sides: one at the source, one at the target, and
+    /// the other two at walls (at two walls, or both at the same wall).
     static bool runs_between(const OneFace& face, FaceSet source, FaceSet target)
     {
         constexpr int kSource = -1, kTarget = -2;
@@ -291,8 +292,8 @@ std::size_t unlike(const Ends& a, const Ends& b)
     }));
 }
 
-/// Pairs of ends that a piece can be swept between, its current pair first if valid. If there are none, one
-/// pair of empty ends.
+/// Pairs of ends that a piece can be swept between. The current pair comes first if it is valid. If there is
+/// no such pair, the list has one pair of empty ends.
 std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
 {
     const Model& model = piece.model;
@@ -348,7 +349,7 @@ ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context)
         all_fit = all_fit && ways.back().front().as_named;
     }
     if (all_fit) return {std::move(pieces)};
-    // For each choice of the first piece, the best choices of the following pieces.
+    // For each pair of ends of the first piece, choose the best pairs of the following pieces in turn.
     std::vector<const Ends*> best;
     double least = kInfinity;
     for (const Ends& first : ways.front()) {

@@ -28,10 +28,10 @@ namespace {
 /// exceeds this (26°); otherwise it is a wall.
 constexpr double kAcross = 0.9;
 
-/// A piece, in the common model.
+/// A piece, as faces of the common model.
 struct Part {
     std::vector<FaceId> skin, partitions;
-    std::vector<FaceId> behind; ///< partitions that it lies behind
+    std::vector<FaceId> behind; ///< partitions that the piece lies behind
 };
 
 class Parter {
@@ -224,7 +224,7 @@ private:
                                    [&](FaceId face) { return lies_in_cut(face) && touches(cut, {face}); });
     }
 
-    /// A cut with the walls in its plane that continue it, such as a shoulder: they have one role.
+    /// A cut with the walls in its plane that continue it, such as a shoulder. All of them get the same role.
     [[nodiscard]] std::vector<FaceId> with_coplanar(std::vector<FaceId> cut,
                                                     const std::vector<FaceId>& walls) const
     {
@@ -367,7 +367,8 @@ std::string partition_name(const Model& model)
     int number = 1;
     for (const Face& face : model.faces) {
         if (face.name.starts_with("cut_"))
-            number = std::max(number, std::atoi(face.name.c_str() + 4) + 1); // 0 if it is no number
+            number = std::max(number, std::atoi(face.name.c_str() + 4) + 1); // atoi() gives 0 if no number
+                                                                             // follows
     }
     return formatted("cut_{}", number);
 }

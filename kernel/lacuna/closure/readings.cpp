@@ -27,7 +27,8 @@ using namespace topology;
 
 namespace {
 
-/// Limit of candidates that are sealed, the likeliest first: some tenths of a second for 10,000 facets.
+/// Largest number of candidates that are sealed, the likeliest first. Sealing them takes some tenths of a
+/// second for 10,000 facets.
 constexpr std::size_t kMostSealed = 24;
 /// Number of candidates checked if none of the likeliest seals. A lower number may find no void; a higher one
 /// costs time in proportion.
@@ -59,14 +60,14 @@ double void_area(const Model& model, const Closure& closure)
 /// Drop the voids whose new faces have more area than a flat face in each free loop, if such flat faces close
 /// the volume. The larger faces are bent, or lead from loop to loop. Flat faces are likelier, even if the
 /// volume that they close cannot be swept.
-/// @return  whether some were dropped
+/// @return  whether a void was dropped
 bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& filled,
                  const RunContext& context)
 {
     if (!filled || !filled->each_alone || found.empty()) return false;
     const Model& model = filled->volume.model;
-    // Flat faces close each connected part alone, so several parts do not count. Nor does a flat face in the
-    // plane of its neighbour: it encloses nothing.
+    // Flat faces would close each connected part by itself, so only a single part is compared. A flat face in
+    // the plane of its neighbour encloses nothing, so it is not preferred.
     std::vector<FaceId> given = all_faces(model);
     std::erase_if(given, [&](FaceId face) { return model[face].origin != Origin::given; });
     if (connected_parts(model, given).size() != 1) return false;
@@ -102,8 +103,8 @@ std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vect
     return found;
 }
 
-/// A sealed void as a reading without ends. @return  empty if it encloses nothing, like a face that is closed
-/// by itself.
+/// A sealed void as a reading without ends. @return empty if it encloses no volume, as when the rim of a flat
+/// face is filled with a second flat face.
 std::optional<Reading> without_ends(FlatFilling filled, const RunContext& context)
 {
     Reading reading;
@@ -117,8 +118,8 @@ std::optional<Reading> without_ends(FlatFilling filled, const RunContext& contex
     return reading;
 }
 
-/// The reading in which the rims determine all missing faces. Its ends are those that are found on the sealed
-/// skin, as for a volume without missing faces.
+/// The reading in which the rims determine all missing faces. Its ends are found on the sealed skin, as for a
+/// volume without missing faces.
 std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>& faces,
                                    const RunContext& context)
 {
@@ -133,14 +134,14 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     if (!reading) return std::nullopt;
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
     if (!reading->guess) reading->guess = untold_face(reading->volume, *reading->closure);
-    if (whole.empty() || whole.front().closure) { // a reading by read_bowl() splits faces
+    if (whole.empty() || whole.front().closure) { // `closure` is set by read_bowl(), which splits faces
         reading->no_roles = why_no_roles(model, faces, context);
         return reading;
     }
     reading->roles = whole.front().roles;
     reading->others = whole.front().others;
     set_ends(reading->volume, reading->roles.roles);
-    Roles& roles = reading->roles.roles; // in faces of the model
+    Roles& roles = reading->roles.roles; // name faces of `skin`, then faces of the model
     for (std::vector<FaceId>* list : {&roles.source, &roles.target, &roles.walls}) {
         std::erase_if(*list, [&](FaceId face) { return face.index() >= faces.size(); });
         for (FaceId& face : *list) face = faces[face.index()];
@@ -160,7 +161,7 @@ std::optional<Closed> sealed_state(const Reading& reading)
 }
 
 /// If a reading is ambiguous, or has a void face whose rim does not determine its shape, replace it by the
-/// reading of `read_filled()`, provided that this one is unambiguous.
+/// reading of `read_filled()`, if that reading is unambiguous.
 void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& reading,
                  const RunContext& context)
 {

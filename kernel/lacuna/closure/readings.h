@@ -19,16 +19,16 @@ struct SealedVolume : Closed {
     matching::Match match;
 };
 
-/// A sealed void and its other sweep directions, best first; the direction of its reading is not among them.
-/// For a hollow whose reading splits the bottom from the walls, `ways` is empty and the faces of `volume` are
-/// not split.
+/// A sealed void and its other sweep directions, best first; the direction that its reading uses is not among
+/// them. For a hollow whose reading splits the bottom from the walls, `ways` is empty and the faces of
+/// `volume` are not split.
 struct OtherSweeps : Closed {
-    std::vector<topology::RoleCandidate> ways; ///< in faces of `volume`
+    std::vector<topology::RoleCandidate> ways; ///< role candidates; they name faces of `volume`
 };
 
 /// A void that some faces enclose, ready to be swept in its best direction.
 struct Reading {
-    topology::RoleCandidate roles; ///< in faces of the model
+    topology::RoleCandidate roles; ///< name faces of the model
     topology::OpenVolume volume;   ///< with those roles
     topology::Classification classification;
     /// Set if an end is a void face; `volume` is then sealed.
@@ -84,8 +84,9 @@ std::vector<Reading> find_readings(const topology::Model& model, const std::vect
 /// @param number  from 1, as in the error message; 0: there must be exactly one void, with an unambiguous
 ///         shape.
 /// @return  the void. A void without ends to sweep between, whose rims determine its missing faces, has
-///         `no_roles`. If `number` is 0 and only holes without walls make the choice ambiguous, a class IV
-///         volume whose source is the face with these holes; close() then needs `CloseOptions::holes`.
+///         `no_roles`. If `number` is 0 and only holes without walls make the choice ambiguous, the result is
+///         a class IV volume whose source is the face with these holes; close() then needs
+///         `CloseOptions::holes`.
 /// @throw InvalidInput "topology.no_roles"  no ends were found; instead "topology.sphere", "topology.cone" or
 ///         "topology.crossing_bores" for these shapes. "topology.roles_ambiguous"  several voids; lists the
 ///         enclosed volumes. "topology.shape_open"  a missing face of ambiguous shape; names the faces next

@@ -25,9 +25,9 @@ namespace {
 /// Cosine between a facet's normal and the end's outward direction where a round is inclined by 45°.
 constexpr double kHalfway = std::numbers::sqrt2 / 2;
 
-/// A facet seen along the end's outward direction.
+/// Inclination and height of a facet relative to an end.
 struct Slope {
-    double cosine = 0; ///< 1 where it is parallel to the end, 0 where it is upright
+    double cosine = 0; ///< 1 where the facet is parallel to the end, 0 where it is normal to the end
     double height = 0; ///< of its centre along the way from the end to the rounds [model length]
 };
 
@@ -118,8 +118,8 @@ private:
         return sets;
     }
 
-    /// Whether a face is flatter than 45° in places and steeper in others, is no part of a divided face, and
-    /// has no given quads.
+    /// Whether a face is flatter than 45° in places and steeper in others, is not part of a face that was
+    /// divided before, and has no given quads.
     [[nodiscard]] bool is_round(FaceId face) const
     {
         const Face& own = volume_.model[face];
@@ -136,8 +136,9 @@ private:
                std::ranges::count_if(volume_.model.faces, is_part) == 1;
     }
 
-    /// The height with the fewest facets on the wrong side, if facets below it should be inclined to the end
-    /// by less than 45° and facets above it by more. Empty if no height is better than one below all facets.
+    /// The height that best separates the facets of the rounds: below it they should be inclined to the end
+    /// by less than 45°, above it by more. Empty if no height has fewer exceptions than a height below all
+    /// facets.
     [[nodiscard]] std::optional<double> halfway_height(const std::vector<FaceId>& rounds,
                                                        const Vec3& way) const
     {
@@ -172,7 +173,7 @@ private:
 void split_round_rims(OpenVolume& volume, RoundsOf of, const RunContext& context)
 {
     const auto parts = [&](Role end) { return connected_parts(volume.model, volume.faces(end)); };
-    // As if all edges were smooth: finding their turns costs more than to see that there are no rounds.
+    // Treat all edges as smooth here: computing their turns costs more than finding that there are no rounds.
     const std::vector<double> smooth(volume.model.edges.size(), 0);
     const auto has_rounds = [&](const std::vector<FaceId>& part) {
         return RoundRims(volume, part, smooth, of, context).has_rounds();

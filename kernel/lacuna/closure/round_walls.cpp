@@ -35,12 +35,12 @@ namespace {
 /// A rim that runs once round an axis at one distance.
 struct RoundRim {
     std::size_t loop = 0;
-    geometry::Plane base; ///< across the axis, at the centre of the rim
+    geometry::Plane base; ///< plane normal to the axis, through the centre of the rim
     double radius = 0;
     bool flat = false;       ///< whether the rim is planar
     bool needs_wall = false; ///< whether no face inside the rim can close it
     std::set<FaceId> beside; ///< the given faces at the rim
-    double along = 0;        ///< position on the axis of its group
+    double along = 0;        ///< position on the common axis of the rims
 };
 
 /// Angle of a place round the axis of a rim [radian].
@@ -84,7 +84,7 @@ bool is_of_wall(const Model& model, const RoundRim& rim, FaceId face)
 
 /// The circle that some places in one plane lie on.
 struct Circle {
-    geometry::Plane base; ///< at its centre
+    geometry::Plane base; ///< plane of the circle, with its origin at the centre
     double radius = 0;
 };
 
@@ -173,7 +173,8 @@ std::vector<std::pair<RoundRim, RoundRim>> pairs_of(std::vector<RoundRim> group,
     return pairs;
 }
 
-/// Indices of the uses of two loops that start at the same angle; both loops run the same way round.
+/// Pairs of indices of uses that start at the same angle round the axis, one use of each loop. @pre both
+/// loops run the same way round
 std::vector<std::pair<std::size_t, std::size_t>> aligned(const Model& model, const RoundRim& axis,
                                                          const std::vector<EdgeUse>& a,
                                                          const std::vector<EdgeUse>& b)
@@ -188,7 +189,7 @@ std::vector<std::pair<std::size_t, std::size_t>> aligned(const Model& model, con
     return pairs;
 }
 
-/// The uses of a loop from one index to another; the whole loop if they are equal.
+/// The uses of a loop from one index to another; the whole loop if the indices are equal.
 std::vector<EdgeUse> stretch(const std::vector<EdgeUse>& loop, std::size_t from, std::size_t to)
 {
     std::vector<EdgeUse> uses;
@@ -291,7 +292,7 @@ Rim add_walls_to(FlatFilling& filling, const Rim& rim, const geometry::Plane& pl
 
 /// A surface of revolution with a straight section: the distance from the axis is linear in the height.
 struct RoundWall {
-    geometry::Plane base; ///< across the axis
+    geometry::Plane base; ///< plane normal to the axis
     double radius = 0, slope = 0;
     double step = 0; ///< mean segment length of the arc that it was found from [model length]
 
@@ -376,7 +377,7 @@ std::vector<Rim> add_straight_walls(FlatFilling& filling, std::vector<Rim> loops
     }
     for (const std::size_t l : needy) {
         check_cancelled(context);
-        std::optional<std::size_t> end; // the nearest rim that the image of this one lies in or encloses
+        std::optional<std::size_t> end; // the nearest other rim that the image of rim `l` lies in or encloses
         const auto distance = [&](std::size_t o) {
             return std::abs(geometry::height(plane[o], places[l].front()));
         };

@@ -29,8 +29,8 @@ constexpr double kSameSkin = 0.02;
 /// faces is likelier. A higher value drops more closings by bent faces.
 constexpr double kBentVoid = 0.5;
 
-/// Whether the missing faces are one per free loop, so that no void edge is needed and no face has several
-/// loops.
+/// Whether each free loop is filled by one face of its own, so that no void edge is needed and no face has
+/// several loops.
 bool fills_each_loop(const OpenVolume& open, std::size_t loops)
 {
     const Classification found = classify(open);
@@ -85,15 +85,15 @@ bool fills_flat_loops(const Model& model, const Roles& roles, const RunContext& 
     return fills.value_or(false);
 }
 
-/// Cost of a void: of its ends, and of the bend of its void faces.
+/// Cost of a void: the cost of its ends plus the cost of bent void faces.
 double cost_of(const RoleCandidate& candidate, const Sealed& sealed)
 {
     const Model& model = sealed.volume.model;
     double bent = 0, whole = 0;
     for (const FaceId face : sealed.closure.void_faces) {
         const double area = face_area(model, face);
-        // As for ends, a bend costs four times the area that it loses: 90° costs 0.4 times as much as a half
-        // turn.
+        // As for ends, a bent face costs four times the difference between its area and its projected area,
+        // but at most its area: a bend by 90° costs 0.4 times as much as a half turn.
         bent += std::min(area, 4 * (area - face_area_vector(model, face).norm()));
         whole += area;
     }

@@ -176,8 +176,8 @@ std::vector<Run> groove_ends(const Model& model, const Rim& rim, const std::vect
     return ends;
 }
 
-/// The direction of a groove: that of the straight edges of its mouth from end to end. Bent parts of the
-/// mouth are ignored.
+/// The direction of the straight edges that run along the mouth of a groove from end to end. Bent parts of
+/// the mouth are ignored.
 /// @return  empty if there are no such edges, or if they are not parallel.
 std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector<Run>& ends)
 {
@@ -226,8 +226,8 @@ bool are_alike(const Model& model, const Rim& rim, const Run& a, const Run& b)
     return true;
 }
 
-/// The ends of a channel: two congruent runs with edges of walls between them. They need three edges or more:
-/// two may belong to a triangle or a rectangle, and the rim of a bent wall may be planar.
+/// The ends of a channel: two congruent runs with edges of walls between them. Each run needs at least three
+/// edges: two edges may belong to a triangle or a rectangle, and the rim of a bent wall may be planar.
 std::vector<Run> channel_ends(const Model& model, const Rim& rim, std::vector<Run> ends)
 {
     std::erase_if(ends, [](const Run& run) { return run.count < 3; });

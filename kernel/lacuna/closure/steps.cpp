@@ -49,10 +49,10 @@ struct Hanging {
     Rim rim;
 };
 
-/// The rims of an end where the walls turn.
+/// Steps at the rims of an end.
 struct Steps {
     std::vector<std::vector<FaceId>> parts; ///< connected parts of the end
-    std::vector<Hanging> closed;            ///< rims with such walls all round
+    std::vector<Hanging> closed;            ///< rims at which all walls lead away from the opposite end
     std::vector<FaceId> risers;             ///< walls at steps that end at other walls
 };
 
@@ -112,8 +112,8 @@ Steps find_steps(const OpenVolume& volume, Role end, const std::vector<double>& 
 
 /// A rim projected onto the opposite end.
 struct Imprinted {
-    std::size_t part = 0;      ///< the part whose rim it is
-    FaceId target;             ///< the face it lies on
+    std::size_t part = 0;      ///< index of the part of the end whose rim was projected
+    FaceId target;             ///< face of the opposite end that it lies on
     std::vector<Index> points; ///< points of the model, the first not repeated
     std::vector<Vec2> flat;    ///< the same, projected along the sweep
 };
@@ -190,7 +190,7 @@ private:
         check_cancelled(context_);
         Imprinted image;
         image.part = hanging.part;
-        std::map<Index, Index> above_of; // by point of the rim
+        std::map<Index, Index> above_of; // by point of the rim: its image on the opposite end
         const auto lift = [&](Index p) {
             const auto known = above_of.find(p);
             if (known != above_of.end()) return known->second;
@@ -356,8 +356,8 @@ private:
         return least - volume_.model.diagonal;
     }
 
-    /// Set the corners' surface parameters: those found by projection, and at the old rim those of the old
-    /// facets.
+    /// Set the surface parameters of the facets' corners. Projected points have the parameters found by
+    /// projection; points of the old rim have those of the old facets.
     void set_uv(const Face& before, Face& face) const
     {
         std::map<Index, Vec2> known(uv_.begin(), uv_.end());
@@ -369,7 +369,7 @@ private:
     }
 
     const OpenVolume& volume_;
-    PartedVolume parted_; ///< its faces have their roles; its model is made by `builder_`
+    PartedVolume parted_; ///< holds the roles; its model is taken from `builder_` at the end
     ModelBuilder builder_;
     Role stepped_, other_;
     const RunContext& context_;
@@ -379,7 +379,8 @@ private:
     /// Surface parameters of points projected onto the opposite end.
     std::map<Index, Vec2> uv_;
     std::optional<geometry::FacetTree> tree_;           ///< facets of the original opposite end
-    std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree
+    std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree: its face, and its index
+                                                        ///< there
 };
 
 /// Close a missing end opposite to steps by a face in the only open loop, flat or bent like that loop.
@@ -436,7 +437,7 @@ Vec3 sweep_way(const OpenVolume& volume)
     return way.stableNormalized();
 }
 
-/// Levels of pieces side by side: 0 for the longest along the sweep, otherwise the number of different longer
+/// Levels of pieces side by side: 0 for the longest along the sweep, otherwise the number of distinct greater
 /// lengths.
 std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Vec3& way)
 {
@@ -466,8 +467,9 @@ std::vector<int> levels_by_length(const std::vector<StepPiece>& pieces, const Ve
     return levels;
 }
 
-/// If only a flat loop of walls across the sweep is open, such as the brim of a box round a floating board,
-/// close it as part of an end. Otherwise the columns beside the board would have no end to reach.
+/// If the only open loop is flat, lies across the sweep and is bounded by walls, close it as part of an end.
+/// An example is the brim of a box round a floating board: without that face, the columns beside the board
+/// would have no end to reach.
 void close_brim(OpenVolume& volume, const RunContext& context)
 {
     const std::vector<Rim> open = free_loops(volume);
@@ -486,8 +488,8 @@ void close_brim(OpenVolume& volume, const RunContext& context)
     volume.model = with_loops(std::move(volume.model));
 }
 
-/// Cover the holes without walls in the tops of steps, such as a bore in a boss that ends below the brim.
-/// Extended to the other end, they would become pins.
+/// Cover the holes without walls in the tops of steps, such as a bore in a boss that ends below the brim. If
+/// they were extended to the other end, they would become pins.
 void cover_step_holes(OpenVolume& volume, const RunContext& context)
 {
     std::set<FaceId> tops;
@@ -506,8 +508,8 @@ void cover_step_holes(OpenVolume& volume, const RunContext& context)
 
 std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, int round);
 
-/// Cut a volume by the planes of walls at steps. Then extrude void faces at the remaining steps, which have
-/// such walls all round.
+/// Cut a volume by the planes of walls at steps. Then extrude void faces from the rims of the remaining
+/// steps, which have walls all round.
 std::vector<StepPiece> cut_at_risers(const OpenVolume& volume, const std::vector<FaceId>& risers,
                                      const RunContext& context, int round)
 {
@@ -548,7 +550,7 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
     for (const Role end : {Role::source, Role::target}) {
         const auto& [parts, closed, risers] = steps[end == Role::source ? 0 : 1];
         if (parts.size() < 2) continue;
-        // If a step with such walls all round is flush with an earlier cut, its walls end at the cut.
+        // A step with walls all round may be flush with an earlier cut; its walls then end at the cut.
         if (!risers.empty() && round < kRounds) return cut_at_risers(volume, risers, context, round + 1);
         throw NotSweepable(
             Message("closure.steps",

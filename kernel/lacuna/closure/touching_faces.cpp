@@ -31,7 +31,8 @@ using namespace topology;
 
 namespace {
 
-/// Most sides of a loop that is split: the number of splits into three faces grows with its third power.
+/// Largest number of sides of a loop that is split. The number of splits into three faces grows with the
+/// third power of the number of sides.
 constexpr std::size_t kMostSides = 48;
 
 // --- one face ---------------------------------------------------------------------------------------------
@@ -137,7 +138,7 @@ public:
                 const FaceChain flat = part_of(loop, i, j), rest = part_of(loop, j, i);
                 const bool flat_there = plane_of_run(flat).has_value();
                 const bool both = flat_there && plane_of_run(rest);
-                if (both && i > j) continue; // found from the other side
+                if (both && i > j) continue; // found with the two parts exchanged
                 const bool told = flat_there && (count_turns(points_along(flat)) > 1 ||
                                                  (both && count_turns(points_along(rest)) > 1));
                 const FaceSide chord = across(rest);
@@ -258,8 +259,8 @@ private:
         return (points.back() - points[points.size() - 2]).stableNormalized();
     }
 
-    /// Whether a straight edge may separate faces: it is neither an edge already nor in line with the sides
-    /// at its ends.
+    /// Whether a straight edge may separate faces: no straight edge joins its ends already, and it is not in
+    /// line with the sides at its ends.
     [[nodiscard]] bool fits(const FaceSide& chord, std::initializer_list<Vec3> sides) const
     {
         const Vec3 way = end_to_end(chord.points).stableNormalized();

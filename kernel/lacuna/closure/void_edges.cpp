@@ -44,7 +44,7 @@ std::set<VertexId> free_vertices(const OpenVolume& volume)
 
 // --- the course of one void edge ------------------------------------------------------------------------
 
-/// Facet points on the edges at a vertex: their mean spacing is length / segments.
+/// Spacing of the facet points on the edges at a vertex; its mean is length / segments.
 struct Spacing {
     double length = 0;
     std::size_t segments = 0;
@@ -81,7 +81,7 @@ std::vector<Vec3> inner_points(int segments, const At& at)
     return points;
 }
 
-/// @param spacing  of the facet points at the gap's start; 0: unknown.
+/// @param spacing  spacing of the facet points at the start of the gap; 0: unknown.
 std::vector<Vec3> straight_course(const Model& model, const Gap& gap, double spacing)
 {
     const Vec3 from = model.at(model[gap.from].point), to = model.at(model[gap.to].point);
@@ -161,11 +161,12 @@ Tangents tangents_of(const OpenVolume& volume, const Gap& gap, const Follower* w
     return result;
 }
 
-/// The side of the ends' faces on which the void is: where the normals point towards the other end.
+/// Side of the ends' faces on which the void lies: 1 if their normals point towards the other end, otherwise
+/// -1.
 double side_of_void(const OpenVolume& volume, const std::vector<Gap>& gaps, const Follower* walls)
 {
     const Model& model = volume.model;
-    if (walls != nullptr) return 1; // they give the tangents
+    if (walls != nullptr) return 1; // the walls determine the tangents
     double lean = 0, length = 0;
     bool asked = false;
     for (const Gap& gap : gaps) {

@@ -133,9 +133,9 @@ std::optional<VoidFilling> fill_as_rim_tells(const Model& model, const std::vect
     return std::nullopt;
 }
 
-/// Height of a surface over a place of a plane: that of the point where the normal through the place meets
-/// the surface, or of the closest point if the normal misses it. Empty if the normal meets the surface at
-/// several heights.
+/// Height of a surface over a place of a plane, measured where the normal through the place meets the
+/// surface, or at the closest point if the normal misses it. Empty if the normal meets the surface at several
+/// heights.
 std::optional<double> height_of(const geometry::FacetTree& shape, const geometry::Plane& plane,
                                 const Vec2& place, double tolerance)
 {
@@ -161,7 +161,8 @@ std::optional<VoidFilling> fill_between_corners(const Model& model, const std::v
     const auto sides = four_corners(model, loops.front());
     if (sides.empty()) return std::nullopt;
     if (on_quadric && !is_ruled(model, sides)) return std::nullopt;
-    return unless_refused([&] { return fill_transfinite(model, sides, nullptr, context); }); // it may fold
+    return unless_refused([&] { return fill_transfinite(model, sides, nullptr, context); }); // the patch may
+                                                                                             // fold
 }
 
 /// The edges of two loops that cross, for messages.
@@ -184,7 +185,7 @@ std::array<Argument, 2> crossing_edges(const Model& model, const std::vector<Loo
 std::vector<std::vector<EdgeUse>> logical_sides(const OpenVolume& volume, const Loop& loop)
 {
     const auto on_rim = [&](EdgeId edge, Role end) {
-        std::array<bool, 2> used{}; // by faces of the end, in each direction
+        std::array<bool, 2> used{}; // whether faces of the end use the edge forward, and reversed
         for (const FaceUse& use : volume.model.uses_of_edge(edge))
             if (volume.role[use.face.index()] == end) used[use.reversed ? 1 : 0] = true;
         return used[0] != used[1];

@@ -35,7 +35,8 @@ bool can_be_cut(const Model& skin, const Roles& roles, const RunContext& context
         .has_value();
 }
 
-/// The given faces of a sealed volume, in the input model's numbering, and whether there are no others.
+/// The given faces of a sealed volume, in the input model's numbering, and whether these are all of its
+/// faces.
 struct GivenPart {
     std::vector<FaceId> faces; ///< ascending
     bool all = true;
@@ -92,7 +93,7 @@ RoleCandidate way_of(const OpenVolume& volume)
 bool has_ends(const RoleCandidate& way, const Ends& ends)
 {
     for (const GivenPart* end : {&ends.source, &ends.target})
-        if (!end->all && !end->faces.empty()) return false; // an end of given and of void faces
+        if (!end->all && !end->faces.empty()) return false; // an end with both given and void faces
     const std::vector<FaceId> s = rising(way.roles.source), t = rising(way.roles.target);
     return (s == ends.source.faces && t == ends.target.faces) ||
            (t == ends.source.faces && s == ends.target.faces);

@@ -19,9 +19,9 @@ public:
     /// The chain of wall edges upward from a rim vertex, until it reaches an end or no edge continues it.
     [[nodiscard]] std::vector<topology::EdgeUse> climb(VertexId start) const;
 
-    /// Whether exactly one of the two paths along a free loop joins two vertices without passing an end. The
-    /// rim of the walls is then the side line between them. Around a hole in the walls, both paths join the
-    /// vertices.
+    /// Whether exactly one of the two paths along a free loop joins two vertices without passing a vertex of
+    /// an end. The rim of the walls is then the side line between them. Around a hole in the walls, both
+    /// paths join the vertices.
     [[nodiscard]] bool joined(VertexId from, VertexId to,
                               const std::vector<const topology::Rim*>& loops) const;
 

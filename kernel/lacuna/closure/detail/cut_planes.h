@@ -13,10 +13,10 @@ namespace lacuna::closure {
 
 /// A concave edge of a volume, or a concave cylinder that turns by more than a right angle, such as a bore.
 struct Bend {
-    EdgeId edge; ///< invalid: a cylinder
-    FaceId face; ///< of a cylinder
+    EdgeId edge; ///< invalid if the bend is a cylinder
+    FaceId face; ///< the cylinder; invalid if the bend is an edge
     /// Length of the edge. For a cylinder: its length times the number of right angles by which it turns,
-    /// reduced to 0 for a quarter turn [model length].
+    /// times a factor that is 0 for a quarter turn and 1 for a full turn [model length].
     double length = 0;
     std::optional<Vec3> axis; ///< a sweep in this direction follows the bend; empty: a curved edge
 };
@@ -31,15 +31,16 @@ double length_to_cut(const std::vector<Bend>& bends);
 /// A plane that may cut a volume into pieces that are easier to sweep.
 struct CutPlane {
     geometry::Plane plane;
-    std::vector<EdgeId> edges; ///< cut only as far as the plane reaches from these; empty: cut all through
+    std::vector<EdgeId> edges; ///< only regions of the plane that adjoin these edges are cut; empty: all
+                               ///< regions
 };
 
 /// Planes to cut a volume by, in this order:
-/// 1. the planes of flat faces beside concave edges, as far as they reach from these edges;
-/// 2. planes midway between features (connected groups of bends), across the normals of flat faces and
-///    the common normals of two axes, if they reduce `length_to_cut()`; the best first;
-/// 3. planes through the axes of cylinders that cross each other: half a bore is a groove.
-/// @param most  number of planes between features.
+/// 1. the planes of flat faces beside concave edges, only in the regions that adjoin these edges;
+/// 2. planes midway between features (connected groups of bends) that reduce `length_to_cut()`, the best
+/// first; their normals are those of flat faces and the common normals of two axes;
+/// 3. planes through the axes of cylinders that cross each other, which divide a bore into two grooves.
+/// @param most  largest number of planes between features.
 std::vector<CutPlane> cut_planes(const topology::OpenVolume& volume, const std::vector<Bend>& bends,
                                  std::size_t most);
 

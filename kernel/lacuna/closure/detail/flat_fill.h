@@ -33,12 +33,12 @@ std::optional<FlatFilling> fill_flat_loops(const topology::Model& model, const s
 std::optional<FlatFilling> fill_all_loops(const topology::Model& model, const std::vector<FaceId>& faces,
                                           const RunContext& context);
 
-/// Fill the free loops of a volume without a target as `fill_flat_loops()` does. New faces that face away
-/// from the source, or slope by at most 60°, are the target. The others are walls: the risers of a target at
-/// several heights.
+/// Fill the free loops of a volume without a target as `fill_flat_loops()` does. New faces that are inclined
+/// to the source by at most 60° form the target; if there are none, the least inclined do. The other new
+/// faces are walls, such as the risers of a target at several heights.
 /// @return  empty in any of these cases:
 /// - every loop is planar and gets a face of its own;
-/// - a loop lies on a sphere, a circular cylinder or a cone, or is that of a channel
+/// - a loop lies on a sphere, a circular cylinder or a cone, or belongs to a channel
 ///   (`FlatFilling::channel`);
 /// - a loop of a new face is not flat;
 /// - the result is not sealed;

@@ -13,12 +13,12 @@ namespace lacuna::closure {
 enum class RolesBy { person, finding };
 
 /// The error about an ambiguous bend in a sealed volume, without a remedy; empty if no bend is ambiguous. The
-/// code is "closure.shape_open" if the user chose the roles, otherwise "topology.shape_open". Ambiguous are:
+/// code is "closure.shape_open" if the user chose the roles, otherwise "topology.shape_open". Two kinds of
+/// void faces are ambiguous:
 ///
-/// - A membrane: its rim does not determine its inside. If the user chose the roles, the membrane is the
-///   missing end, which closing interpolates (Algorithm 4). It is then ambiguous only in two cases: the
-///   smoothest faces over its rim, a membrane and a thin plate, differ; or straight sides suggest several
-///   flat faces.
+/// - A membrane: a face whose rim does not determine its inside. If the user chose the roles, a membrane is
+///   the missing end, which closing interpolates (Algorithm 4). It is then ambiguous only in two cases: the
+///   membrane differs from the thin plate over the same rim; or straight sides suggest several flat faces.
 /// - A bent void face whose rim also lies on other quadrics that are far from the face.
 ///
 /// A rough rim is never ambiguous: its points are off a plane by at most a twentieth of its diameter, and

@@ -10,9 +10,9 @@
 /// Midpoint subdivision. Internal to this folder.
 namespace lacuna::closure {
 
-/// Divide a sealed volume into one block with six four-sided faces at each vertex @cite li_1995_midpoint:
-/// lines run from the middles of edges to the middles of their faces, and from these to the middle of the
-/// volume.
+/// Divide a sealed volume into blocks, one at each vertex, each with six four-sided faces @cite
+/// li_1995_midpoint: lines run from the middles of edges to the middles of their faces, and from these to the
+/// middle of the volume.
 ///
 /// Middles start at centroids and are moved on their face, or in space, as long as this improves the corners
 /// of the blocks. Given faces are split along plane sections; void faces between two blocks are bilinear.

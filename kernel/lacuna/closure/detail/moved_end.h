@@ -27,11 +27,11 @@ struct MovedEnd : Closed {
 /// The missing end then has the given end's shape, and the missing walls are closed between the two ends. The
 /// scale is fitted only if walls cover a third of the outline, because the taper of a bore is not that of the
 /// outline. The map must move every part of the rim.
-/// @param known  tells whether all of some points lie on existing faces. If it says so of the points on the
-///         rim of a missing end and at mid-height of the missing walls, nothing is sealed.
-/// @return  one result per flat face that can be such an end: all other faces are walls connected to it, and
-///          adjacent walls are missing. If there are many such faces, those with the most adjacent faces are
-///          tried.
+/// @param known  tells whether some points all lie on existing faces. If this holds for the points on the rim
+///         of a missing end and at mid-height of the missing walls, nothing is sealed.
+/// @return  one result for each flat face that can be the given end: all other faces are walls connected to
+///         it, and some walls beside it are missing. If there are many such faces, those with the most
+///         adjacent faces are tried.
 /// @throw InvalidInput  the faces cannot be oriented.
 /// @throw Cancelled
 std::vector<MovedEnd> move_ends(const topology::Model& model, const std::vector<FaceId>& faces,

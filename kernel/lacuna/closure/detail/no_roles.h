@@ -16,8 +16,8 @@ namespace lacuna::closure {
 bool is_ring(const topology::OpenVolume& volume, const RunContext& context);
 
 /// The error that no roles were found, with a remedy. Its code is "topology.sphere", "topology.cone" (a cone
-/// that includes its apex), "topology.crossing_bores", or otherwise "topology.no_roles". Planes to cut by are
-/// tried first.
+/// that includes its apex), "topology.crossing_bores", or otherwise "topology.no_roles". It first cuts by
+/// some planes on trial, so that the remedy can name a cut that works.
 /// @throw InvalidInput  the faces cannot be oriented.
 /// @throw Cancelled
 Message why_no_roles(const topology::Model& model, const std::vector<FaceId>& faces,

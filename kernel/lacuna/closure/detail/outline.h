@@ -12,11 +12,11 @@ namespace lacuna::closure {
 
 /// Boundary points of a face in its triangulation plane; the points of a seam are listed twice.
 struct Outline {
-    std::vector<Index> model_point; ///< empty: not points of the model
+    std::vector<Index> model_point; ///< by boundary point; empty if these are not points of the model
     std::vector<Vec2> flat;
     std::vector<std::vector<Index>> loops;
 
-    /// Add a loop of new points.
+    /// Add a loop. @param points its points in the model, if it has any there.
     void add_loop(const std::vector<Vec2>& places, const std::vector<Index>& points = {})
     {
         std::vector<Index>& loop = loops.emplace_back(places.size());

@@ -40,13 +40,13 @@ std::optional<Sealed> seal(const topology::Model& model, const topology::Roles& 
 bool same_volume(double a, double b);
 
 /// The candidates, sealed and grouped by the volume they enclose.
-/// @param most  number of candidates to seal
+/// @param most  largest number of candidates to seal
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
                         std::size_t most, const RunContext& context);
 
 /// Use the voids that are sealed by moving a given end to the missing one. If role candidates found some of
-/// these voids as well, keep only those. Otherwise the voids with a moved end replace all others; if a rim
-/// without walls was extended, they are added to the others instead.
+/// these voids as well, keep only these voids. Otherwise the voids with a moved end replace all others; if a
+/// rim without walls was extended, they are added to the others instead.
 void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
                 const RunContext& context);
 

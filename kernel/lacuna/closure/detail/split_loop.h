@@ -12,7 +12,8 @@ namespace lacuna::closure {
 struct SplitLoop {
     std::vector<topology::Loop> parts; ///< all but the last are planar
     bool channel = false;              ///< whether the first two parts are congruent ends
-    /// Whether one of two planar parts has only two given edges, which fit any plane through them.
+    /// Whether one of two planar parts has only two straight given edges. These are always coplanar, so they
+    /// do not show that a flat face is missing.
     bool is_assumed = false;
 };
 

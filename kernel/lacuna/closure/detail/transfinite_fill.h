@@ -7,8 +7,9 @@
 
 namespace lacuna::closure {
 
-/// Algorithm 6, or 5 if two sides are one closed edge: a bilinear Coons patch over arc length.
-/// @param sides     four, in walking order
+/// Algorithm 6, or Algorithm 5 if two opposite sides are the same edge (a seam): a patch between four sides
+/// over arc length, see `fill()`.
+/// @param sides  four, in walking order
 /// @param follower  null, or the motion that the patch follows, see `fill()`.
 /// @throw InvalidInput  the patch folds.
 VoidFilling fill_transfinite(const topology::Model& model,

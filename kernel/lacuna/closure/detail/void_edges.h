@@ -28,7 +28,7 @@ struct Course {
     const Follower* walls = nullptr;    ///< source of wall tangents for `smooth`; null: none
 };
 
-/// The paper's Algorithm 2: a void edge across each gap, and those of the user.
+/// The paper's Algorithm 2: a void edge across each gap, and the void edges of the user.
 ///
 /// A smooth edge is a cubic Bézier curve. Its tangent at an end is that of the wall edge that ends at the
 /// gap, otherwise the direction in which the given walls move the vertex off its rim, otherwise the face's
@@ -37,7 +37,7 @@ struct Course {
 /// approximates within 0.03 % of the radius at 90°.
 /// @throw InvalidInput  a user's void edge names no vertex of the free rims, is given twice, contradicts the
 ///         match, or crosses a given face; names the vertices.
-/// @throw NotClosed     edges are smooth, and the ends do not determine to which side they bend.
+/// @throw NotClosed  edges are smooth, and the ends do not determine to which side they bend.
 std::vector<EdgeId> make_void_edges(topology::OpenVolume& volume, const matching::Match& match,
                                     const std::vector<VoidEdge>& by_hand, const Course& course,
                                     const RunContext& context);

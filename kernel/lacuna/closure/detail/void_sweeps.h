@@ -9,8 +9,8 @@
 
 namespace lacuna::closure {
 
-/// The best sweep directions of a closed skin that can be swept, if necessary after cuts: those with the
-/// fewest irregular nodes first, then those with the most even cells.
+/// Sweep directions of a closed skin, best first: those with the fewest irregular nodes, and among them those
+/// with the most even cells. Directions that cannot be swept, even after cuts at steps, are left out.
 std::vector<topology::RoleCandidate> best_sweeps(const topology::Model& skin, const RunContext& context);
 
 /// Search the unlikely candidates too. Return the first one for which `suits` is true, followed by those
@@ -38,8 +38,8 @@ std::optional<Reading> read(const topology::Model& model, const std::vector<Void
 void note_hole(const topology::Model& model, FaceId through, const std::vector<FaceId>& given,
                const Sealed& sealed, Reading& reading);
 
-/// If only holes without walls make the readings ambiguous: an open volume of class IV whose source is the
-/// face with the holes. Otherwise empty.
+/// An open volume of class IV whose source is a face with holes, if only these holes, which have no walls,
+/// make the readings ambiguous. Otherwise empty.
 std::optional<Reading> leave_holes_open(const topology::Model& model, const std::vector<Reading>& readings,
                                         const std::vector<FaceId>& faces, const RunContext& context);
 

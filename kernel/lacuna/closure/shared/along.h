@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-/// Class 0: a source alone, swept along a path. It is not one of the paper's.
+/// Class 0: a source alone, swept along a path. The paper does not define this class.
 namespace lacuna::closure {
 
 /// A source and its motion.
@@ -20,20 +20,22 @@ struct SweptSource {
     topology::OpenVolume source; ///< faces of the source alone
     geometry::MotionPointer motion;
     bool full_turn = false; ///< the motion ends where it starts
-    /// By edge of the source's rim: the sets that contain it. The walls that the edge sweeps get these sets.
+    /// For each rim edge of the source: the names of the sets that contain it. The walls that the edge sweeps
+    /// join these sets.
     std::map<EdgeId, std::vector<std::string>> sets{};
-    /// Set if edges of the source lie on the axis of its turn. Such a volume is swept with wedges
-    /// (`sweep/shared/turn_at_axis.h`), and not sealed.
+    /// Set if edges of the source lie on the axis of rotation. Such a volume is not sealed; it is swept with
+    /// wedges (`sweep/shared/turn_at_axis.h`).
     std::optional<Along::Axis> on_axis{};
-    /// Given walls alone, which replace the walls that the motion makes in their places; none: empty.
+    /// The given walls, without any other face. Each replaces the wall that the motion would make in its
+    /// place. Empty if no walls are given.
     std::optional<topology::Model> walls{};
 };
 
-/// Give a source the motion along a path.
+/// Determine the motion of a source along a path.
 /// @param model  contains the edges of a path.
 /// @throw InvalidInput "closure.along_…"  the path has no length or an unknown edge; the source touches the
-///         axis at a point, has several parts or is closed; the section shrinks to nothing; the ray from a
-///         point of the source meets the target face not at all or twice. Or the errors of
+///         axis at a point, has several parts or is closed; the section shrinks to nothing; a ray from a
+///         point of the source misses the target face or meets it more than once. Also the errors of
 ///         `geometry::motion_along_path()`.
 /// @throw Cancelled
 SweptSource swept_source(const topology::Model& model, topology::OpenVolume source, const Along& along,
@@ -52,10 +54,11 @@ void refuse_edges_on_axis(const SweptSource& swept);
 ///         normals would fold. "closure.along_crosses"  the volume would cross itself. Both name the place.
 Closed close_along(const SweptSource& swept, const CloseOptions& options, const RunContext& context);
 
-/// Set the void edges and faces of a closure, and whether the volume is watertight, from the volume.
+/// Fill in the closure's lists of void edges and void faces and its flag `watertight`, as found in its
+/// volume.
 void list_void(Closed& closed);
 
-/// The two halves of a full turn, sealed. They share both ends.
+/// The two halves of a full turn, each sealed. Both ends of one half are the ends of the other.
 std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& context);
 
 } // namespace lacuna::closure

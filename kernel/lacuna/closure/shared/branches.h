@@ -9,17 +9,17 @@
 
 namespace lacuna::closure {
 
-/// A direction runs along a body's axis if the sine between them is below this (6°). The cut at a branch that
-/// leaves at a smaller angle would be ill-defined.
+/// A direction counts as parallel to a body's axis if the sine of the angle between them is below this (6°).
+/// A branch that leaves the body at a smaller angle has no well-defined cut.
 inline constexpr double kAlongAxis = 0.1;
 
-/// Whether a side branch leaves a wall of the volume: a closed line of concave edges between walls separates
-/// the skin into a side with two ends, given or missing, and a side that has an end too or is deeper than
-/// half its width.
+/// Whether a side branch leaves a wall of the volume. A branch starts at its mouth, a closed line of concave
+/// edges between walls. The mouth separates the skin into the main body, which has two ends (given or
+/// missing), and the branch, which has an end too or is deeper than half the radius of its mouth.
 bool has_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 
-/// Cut a volume at its side branches into arms that can be swept: a tee into three arms, a manifold with n
-/// branches into 2n + 1, because the main body is also cut between two branches.
+/// Cut a volume at its side branches into arms that can be swept: a tee is cut into three arms. A manifold
+/// with n branches is cut into 2n + 1 arms, because each branch also cuts the main body in two.
 ///
 /// Three void faces meet in a line that crosses the mouth of a branch and dips into the main body: one face
 /// runs across the main body, two run from the line to the halves of the mouth. Each arm ends at two of these

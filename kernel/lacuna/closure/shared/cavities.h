@@ -9,8 +9,8 @@
 
 namespace lacuna::closure {
 
-/// A hollow of a solid that makes an open volume, or an inner void: a hollow without a mouth, which is listed
-/// even if it has no ends to sweep between.
+/// A hollow of a solid whose faces make an open volume, or an inner void. An inner void is a hollow without a
+/// mouth; it is listed even if it has no ends to sweep between.
 struct Cavity {
     std::string kind;          ///< "pocket", "bore", "slot" or "inner void"
     std::vector<FaceId> faces; ///< ascending: the `faces` to name for an open volume
@@ -22,7 +22,7 @@ struct Cavity {
 /// topology::hollows(), and each set of hollows that share whole rims, merged. A candidate is a cavity if it
 /// has no mouth, or if find_readings() finds exactly one void.
 /// @throw Cancelled
-/// @note  One call of find_readings() per hollow.
+/// @note  One call of find_readings() per candidate.
 std::vector<Cavity> cavities(const topology::Model& model, const RunContext& context = {});
 
 } // namespace lacuna::closure

@@ -23,8 +23,8 @@ namespace lacuna::closure {
 /// determine it; a piece between two cuts has these as ends.
 /// @return  pieces behind the plane first.
 /// @throw NotSweepable "closure.cut_misses"  the plane crosses nothing; names the faces it touches or the
-///         distance. "closure.cut_apart"  the volume stays connected, such as a ring cut once.
-///         "closure.cut_touches"  the plane runs along faces that nearly lie in it. "closure.cut_gaps"  open
+///         distance. "closure.cut_apart" the volume stays connected, as a ring does that is cut once.
+///         "closure.cut_touches" the plane runs along faces that nearly lie in it. "closure.cut_gaps" open
 ///         ends of walls that cannot be joined without crossings.
 /// @throw InvalidInput  the errors of `topology::imprint_walks()`.
 /// @note  O(facets log facets).
@@ -34,9 +34,8 @@ std::vector<StepPiece> cut_by_plane(const topology::OpenVolume& volume, const ge
 /// Cut like `cut_by_plane()`, but only in the regions of the plane whose rims run along one of the given
 /// edges; without edges, in all regions. Cut lines across flat faces have no inner points, so that coarse
 /// meshes fold no facets.
-/// @param least  the least distance between the cut and an edge that does not meet its plane, unless another
-///               edge that meets the plane joins both: there, the volume itself is that thin
-///               [model length].
+/// @param least  the least distance between the cut and an edge beside it [model length]. Edges that meet the
+///         plane, or share a vertex with such an edge, may be nearer: there, the volume itself is that thin.
 /// @throw NotSweepable "closure.cut_thin"  an edge is nearer; or the errors of `cut_by_plane()`.
 std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const geometry::Plane& plane,
                                     const std::vector<EdgeId>& edges, double least,
@@ -44,9 +43,10 @@ std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const ge
 
 /// Cut a volume by a face of a model into pieces that share it.
 ///
-/// A face whose rim runs along edges of the volume, such as a partition modelled with it, is the shared face,
-/// whatever its shape. Any other flat face cuts by its plane: a face of the volume along the whole plane, a
-/// face of another model only where its own facets are inside the volume.
+/// If the rim of the face runs along edges of the volume, as the rim of a modelled partition does, the pieces
+/// share the face itself, whatever its shape. Any other face must be flat and cuts by its plane. A face of
+/// the volume cuts along the whole plane. A face of another model cuts only where its own facets are inside
+/// the volume.
 /// @param face  of `model`, which may be the volume's.
 /// @throw NotSweepable "closure.cut_face"  a curved face whose rim leaves the volume's edges; names the face
 ///         and the place. Or the errors of `cut_by_plane()`.

@@ -28,8 +28,8 @@ public:
     /// False if no given wall joins source and target, so that there is no motion to follow.
     [[nodiscard]] bool leads() const { return !ways_.empty(); }
 
-    /// The walls that move points near a source rim point: the given walls of its loop if they determine the
-    /// rest of that loop, otherwise all walls.
+    /// Index of the walls whose motion applies near a source rim point: the given walls of its loop if they
+    /// determine the rest of that loop, otherwise 0, which stands for all walls.
     [[nodiscard]] std::size_t walls_at(Index rim_point) const;
     /// Position at height t in [0, 1] of the point that starts at `source` and ends at `target`. @pre leads()
     /// @param walls  `walls_at()` of the adjacent rim; 0: all walls.
@@ -71,9 +71,10 @@ private:
     [[nodiscard]] double missed_by_all(const topology::Model& model,
                                        const matching::LoopSections& loop) const;
 
-    std::vector<Way> ways_;                         ///< motions by all walls, then by those of single loops
-    std::unordered_map<Index, std::size_t> at_rim_; ///< index in `ways_` of points on loops with their own
-                                                    ///< motion
+    std::vector<Way> ways_;                         ///< the motion of all walls, then motions of the walls of
+                                                    ///< single loops
+    std::unordered_map<Index, std::size_t> at_rim_; ///< by rim point of a loop with its own motion: the index
+                                                    ///< of that motion in `ways_`
     std::vector<double> heights_;
     bool closed_ = false; ///< some walls form a closed ring
     bool tells_ = false;  ///< some open walls reach far enough round to extrapolate the rest of their loop

@@ -27,7 +27,7 @@ struct ModelFacts {
 };
 
 /// @throw Cancelled
-/// @note  Cost as `cavities()` and `topology::gaps()`.
+/// @note  Costs as much as `cavities()` and `topology::gaps()`.
 ModelFacts model_facts(const topology::Model& model, const RunContext& context = {});
 
 /// Where a face belongs: the kind of its cavity, "outer skin" or "open shell". Valid as long as `facts`.

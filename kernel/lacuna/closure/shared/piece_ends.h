@@ -21,11 +21,11 @@ struct ReadPieces {
 ///
 /// A plane that crosses an end obliquely leaves pieces in which the cut face is adjacent to the rest of that
 /// end. A candidate for an end is a connected set of faces whose normals differ by less than 110°, or all
-/// faces within 60° of the normal of a flat one. Two candidates can be the ends if each wall touches both and
-/// has another wall on either side. The function takes the pair that is flattest, most similar and most
-/// perpendicular to its walls. It prefers ends that the user named, and pairs for which a cut face that is a
-/// wall of both adjacent pieces touches the ends of both along the same edges.
-/// Pieces without such ends, or with missing faces, are unchanged.
+/// faces whose normals are within 60° of the normal of a flat face. Two candidates can be the ends if each
+/// wall touches both and has another wall on either side. The function takes the pair that is flattest, most
+/// similar and most perpendicular to its walls. It prefers ends that the user named, and pairs for which a
+/// cut face that is a wall of both adjacent pieces touches the ends of both along the same edges. Pieces
+/// without such ends, or with missing faces, are unchanged.
 /// @throw Cancelled
 /// @note  O(ends² · faces) per piece, for at most 600 ends; pieces with more than 40 faces are unchanged.
 ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context = {});

@@ -6,17 +6,17 @@
 
 namespace lacuna::closure {
 
-/// Whether rounds that are faces of the ends themselves, such as domes, are divided too.
+/// Faces that may be rounds: walls only, or also faces of the ends, such as domes.
 enum class RoundsOf { walls, ends_and_walls };
 
-/// Divide rounds between an end and walls that lead away from the opposite end, such as the fillet round the
-/// top of a product in a box. They are divided where they are inclined by 45 degrees, and the flatter part
-/// becomes part of the end. Layers then meet the remaining walls at 45 degrees or more; they would be tangent
-/// to an undivided round.
+/// Divide rounds between an end and walls that lead away from the opposite end. A round is a curved face such
+/// as the fillet round the top of a product in a box. It is divided where it is inclined by 45 degrees, and
+/// its flatter part becomes part of the end. Layers then meet the remaining walls at 45 degrees or more; they
+/// would be tangent to an undivided round.
 ///
 /// The dividing plane is normal to the direction of the end: facets on one side of it are flatter, on the
-/// other side steeper. A round that the plane does not divide all round is left as it is.
-/// If there are rounds, the skin is oriented away from the void.
+/// other side steeper. A round that the plane does not cut along closed lines stays whole. If there are
+/// rounds, the skin is oriented away from the void.
 /// @note  O(facets) for each part of the ends; without rounds, only the walls at the ends are visited.
 void split_round_rims(topology::OpenVolume& volume, RoundsOf of, const RunContext& context);
 

@@ -15,7 +15,7 @@ bool has_steps(const topology::OpenVolume& volume, const RunContext& context = {
 /// A piece of a cut volume.
 struct StepPiece {
     topology::OpenVolume volume;
-    int level = 0; ///< 0: runs from end to end as the whole volume; otherwise the number of steps below it
+    int level = 0; ///< 0: runs from end to end like the whole volume; otherwise the number of steps below it
     /// For a full turn: range of the piece, as shares of the turn in [0, 1].
     double turn_from = 0, turn_to = 1;
 };

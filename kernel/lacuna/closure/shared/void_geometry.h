@@ -20,8 +20,8 @@ struct Subject {
 /// Facets of a void face, not yet in the model.
 struct VoidFilling {
     std::vector<topology::Loop> loops;
-    std::vector<Vec3> points;        ///< new ones; index i stands for model point model.points.size() + i
-    std::vector<Triangle> triangles; ///< model points, oriented like the loops
+    std::vector<Vec3> points;        ///< new points; index i stands for model point model.points.size() + i
+    std::vector<Triangle> triangles; ///< indices of model points; oriented like the loops
     topology::Geometry geometry = topology::Geometry::newell;
     std::string algorithm; ///< name in the paper: "Algorithm 4" …
     std::string name{};    ///< name of the face
@@ -36,9 +36,9 @@ std::vector<std::vector<topology::EdgeUse>> logical_sides(const topology::OpenVo
 ///
 /// The method depends on the face; algorithms are numbered as in the paper (`docs/bibliography.md`).
 /// - A bent face with four logical sides, or with four sharp corners if it is ruled or its rim lies on no
-///   quadric: Algorithm 6 (Algorithm 5 if two of the sides are one closed edge), a patch between four sides
-///   over arc length. Departure: instead of a bilinear Coons patch, `geometry::SweptPatch`, whose frame
-///   rotates along the sides. The mesh of the face is made on the same surface.
+///   quadric: Algorithm 6 (Algorithm 5 if two opposite sides are the same edge, a seam), a patch between four
+///   sides over arc length. Departure: the patch is a `geometry::SweptPatch`, whose frame rotates along the
+///   sides, not a bilinear Coons patch. The mesh of the face is made on the same surface.
 /// - Any other face whose outline does not cross itself in its Newell plane: Algorithm 4, constrained
 ///   Delaunay in that plane, with inner heights from the harmonic interpolation of the rim's heights.
 ///   Departure: if the rim determines a quadric, the interior lies on it too. If the rim lies on many
