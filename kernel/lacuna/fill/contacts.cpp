@@ -54,7 +54,7 @@ void check_regions(std::span<const AssemblyMember> members, const ContactRequest
 struct SkinOf {
     std::vector<mesh::SkinPatch>* patches;
     const std::vector<FaceId>* faces;
-    std::vector<std::size_t> sides; ///< of each patch
+    std::vector<std::size_t> sides; ///< number of skin sides, by patch
     double off = 0;                 ///< largest distance from the sealed skin
 };
 

@@ -62,7 +62,7 @@ mesh::LayeredNodes copied_nodes(std::shared_ptr<const std::vector<Vec3>> nodes, 
     return copied;
 }
 
-/// A part of a mesh, and one of its nodes or of the sides of its skin.
+/// A node of a part, or a side of its skin.
 struct OfPart {
     std::size_t part;
     Index number;
@@ -133,7 +133,7 @@ std::vector<sweep::NearMiss> check_volumes(const FilledParts& mesh, const Filled
 }
 
 /// Nodes and sides that a copy shares with the mesh: those in the same places.
-/// @throw NotSweepable  a node of one lies on the skin of the other, which has none there.
+/// @throw NotSweepable  a node of one lies on the skin of the other, which has no node there.
 InCommon in_common(const Skin& skin, const Eigen::Affine3d& by, double diagonal, const RunContext& context)
 {
     const std::size_t count = skin.nodes.size();
@@ -141,8 +141,8 @@ InCommon in_common(const Skin& skin, const Eigen::Affine3d& by, double diagonal,
     for (const Vec3& p : skin.places) points.push_back(by * p);
     const std::vector<Index> same = healing::weld(points, kSamePlace * diagonal, context);
     InCommon found;
-    std::vector<Index> twin(count, -1); // of the copy's nodes
-    std::vector<char> shared(count, 0); // of the mesh's
+    std::vector<Index> twin(count, -1); // by node of the copy: the same node of the mesh; -1: none
+    std::vector<char> shared(count, 0); // by node of the mesh: whether the copy has it
     for (std::size_t i = 0; i < count; ++i) {
         if (index(same[count + i]) >= count) continue;
         twin[i] = same[count + i];
@@ -297,7 +297,7 @@ FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const Pattern
     skin.reset();
     FilledParts all = moved(mesh, moves[0]);
     sweep::SweptAssembly& whole = all.swept;
-    // Copies of order 1 make their nodes from these when they are needed.
+    // By part, the nodes of the mesh, from which copies of order 1 compute their nodes on demand.
     std::vector<std::shared_ptr<const std::vector<Vec3>>> nodes(parts);
     for (std::size_t p = 0; p < parts; ++p) {
         mesh::HexMesh& part = mesh.swept.parts[p].mesh;
@@ -312,7 +312,7 @@ FilledParts pattern(FilledParts mesh, const Eigen::Affine3d& step, const Pattern
     for (std::size_t k = 0; k < count; ++k) {
         check_cancelled(context);
         std::vector<std::vector<std::pair<Index, Index>>> known(parts);
-        std::vector<std::vector<std::pair<Index, Vec3>>> places(parts); ///< of these nodes
+        std::vector<std::vector<std::pair<Index, Vec3>>> places(parts); ///< places of the nodes in `known`
         for (std::size_t p = 0; p < parts; ++p) {
             sweep::Swept& part = whole.parts[k * parts + p];
             if (k > 0) {

@@ -19,7 +19,7 @@ using topology::Role;
 
 namespace {
 
-/// In the order of `topology::Geometry`.
+/// Words for the kinds of geometry, in the order of `topology::Geometry`.
 constexpr std::array kGeometries{"given",         "Newell",         "transfinite",
                                  "annular strip", "followed sides", "parallel to the other end"};
 

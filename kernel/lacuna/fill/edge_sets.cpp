@@ -22,7 +22,8 @@ using namespace topology;
 
 namespace {
 
-/// A side of an edge by the model's points, the lower first, and the names of the sets that hold it.
+/// For each side of an edge, given by two points of the model, the lower index first: the names of the sets
+/// that hold it.
 using NamedSides = std::map<std::array<Index, 2>, std::set<std::string>>;
 
 /// Reads the sets of a deck on the points of a rim.
@@ -86,8 +87,8 @@ private:
 
     const io::Deck& deck_;
     NamedSides& found_;
-    io::DeckBlock lines_{.shape = io::DeckShape::line2, .type = {}}; ///< elements that the deck keeps as text
-    std::unordered_map<Index, Index> point_; ///< by node of the deck: the model's point
+    io::DeckBlock lines_{.shape = io::DeckShape::line2, .type = {}}; ///< line elements kept as text
+    std::unordered_map<Index, Index> point_; ///< by node of the deck: the point of the model
     std::unordered_map<io::DeckTag, std::pair<const io::DeckBlock*, std::size_t>> element_;
 };
 
@@ -114,7 +115,8 @@ std::map<EdgeId, std::vector<std::string>> edge_sets(Model& model,
     std::vector<EdgeId> parts;
     for (const EdgeId edge : rim) {
         parts.push_back(edge);
-        for (std::size_t i = model[edge].points.size() - 2; i > 0; --i) { // from its end, which is split off
+        for (std::size_t i = model[edge].points.size() - 2; i > 0; --i) { // from the end, because the part
+                                                                          // behind is split off
             const Edge& whole = model[edge];
             if (names(whole, i) == names(whole, i - 1)) continue;
             const std::vector<double> at = geometry::arc_lengths(places_at(model, whole.points));
@@ -137,7 +139,7 @@ std::vector<io::ColumnSet> column_sets(const Volume& volume, const sweep::Swept&
     for (const auto& deck : volume.decks) {
         const auto is_of_nodes = [](const io::DeckSet& set) { return set.kind == io::DeckSet::Kind::nodes; };
         if (std::ranges::none_of(deck->sets, is_of_nodes)) continue;
-        std::map<io::DeckTag, Index> node; // of the first level, by the deck's node at its column
+        std::map<io::DeckTag, Index> node; // by node of the deck: the node of the first level in its column
         for (const Index first : {0, swept.mesh.layers * count}) { // a sweep may start at either end
             std::vector<Vec3> places;
             for (Index n = 0; n < count; ++n) places.push_back(swept.skin()[first + n]);

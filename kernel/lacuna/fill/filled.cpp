@@ -24,7 +24,7 @@ void add(const sweep::Fidelity& other, sweep::Fidelity& own)
     own.sealed_volume = all;
 }
 
-/// Add to the number of cells of a group; a new group is appended.
+/// Add cells to the count of a group; a new group is appended.
 void count(std::vector<Group>& groups, const std::string& name, int dim, std::size_t cells)
 {
     auto known = std::ranges::find(groups, name, &Group::name);
@@ -112,7 +112,9 @@ std::vector<Group> groups(const FilledParts& mesh)
     for (const sweep::Swept& part : mesh.swept.parts) {
         const std::string& region = part.mesh.volume_groups.front();
         count_skin(all, part.mesh);
-        if (region != "volume") count(regions, region, 3, part.mesh.cell_count()); // default: unnamed
+        if (region != "volume")
+            count(regions, region, 3, part.mesh.cell_count()); // "volume" is the default
+                                                               // and names no region
         sum += part.mesh.cell_count();
     }
     for (const auto& [part, number, shared, region, quality, fidelity, faces, report] : mesh.tets) {
@@ -245,7 +247,8 @@ Vec3 node(const FilledParts& mesh, std::size_t node)
     }
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
         const mesh::NodeNumbers& number = mesh.swept.numbering[p];
-        const std::size_t fresh = node - index(number.first()); // among the nodes that this part has first
+        const std::size_t fresh = node - index(number.first()); // index among the nodes that this part
+                                                                // numbers first
         if (fresh < number.fresh())
             return mesh.swept.parts[p].skin()[static_cast<Index>(number.fresh_node(fresh))];
     }
@@ -257,7 +260,7 @@ Vec3 node(const FilledParts& mesh, std::size_t node)
 
 namespace {
 
-/// The cells of a shape in one part: the position of the first, and the number of them.
+/// The cells of a shape in one part: the position of the first cell, and their number.
 std::pair<std::size_t, std::size_t> cells_of(const mesh::HexMesh& mesh, mesh::CellShape shape)
 {
     if (shape == mesh::CellShape::hex8) return {0, mesh.hex_count()};

@@ -28,19 +28,19 @@ struct FilledVolume {
     std::string unit{};   ///< as `Volume::unit`
     bool copied = false;  ///< made by moved(): in an assembly, rounding may move its nodes onto those of
                           ///< other members
-    std::vector<io::ColumnSet> columns{}; ///< from node sets on the source of a path
+    std::vector<io::ColumnSet> columns{}; ///< made from node sets on the source of a path
 };
 
 /// A volume, or a piece of one, that was filled with tetrahedra and pyramids.
 struct FilledTets {
     mesh::TetPart mesh;
     std::vector<Index> number; ///< by node of `mesh`: its number in the whole mesh, from 0
-    std::size_t shared = 0;    ///< number of sides of its skin that it shares with meshes before it
+    std::size_t shared = 0;    ///< number of sides of its skin that it shares with meshes made before it
     std::string region;
-    quality::Quality quality;        ///< from the proof
-    sweep::Fidelity fidelity;        ///< the skin against the sealed skin
+    quality::Quality quality;        ///< measured when the mesh was proved
+    sweep::Fidelity fidelity;        ///< distances between its skin and the sealed skin
     std::vector<FaceId> faces;       ///< face of each patch of the skin, in the volume's model
-    std::vector<std::string> report; ///< why it was not swept, sizes, shape
+    std::vector<std::string> report; ///< why it was not swept, its sizes and its shape
 };
 
 /// Zero-thickness cells between two regions of a mesh, whose nodes are duplicated there.
@@ -48,7 +48,7 @@ struct SplitInterface {
     std::string region;  ///< name of the cells
     std::string element; ///< their Abaqus name: "COH3D8"
     std::vector<Hex>
-        cells; ///< nodes in the whole mesh, from one side to the other; wedges: `mesh::is_wedge()`
+        cells; ///< by nodes of the whole mesh, from one side to the other; wedges as `mesh::is_wedge()` says
 };
 
 /// Faces of two regions that touch, or face each other within a gap, without common nodes.
@@ -56,16 +56,16 @@ struct Contact {
     std::array<std::string, 2> regions;    ///< in the order of the members
     std::vector<std::array<int, 2>> faces; ///< tags of the faces that come together
     double gap = 0;                        ///< distance within which the faces were searched [model length]
-    double least = 0, width = 0;           ///< smallest and largest distance of the faces within the gap
+    double least = 0, width = 0;           ///< smallest and largest distance between the faces within the gap
                                            ///< [model length]
     double area = 0;                       ///< area of the first region's faces within the gap [model
                                            ///< length²]
-    mesh::ContactPair pair;                ///< its groups and tolerance are those of a mesh
+    mesh::ContactPair pair;                ///< the groups and the tolerance are set only for a mesh
 };
 
 /// The mesh of an assembly, or of a volume that was cut or filled with tetrahedra.
 struct FilledParts {
-    sweep::SweptAssembly swept;         ///< its `nodes` count those of `tets` too
+    sweep::SweptAssembly swept;         ///< `nodes` also counts the nodes of `tets`
     std::vector<std::string> regions;   ///< one for each part; the pieces of a full turn share one
     std::vector<std::string> materials; ///< one for each part, then for each of `tets`; empty: no material
     std::vector<sweep::LeftOut> left_out;
@@ -86,7 +86,7 @@ struct Filled {
     std::variant<FilledVolume, FilledParts> mesh;
 };
 
-/// The same mesh as one of a single part.
+/// The same mesh, as a mesh of a single part.
 FilledParts as_parts(const FilledVolume& mesh);
 
 /// The sweeps that produced a mesh: a single one, or one for each part.
@@ -106,7 +106,7 @@ struct Region {
 /// The regions of a mesh, in the order of its parts.
 std::vector<Region> regions(const FilledParts& mesh);
 
-/// The fidelity of all parts together, without that of single faces.
+/// The fidelity of all parts together, without values of single faces.
 sweep::Fidelity fidelity(const FilledParts& mesh);
 
 struct Group {
@@ -126,7 +126,8 @@ struct WholeCells {
     std::vector<Vec3> nodes;
     /// Corners; for wedges see `mesh::is_wedge()`, for pyramids and tetrahedra `mesh::has_apex()`.
     std::vector<Hex> hexes;
-    std::vector<mesh::CellNodes> curved; ///< at order 2: all nodes, as `mesh::merged_nodes()`
+    std::vector<mesh::CellNodes> curved; ///< at order 2: all nodes of each cell, as `mesh::merged_nodes()`
+                                         ///< returns them
     std::vector<Index> column;           ///< column that each cell belongs to, numbered over all parts
 };
 WholeCells whole_cells(const FilledParts& mesh);
@@ -146,7 +147,7 @@ struct JoinedDeck {
 };
 /// Join the parts of a mesh to a deck, one after the other, by `io::join_deck()`. Parts share the nodes that
 /// they share in the mesh. Contacts and sets of columns join too.
-/// @param model, scale  as for `io::join_deck()`. @param gone  as there; null: nothing was left out.
+/// @param model, scale, gone as for `io::join_deck()`; `gone` is null if nothing was left out.
 JoinedDeck joined_deck(const io::Deck& deck, const topology::Model& model, double scale,
                        const FilledParts& mesh, io::MeshDeckOptions options, const io::Deck* gone = nullptr,
                        const RunContext& context = {});
@@ -157,7 +158,8 @@ struct InterfaceFaces {
     /// Faces between these two regions.
     std::vector<std::pair<std::string, std::string>> pairs{};
     bool all = false; ///< faces between any two regions
-    /// Levels of a mesh of one sweep: the number of layers below each, > 0 and less than the layers.
+    /// Levels at which to split the mesh of a single sweep. A level is the number of layers below it: at
+    /// least 1, and less than the number of layers.
     std::vector<int> levels{};
     std::string region = "interface";
     /// Abaqus name of the cells: COH3D8 or GK3D8, or a kind of these. "NONE": nodes are duplicated, and there
@@ -169,12 +171,12 @@ struct InterfaceFaces {
 /// (cohesive) cell at each side.
 ///
 /// At each node, parts stay connected if they share a side that is not split. Each connected set of parts
-/// gets its own node: three regions that meet at split sides get three. If the interface ends inside the
-/// mesh, all parts around its end stay connected, so nodes there are not duplicated. Existing nodes keep
+/// gets its own node: three regions that meet at split sides get three nodes. If the interface ends inside
+/// the mesh, all parts around its end stay connected, so nodes there are not duplicated. Existing nodes keep
 /// their numbers; duplicates are numbered after them. Nodes 1 to 4 of a cell lie on the part that was meshed
 /// first, and its stacking direction is from nodes 1-4 to nodes 5-8. Duplicates on a periodic face are paired
-/// with those of the part at the image. At order 2, middle nodes are duplicated in the same way; cells are
-/// then not possible.
+/// with nodes of the part at the image of that face. At order 2, middle nodes are duplicated in the same way;
+/// cells are then not possible.
 ///
 /// A mesh that is split at levels becomes one part between each two levels. Faces below level k are the group
 /// `level_k:target`, those above it `level_k:source`.

@@ -20,9 +20,10 @@ constexpr const char* kNoCells = "NONE"; ///< `InterfaceFaces::element` of a spl
 struct PartSkin {
     std::string region;
     const std::vector<mesh::SkinPatch>* patches = nullptr;
-    std::vector<Index>* number = nullptr; ///< of each of its nodes in the whole mesh
-    std::vector<mesh::CellNodes> sides{}; ///< of its skin, in its own numbers, seen from outside
-    std::vector<Index> patch{};           ///< of each side
+    std::vector<Index>* number = nullptr; ///< by node of the part: its number in the whole mesh
+    std::vector<mesh::CellNodes> sides{}; ///< sides of the skin, in the part's own node numbers, seen from
+                                          ///< outside
+    std::vector<Index> patch{};           ///< by side: its patch
 };
 
 /// Corners of a side, sorted.
@@ -45,9 +46,10 @@ PartSkin skin_of(const Mesh& mesh, std::string region, std::vector<Index>& numbe
 
 /// A side that two parts share.
 struct SharedSide {
-    std::size_t a, b;                 ///< parts, in their order
-    std::size_t side_a, side_b;       ///< in their skins
-    mesh::CellNodes nodes_a, nodes_b; ///< in the whole mesh before it is split, seen from outside each
+    std::size_t a, b;                 ///< indices of the parts, `a` < `b`
+    std::size_t side_a, side_b;       ///< indices of the side in the two skins
+    mesh::CellNodes nodes_a, nodes_b; ///< its nodes in the whole mesh before the split, as each part sees
+                                      ///< them from outside
     bool is_split = false;
 };
 
@@ -144,17 +146,18 @@ private:
             "name one of the pairs of regions that share faces: faces = {}{}{}", "{ ", pairs.front(), " }"));
     }
 
-    /// Give each set of parts that are joined at a node of a split face a node of its own.
+    /// Parts that stay connected at a node of a split face get a node of their own there.
     void number_nodes()
     {
-        std::map<Index, std::vector<const SharedSide*>> at; // sides round each node of a split face
+        std::map<Index, std::vector<const SharedSide*>> at; // by node of a split face: the shared sides round
+                                                            // it
         for (const SharedSide& side : shared_)
             if (side.is_split)
                 for (const Index n : side.nodes_a) at[n];
         for (const SharedSide& side : shared_)
             for (const Index n : side.nodes_a)
                 if (const auto own = at.find(n); own != at.end()) own->second.push_back(&side);
-        std::vector<std::map<Index, Index>> renumbered(parts_.size()); // of each part
+        std::vector<std::map<Index, Index>> renumbered(parts_.size()); // by part: new numbers of its nodes
         for (const auto& [node, sides] : at) {
             // `cut` unites parts that share a side that is not split; `joined` unites all parts that share a
             // side. Parts that only touch keep their common node.
@@ -165,7 +168,8 @@ private:
                 unite(joined, side->a, side->b);
                 if (!side->is_split) unite(cut, side->a, side->b);
             }
-            std::map<std::size_t, Index> number; // of each set of joined parts, by its first
+            std::map<std::size_t, Index> number; // new node of each connected set of parts, by the first part
+                                                 // of the set
             for (const auto& [part, first] : cut) {
                 const std::size_t own = root(cut, part);
                 if (!number.contains(own))
@@ -181,8 +185,8 @@ private:
                         n = other->second;
     }
 
-    /// Rebuild the node pairs of periodic faces after duplication: the node of the part behind a side is
-    /// paired with the node of the part behind the side's image.
+    /// Pair the nodes of periodic faces again after the duplication. A node of the part behind a side is
+    /// paired with the node of the part behind the image of that side.
     void pair_doubles(const std::vector<std::map<Index, Index>>& renumbered)
     {
         for (mesh::PeriodicNodes& periodic : mesh_.swept.periodic) {
@@ -234,7 +238,7 @@ private:
         for (const SharedSide& side : shared_) {
             if (!side.is_split) continue;
             const mesh::CellNodes own = whole(side.a, side.side_a), other = whole(side.b, side.side_b);
-            mesh::CellNodes across = own; // the other part's node at each place
+            mesh::CellNodes across = own; // by corner of the side: the other part's node there
             for (std::size_t k = 0; k < own.count; ++k)
                 across.node[k] = other.node[static_cast<std::size_t>(
                     std::ranges::find(side.nodes_b, side.nodes_a.node[k]) - side.nodes_b.begin())];
@@ -259,7 +263,7 @@ private:
                                        : formatted("split_interface: {} cells of {}", split, faces_.element));
     }
 
-    std::vector<std::vector<Index>> numbers_{}; ///< of the nodes of the swept parts in the whole mesh
+    std::vector<std::vector<Index>> numbers_{}; ///< by swept part and its node: the number in the whole mesh
     FilledParts& mesh_;
     const InterfaceFaces& faces_;
     std::vector<PartSkin> parts_;
@@ -270,7 +274,7 @@ private:
 std::string at_level(int level, const char* side) { return formatted("level_{}:{}", level, side); }
 
 /// The layers [from, to) of a sweep, as a sweep of its own. Its first and last quads get new patches, unless
-/// they are ends of the whole.
+/// they lie on an end of the whole sweep.
 sweep::Swept layers_of(const sweep::Swept& whole, int from, int to)
 {
     sweep::Swept part = whole;
@@ -294,14 +298,14 @@ sweep::Swept layers_of(const sweep::Swept& whole, int from, int to)
     };
     if (from > 0) {
         end(mesh.source_patch, from, "source");
-        part.fidelity = {}; // the first part has that of the whole
+        part.fidelity = {}; // the fidelity and the report of the whole stay with its first part
         part.report.clear();
     }
     if (to < whole.mesh.layers) end(mesh.target_patch, to, "target");
     return part;
 }
 
-/// A mesh of one sweep as one part between each two levels. The nodes keep their numbers.
+/// Divide the mesh of one sweep into one part between each two levels. The nodes keep their numbers.
 FilledParts divided_at(FilledParts mesh, InterfaceFaces& faces)
 {
     std::ranges::sort(faces.levels);

@@ -40,13 +40,14 @@ std::unique_ptr<KeptMesh> keep(const sweep::Swept& swept, const std::string& nam
     return kept;
 }
 
-/// Move nodes of copies onto the nodes that differ from them by rounding only.
+/// Move nodes of copies that differ from other nodes by rounding only onto these nodes.
 void settle(std::span<KeptMesh* const> meshes, const RunContext& context)
 {
     if (std::ranges::none_of(meshes, &KeptMesh::copied)) return;
     std::vector<Vec3> points;
     std::vector<std::pair<KeptMesh*, Index>> nodes;
-    for (const bool copied : {false, true}) { // given nodes, which stay, come first
+    for (const bool copied : {false, true}) { // nodes of meshes that are no copies come first; they stay in
+                                              // place
         for (KeptMesh* const kept : meshes) {
             const mesh::HexMesh& mesh = kept->swept.mesh;
             if (kept->copied != copied) continue;

@@ -31,7 +31,7 @@ namespace lacuna::fill {
 
 namespace {
 
-/// A part of the assembly: a volume, or a piece of one, with its options; or a finished mesh.
+/// A part of the assembly: a volume, or a piece of a volume, with its options; or a finished mesh.
 struct Part {
     const Member* asked = nullptr; ///< null for a finished mesh
     std::string asked_name;        ///< name of the member volume, for messages
@@ -54,8 +54,8 @@ void for_each_names(Options& options, const Do& give)
         if (interval.of == surface::Interval::Of::wall) give("intervals", interval.walls);
 }
 
-/// Options for several volumes may name faces of one volume only: drop the faces that this volume does not
-/// have.
+/// Options for several volumes may name faces that only one of them has. Drop the faces that this volume does
+/// not have.
 void keep_known_faces(sweep::AssemblyMember& member)
 {
     for_each_names(member.options, [&](const char*, surface::FaceNames& names) {
@@ -72,7 +72,7 @@ void keep_known_faces(sweep::AssemblyMember& member)
     });
 }
 
-/// Drop the pairs of periodic faces of which no member has a face.
+/// Drop the pairs of periodic faces if no member has any of their faces.
 void keep_known_pairs(std::vector<sweep::AssemblyMember>& members)
 {
     const auto has_face = [&](const surface::FaceNames& names) {
@@ -105,7 +105,7 @@ std::string nearest_face_name(const std::vector<Part>& all, const std::string& w
     return keys[nearest_word(wanted.c_str(), keys)];
 }
 
-/// Refuse a named face that no volume has or, for an option of one volume, that this volume does not have.
+/// Refuse a named face that no volume has. An option of a single volume may name only faces of that volume.
 void check_known_faces(const std::vector<Part>& all)
 {
     std::set<std::tuple<const Member*, std::string, std::string>> seen;
@@ -147,7 +147,8 @@ void check_known_faces(const std::vector<Part>& all)
 
 // --- full turns -------------------------------------------------------------------------------------------
 
-/// Least number of layers of a full turn: with fewer, one spans 120° or more, too much for a hexahedron.
+/// Least number of layers of a full turn: with fewer layers, one layer spans 120° or more, too much for a
+/// hexahedron.
 constexpr int kLeastPerTurn = 4;
 
 /// Give a piece of a full turn its share of the requested layers.
@@ -171,8 +172,8 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
 
 // --- parts ------------------------------------------------------------------------------------------------
 
-/// Add the pieces of a volume. One without ends can only be filled with tetrahedra.
-/// @param name   region name, to which a number is appended.
+/// Add the pieces of a volume. A piece without ends can only be filled with tetrahedra.
+/// @param name  region name, to which a number is appended.
 /// @param whole  group of the cells of all pieces.
 void add_pieces(std::vector<Part>& parts, const Member& asked, const std::string& name,
                 const std::string& whole, std::vector<closure::StepPiece> pieces)
@@ -190,9 +191,9 @@ void add_pieces(std::vector<Part>& parts, const Member& asked, const std::string
     }
 }
 
-/// Add a volume, or the pieces that it has to be cut into. If cutting fails, it can only be filled with
-/// tetrahedra.
-/// @param name, whole  see add_pieces()
+/// Add a volume, or the pieces into which it has to be cut. If cutting fails, the volume can only be filled
+/// with tetrahedra.
+/// @param name, whole see add_pieces()
 void add_parts(std::vector<Part>& parts, const Member& asked, const std::string& name,
                const std::string& whole, const RunContext& context)
 {
@@ -210,7 +211,8 @@ void add_parts(std::vector<Part>& parts, const Member& asked, const std::string&
     }
 }
 
-/// Run `what` on a volume of an assembly. If it fails and the volume may be left out, record that.
+/// Run `what` on a volume of an assembly. If this fails and the volume may be left out, add the volume to
+/// `left_out`.
 /// @return  whether it succeeded.
 template <class Do>
 bool do_or_leave_out(std::vector<sweep::LeftOut>& left_out, const std::string& region, const Member& member,
@@ -239,7 +241,8 @@ sweep::AssemblyMember member_of(const KeptMesh& kept, const std::string& number)
     return member;
 }
 
-/// Requested layers apply to the pieces from source to target only; other pieces take the layers that remain.
+/// Requested layers apply only to pieces that run from source to target. The other pieces take the layers
+/// that remain.
 sweep::AssemblyMember member_of(const Part& part, const std::string& region, bool alone)
 {
     const Volume& volume = part.volume;
@@ -257,12 +260,12 @@ sweep::AssemblyMember member_of(const Part& part, const std::string& region, boo
 /// The parts of an assembly, ready to be meshed.
 struct Prepared {
     std::vector<sweep::AssemblyMember> members;
-    std::vector<std::string> materials; ///< by member, as `parts`
+    std::vector<std::string> materials; ///< by member
     std::vector<Part*> parts;
     std::vector<sweep::LeftOut> left_out;
 };
 
-/// Close the volumes. One without ends to sweep between can only be filled with tetrahedra.
+/// Close the volumes. A volume without ends to sweep between can only be filled with tetrahedra.
 Prepared prepare(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, bool alone,
                  const RunContext& context)
 {
@@ -309,8 +312,8 @@ bool can_sweep(const topology::OpenVolume& volume, const RunContext& context)
     }
 }
 
-/// How badly a member's sweep suits its neighbours: whether its walls have edges that layers cannot follow,
-/// then the number of faces that are an end of one volume and a wall of the other.
+/// How badly a member's sweep suits its neighbours, for comparisons. First: whether its walls have edges that
+/// layers cannot follow. Second: the number of faces that are an end of one volume and a wall of the other.
 std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& split, std::size_t member,
                                                const RunContext& context)
 {
@@ -324,9 +327,9 @@ std::pair<bool, std::size_t> unlike_neighbours(const sweep::ImprintedVolumes& sp
     return {!can_sweep(split.volumes[member], context), static_cast<std::size_t>(unlike)};
 }
 
-/// If neighbours divide each other's faces and no ends were named, choose the sweep of a volume that suits
-/// its neighbours best: a board on standoffs is swept from the side that they stand on, a square pin from
-/// plate to plate.
+/// If neighbours divide each other's faces and the user named no ends of a volume, choose the sweep that
+/// suits its neighbours best. A board on standoffs is swept from the side on which they stand, a square pin
+/// from plate to plate.
 void choose_sweeps(Prepared& ready, const RunContext& context)
 {
     const auto may_choose = [](const Part* part) { return part->volume.others && !part->volume.no_roles; };
@@ -343,7 +346,7 @@ void choose_sweeps(Prepared& ready, const RunContext& context)
         auto least = unlike_neighbours(first, m, context);
         if (least == std::pair(false, std::size_t{0})) continue;
         const Volume own = part.volume;
-        least = against(own); // roles of others may have changed
+        least = against(own); // the roles of other volumes may have changed
         bool taken = false;
         for (std::size_t k = 0; k < own.others->ways.size(); ++k) {
             Volume other = with_other_sweep(own, k);
@@ -360,7 +363,8 @@ void choose_sweeps(Prepared& ready, const RunContext& context)
     }
 }
 
-/// Fill the volumes that are not swept, each beside the meshes made before.
+/// Fill the volumes that are not swept with tetrahedra, one after the other, each beside the meshes made
+/// before it.
 void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunContext& context)
 {
     const sweep::SweptAssembly& swept = mesh.swept;
@@ -438,16 +442,17 @@ FilledParts sweep_glued(Prepared ready, bool alone, const RunContext& context)
     return mesh;
 }
 
-/// Close the volumes and sweep all parts: those with the same glue as one mesh, each set with its own nodes.
+/// Close the volumes and sweep all parts. Parts with the same `glue` are swept as one mesh; meshes of
+/// different `glue` share no nodes.
 /// @param left_out  volumes that were left out before.
-/// @param alone     whether the parts are the pieces of a single volume, with no other member.
+/// @param alone  whether the parts are the pieces of a single volume, with no other member.
 FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left_out, bool alone,
                         const RunContext& context, const ContactRequest& request = {})
 {
     Prepared ready = prepare(all, std::move(left_out), alone, context);
     check_known_faces(all);
     if (ready.members.empty() && !ready.left_out.empty()) throw NotSweepable(ready.left_out.front().message);
-    std::map<std::size_t, Prepared> sets; // by their glue
+    std::map<std::size_t, Prepared> sets; // by `glue`
     for (std::size_t m = 0; m < ready.members.size(); ++m) {
         Prepared& set = sets[ready.members[m].glue];
         set.members.push_back(ready.members[m]);
@@ -476,7 +481,7 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
         const std::size_t count = set.members.size();
         if (before == 0) set.left_out = std::move(ready.left_out);
         if (sets.size() > 1) keep_known_pairs(set.members);
-        if (!found.empty()) // pairs are written with the whole
+        if (!found.empty()) // contact pairs are written with the whole mesh
             for (sweep::AssemblyMember& member : set.members) member.options.layered = false;
         FilledParts one = sweep_glued(std::move(set), alone, context);
         for (std::size_t& m : one.swept.member) m += before;
@@ -538,8 +543,8 @@ void report_left_out(const Volume& volume, std::vector<std::string>& report)
 
 std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context)
 {
-    // Strips beside a cut that are thinner than this share of the size would be filled with far smaller cells
-    // than the rest. Not measured.
+    // A strip beside a cut would be filled with far smaller cells than the rest if it is thinner than this
+    // share of the cell size. A choice, not measured.
     constexpr double kThin = 0.1;
     return closure::partition(
         sealed, [&](const topology::OpenVolume& piece) { return can_sweep(piece, context); },
@@ -601,7 +606,7 @@ Filled sweep(std::span<const Member> members, const RunContext& context, const C
 std::vector<Contact> contacts(std::span<const Member> members, const ContactRequest& request,
                               const RunContext& context)
 {
-    // A volume without ends to sweep between has faces too.
+    // A volume without ends to sweep between can be in contact too.
     std::vector<Member> closed(members.begin(), members.end());
     for (Member& member : closed) member.options.fallback = sweep::Fallback::mixed;
     std::vector<sweep::LeftOut> none;

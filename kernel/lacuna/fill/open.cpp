@@ -26,8 +26,8 @@ namespace {
 using topology::Model;
 using topology::Roles;
 
-/// Find the walls from the rim of the one end that was named.
-/// @return  the faces left out, each with the reason.
+/// Find the walls from the rim of the one named end.
+/// @return  reasons why the walls were chosen and why faces were left out.
 std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunContext& context)
 {
     if (roles.source.empty() && roles.target.empty())
@@ -49,7 +49,7 @@ std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunC
     return reasons;
 }
 
-/// Find the roles of faces if none or only walls were named.
+/// Find the roles of faces if the user named no roles, or only walls.
 /// @return  empty if the named roles are to be used.
 std::optional<closure::Reading> find_roles(const Model& model, const std::vector<FaceId>& faces,
                                            const RoleRequest& request, const RunContext& context)
@@ -77,7 +77,7 @@ topology::OpenVolume open_full_turn(const Model& model, const std::vector<FaceId
     return volume;
 }
 
-/// Note the node sets of decks that hold nodes of a source on which the mesh will not have the same nodes.
+/// Log the node sets of decks that hold nodes of a source, if the mesh will not keep these nodes.
 void note_node_sets(const Model& source, const RoleRequest& request, const char* why,
                     const RunContext& context)
 {
@@ -127,7 +127,7 @@ std::shared_ptr<const closure::SweptSource> open_along(const Model& model, const
     return swept;
 }
 
-/// The request for the faces of a model whose touching parts were joined.
+/// The same request for a model whose touching parts were joined, with the faces renamed.
 RoleRequest joined_request(RoleRequest request, const JoinedParts& joined)
 {
     const auto rename = [&](std::vector<FaceId>& faces) {
@@ -175,7 +175,7 @@ void take(closure::Reading found, Volume& volume)
     volume.no_roles = std::move(found.no_roles);
 }
 
-/// Open a volume from a model without the faces that solids share where they touch.
+/// Open a volume from a model in which touching solids no longer share faces.
 Volume open_apart(const Model& model, const RoleRequest& request, const RunContext& context)
 {
     report_progress(context, "roles");

@@ -27,8 +27,8 @@ namespace {
 
 // --- middle nodes of decks --------------------------------------------------------------------------------
 
-/// The decks that the faces of a volume came from. Shared, because a sweep whose layers are still to be
-/// created may outlive its volume.
+/// The decks that the faces of a volume came from. Their ownership is shared, because a sweep that creates
+/// its layers later may outlive its volume.
 struct GivenMiddles {
     std::vector<std::shared_ptr<const io::Deck>> decks;
     double tolerance = 0, scale = 1;
@@ -130,7 +130,7 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
     if (!(normal.norm() > 0))
         throw InvalidInput(Message("closure.along_direction", "the source has no mean normal")
                                .remedy("use a source in a plane through its axis"));
-    constexpr double kThickness = 0.1; // share of the diagonal; any value does, because the plate has one
+    constexpr double kThickness = 0.1; // share of the diagonal; any value serves, because the plate has one
                                        // layer
     closure::SweptSource plate{along.source, nullptr, false, along.sets};
     plate.motion = std::make_shared<const geometry::Motion>(
@@ -151,7 +151,8 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
                      {},
                      {}};
     const std::string name = volume.name.empty() ? "volume" : volume.name;
-    for (const sweep::Swept& part : mesh.swept.parts) // no hexahedra: the wedges along the axis
+    for (const sweep::Swept& part : mesh.swept.parts) // a part without hexahedra consists of the wedges along
+                                                      // the axis
         mesh.regions.push_back(part.mesh.hex_count() > 0 ? name : name + "_axis");
     mesh.materials.assign(mesh.swept.parts.size(), volume.material);
     Filled filled{{}, std::move(mesh)};
@@ -163,7 +164,7 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
 
 /// Sweep pieces and check that their volume is that of the sealed whole.
 /// @param sized  whether the user requested sizes; if so, the volume is not checked here.
-/// @throw NotSweepable "sweep.volume"  the volume is off.
+/// @throw NotSweepable "sweep.volume"  the volumes differ.
 FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPiece> pieces,
                               const sweep::SweepOptions& options, bool sized, const RunContext& context)
 {
@@ -177,9 +178,9 @@ FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPie
     return mesh;
 }
 
-/// Mesh a volume that no single sweep fills: in pieces that can be swept. With `Fallback::mixed`, pieces that
-/// cannot be swept are filled with tetrahedra, and if there are no pieces, the whole.
-/// @param why  why it cannot be swept
+/// Mesh a volume that no single sweep fills, in pieces that can be swept. With `Fallback::mixed`, pieces that
+/// cannot be swept are filled with tetrahedra; if there are no pieces, the whole volume is.
+/// @param why  why the volume cannot be swept
 /// @return  empty if that fails too.
 std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, const SweepRequest& request,
                                       const RunContext& context)
@@ -251,7 +252,7 @@ Filled sweep_or_fill(const Volume& volume, const SweepRequest& asked, const RunC
     const std::size_t ways = volume.others ? volume.others->ways.size() : 0;
     const bool mixed = asked.options.fallback == sweep::Fallback::mixed;
     if (mixed) request.options.fallback = sweep::Fallback::none;
-    // Roles that the user named are not replaced by those of pieces, unless asked for.
+    // Roles that the user named are replaced by roles of pieces only if the fallback is `mixed`.
     const bool may_cut = mixed || volume.roles_found;
     for (std::size_t next = 0;; ++next) {
         const Volume& now = other ? *other : volume;
@@ -299,7 +300,7 @@ Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& optio
     // Faces of tetrahedra cannot be periodic.
     if (options.fallback == sweep::Fallback::mixed || !options.tet_mesher || !options.periodic.empty())
         return why;
-    // Tetrahedra are worse than hexahedra that only miss a limit.
+    // Hexahedra that only miss a limit are still better than tetrahedra.
     if (why.code() == "quality.below_limit")
         return why.remedy().empty() ? why.remedy("change 'size' or 'layers', or lower 'min_scaled_jacobian'")
                                     : why;

@@ -47,16 +47,18 @@ std::pair<std::size_t, std::size_t> each_side(const mesh::TetPart& mesh, const V
     return {of_cells, place - of_cells};
 }
 
-/// Number the middle nodes of a mesh of order 1. @return  the ends of each side, in the order of the numbers
+/// Number the middle nodes of a mesh of order 1. @return the end nodes of each side, in the order of the
+/// numbers
 std::vector<Segment> number_middles(mesh::TetPart& mesh, const RunContext& context)
 {
     mesh::TetMiddles& middles = mesh.middles;
-    // Sides are found in the bin of their lower node.
+    // Sort the sides into bins by their lower node, so that equal sides are found in one bin.
     std::vector<std::size_t> start(mesh.nodes.size() + 1, 0);
     const auto [of_cells, of_skin] = each_side(
         mesh, [&](Index a, Index b, std::size_t) { ++start[index(std::min(a, b)) + 1]; });
     std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<std::pair<Index, std::size_t>> uses(start.back()); // the higher node, and the place
+    std::vector<std::pair<Index, std::size_t>> uses(start.back()); // by bin: the higher node of a side, and
+                                                                   // the place of its middle node
     std::vector<std::size_t> end(start.begin(), start.end() - 1);
     each_side(mesh, [&](Index a, Index b, std::size_t place) {
         uses[end[index(std::min(a, b))]++] = {std::max(a, b), place};
@@ -113,7 +115,7 @@ public:
         if (mesh_.middles.full) find_centres();
     }
 
-    /// @return  the quality of the cells
+    /// Make sides of invalid cells straight until all cells are valid. @return the quality of the cells
     quality::Quality straighten_invalid(const std::string& region)
     {
         std::vector<mesh::CellNodes> cells;
@@ -146,9 +148,9 @@ private:
     /// State of the middle node of a side.
     enum class State : std::uint8_t {
         inside, ///< not on the skin
-        open,   ///< on the skin, straight
-        bent,   ///< on geometry
-        fixed,  ///< of a neighbour or of a file
+        open,   ///< on the skin, still straight
+        bent,   ///< moved onto the geometry
+        fixed,  ///< given by a neighbour or by a file
     };
 
     Vec3& middle(std::size_t side) { return mesh_.middles.nodes[side]; }
@@ -241,7 +243,8 @@ private:
             if (const std::optional<Vec3> known = known_.centre(corners[q])) centres_[q] = *known;
     }
 
-    /// Place the centres of quads: as known, or from the middles of their sides.
+    /// Place the centres of quads where they are given, or else compute them from the middle nodes of the
+    /// quads' sides.
     void place_centres()
     {
         for (std::size_t q = 0; q < centres_.size(); ++q) {
@@ -255,7 +258,7 @@ private:
         }
     }
 
-    /// Straighten the sides of a cell that only follow geometry.
+    /// Straighten the sides of a cell that bend only to follow the geometry.
     void straighten(std::size_t cell)
     {
         const mesh::CellNodes nodes = cell_nodes(mesh_, cell);
@@ -286,11 +289,11 @@ private:
     const sweep::SharedMiddles& known_;
     const sweep::SecondOrderOptions& options_;
     const RunContext& context_;
-    std::vector<Segment> sides_; ///< the corners at the ends of each
+    std::vector<Segment> sides_; ///< the two end nodes of each side
     std::vector<State> states_;
-    std::vector<std::size_t> on_skin_; ///< sides
-    std::vector<FaceId> face_, other_; ///< of sides on the skin
-    std::vector<Vec3> centres_;        ///< of quads, as known; NaN where they are not
+    std::vector<std::size_t> on_skin_; ///< indices of the sides on the skin
+    std::vector<FaceId> face_, other_; ///< by side on the skin: the faces next to it
+    std::vector<Vec3> centres_;        ///< given centres of quads; NaN where none is given
     sweep::SkinCounts counts_;
     std::size_t straightened_ = 0;
 };

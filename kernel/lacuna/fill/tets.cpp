@@ -26,7 +26,7 @@ namespace {
 
 // --- meshes that exist ------------------------------------------------------------------------------------
 
-/// Collects the cells of a skin on one face, with nodes of their own.
+/// Collects the cells of a skin on one face, and numbers their nodes anew.
 class CellsOfFace {
 public:
     explicit CellsOfFace(FaceId own) : fixed_{own, {}, {}} {}
@@ -51,7 +51,7 @@ private:
 
 // --- shape ------------------------------------------------------------------------------------------------
 
-/// @throw NotSweepable  the skin deviates from a face, or the volume from the sealed one
+/// @throw NotSweepable  the skin deviates from a face, or the volume differs from that of the sealed skin
 void require_shape(const sweep::Fidelity& shape, const sweep::SweepOptions& options, FilledTets& tets,
                    const RunContext& context)
 {
@@ -67,7 +67,7 @@ void require_shape(const sweep::Fidelity& shape, const sweep::SweepOptions& opti
     log_line(context, "note: " + message.text());
 }
 
-/// Report the given options that only sweeps follow.
+/// Report the options that were given but apply only to sweeps.
 void tell_idle_options(const sweep::SweepOptions& options, FilledTets& tets, const RunContext& context)
 {
     const std::pair<bool, const char*> given[] = {
@@ -87,7 +87,7 @@ void tell_idle_options(const sweep::SweepOptions& options, FilledTets& tets, con
 
 // --- cells and skin ---------------------------------------------------------------------------------------
 
-/// Make the part of the whole mesh from the cells that fill a skin.
+/// Turn the cells that fill a skin into a part of the whole mesh.
 void take_cells(const ToFill& what, const surface::SkinMesh& skin, mesh::TetMesh made, FilledTets& tets)
 {
     mesh::TetPart& part = tets.mesh;
@@ -219,10 +219,11 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
 
 namespace {
 
-/// Numbers of the middle nodes of skins, by the numbers of the corners of their sides and quads.
+/// Numbers of the middle nodes of skins. A middle node is found by the numbers of the corners of its side or
+/// quad.
 class MiddleNumbers {
 public:
-    /// Add the numbers of a mesh's middle nodes. @param number  of each node of the mesh
+    /// Add the numbers of a mesh's middle nodes. @param number number of each node of the mesh
     template <class Mesh>
     void add(const Mesh& mesh, const std::vector<Index>& number)
     {
@@ -231,7 +232,8 @@ public:
         });
     }
 
-    /// The known number of each middle node of a mesh, after its corners; -1: none.
+    /// For each middle node of a mesh: its number if it is known, otherwise -1. @param number numbers of the
+    /// corner nodes
     [[nodiscard]] std::vector<Index> find(const mesh::TetPart& mesh, const std::vector<Index>& number)
     {
         std::vector<Index> found(mesh.middles.nodes.size(), -1);
@@ -271,7 +273,7 @@ void number_nodes(FilledParts& mesh)
         return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
     };
     std::map<Vec3, Index, decltype(by_place)> known(by_place);
-    std::set<Quad> sides; // of the skins so far
+    std::set<Quad> sides; // sides of the skins so far
     MiddleNumbers middles;
     const auto is_known = [&](Quad side, const std::vector<Index>& number) {
         for (Index& n : side) n = number[index(n)];

@@ -28,12 +28,13 @@ namespace {
 
 /// A connected part of the model.
 struct Body {
-    std::vector<FaceId> faces; ///< of the model
+    std::vector<FaceId> faces; ///< faces of the model
     Eigen::AlignedBox3d box;
     bool complete = false; ///< closed, and all its faces are named
 };
 
-/// The parts with named faces. Where more than two faces meet at an edge, solids touch along it.
+/// The parts that contain named faces. An edge at which more than two faces meet does not connect parts:
+/// solids touch along it.
 std::vector<Body> bodies_named(const Model& model, const std::vector<char>& is_named)
 {
     geometry::UnionFind sets(model.faces.size());
@@ -62,7 +63,7 @@ std::vector<Body> bodies_named(const Model& model, const std::vector<char>& is_n
     return bodies;
 }
 
-/// Keep the bodies whose boxes meet others.
+/// Keep the bodies whose boxes meet the box of another body.
 void keep_near(std::vector<Body>& bodies)
 {
     std::vector<std::size_t> order(bodies.size());
@@ -85,8 +86,8 @@ struct CurvedEdge {
     std::vector<Vec3> places;
 };
 
-/// Take the curves off the edges along some points: `stitch()` merges an exact edge and a polyline only if
-/// the chords of the polyline lie on the curve.
+/// Remove the exact curves of the edges along some points, because `stitch()` merges an exact edge with a
+/// polyline only if the chords of the polyline lie on the curve.
 std::vector<CurvedEdge> take_curves(ModelBuilder& model, const std::vector<Vec3>& along)
 {
     const geometry::FacetTree tree = geometry::point_tree(along);
@@ -134,7 +135,8 @@ void make_tags_unique(std::vector<Entity>& entities)
         if (!taken.insert(entity.tag).second) entity.tag = next++;
 }
 
-/// The parts of one model as members of an assembly, whose faces in contact are found and split.
+/// Treats the parts of one model as members of an assembly, so that their faces in contact are found and
+/// split.
 class Joiner {
 public:
     Joiner(const Model& model, std::vector<Body> bodies, std::vector<char> is_named, bool all_follow,
@@ -154,7 +156,7 @@ public:
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
             given[b].model = extract(model_, bodies_[b].faces);
             given[b].role.assign(bodies_[b].faces.size(), Role::wall);
-            if (bodies_[b].complete) orient_consistently(given[b].model); // the others have no inside
+            if (bodies_[b].complete) orient_consistently(given[b].model); // an open body has no inside
             members[b].volume = &given[b];
             members[b].region = "the body of " + name_of(model_, bodies_[b].faces.front());
         }
@@ -175,7 +177,7 @@ public:
     }
 
 private:
-    /// The face of the model that a face is part of.
+    /// The face of the original model of which a face of a body is a part.
     [[nodiscard]] FaceId original(std::size_t body, FaceId face) const
     {
         return bodies_[body].faces[face.index()];
@@ -250,7 +252,7 @@ private:
         parts.tolerance = model_.tolerance;
         parts.source = model_.source;
         parts.notes = model_.notes;
-        std::vector<FaceId> was; // the face of the model, for each of `parts`
+        std::vector<FaceId> was; // by face of `parts`: the face of the original model
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
             std::vector<FaceId> kept;
             for (const FaceId face : all_faces(volumes_[b].model)) {
@@ -260,7 +262,7 @@ private:
             }
             add_model(parts, extract(volumes_[b].model, kept));
         }
-        // Tags tell the faces that are left after stitching.
+        // Use tags to recognise the remaining faces after stitching.
         for (std::size_t f = 0; f < was.size(); ++f) parts.faces[f].tag = static_cast<int>(f);
         const std::vector<CurvedEdge> curves = take_curves(parts, rims_of(contacts));
         Model stitched = std::move(parts).finish();
@@ -295,7 +297,7 @@ private:
     }
 
     const Model& model_;
-    std::vector<Body> bodies_; ///< with the parts of their faces, as in `volumes_`
+    std::vector<Body> bodies_; ///< their faces include the parts of split faces, as in `volumes_`
     std::vector<char> is_named_;
     bool all_follow_;
     const RunContext& context_;

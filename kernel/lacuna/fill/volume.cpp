@@ -50,7 +50,7 @@ void match_ends(Volume& volume, const matching::MatchOptions& options, const Run
     volume.match = matching::match(volume.volume, options, context);
 }
 
-/// Whether closing needs a match. The ends of a volume with holes match only after these are covered.
+/// Whether closing needs a match. If holes are to be covered, the ends can be matched only afterwards.
 bool must_match(const Volume& volume, const closure::CloseOptions& options, const RunContext& context)
 {
     const topology::OpenVolume& open = volume.volume;
@@ -60,7 +60,8 @@ bool must_match(const Volume& volume, const closure::CloseOptions& options, cons
     return !(topology::free_edges(open).empty() && closure::has_steps(open, context));
 }
 
-/// Undo the closing with which the roles of a volume were found. An end that was a void face is missing then.
+/// Undo the closing with which the roles of a volume were found. An end that was a void face is missing
+/// afterwards.
 void reopen(Volume& volume, const RunContext& context)
 {
     topology::Roles roles;
@@ -73,7 +74,7 @@ void reopen(Volume& volume, const RunContext& context)
     volume.closure.reset();
 }
 
-/// Largest distance between an edge's chords and the bent line that they stand for.
+/// Largest sag of the model's edges: the distance between their chords and the curves that they approximate.
 double edge_sag(const topology::Model& model)
 {
     double sag = 0;
@@ -82,14 +83,15 @@ double edge_sag(const topology::Model& model)
     return sag;
 }
 
-/// The skin of a source swept along a path, with given walls in the places of those that the path makes.
+/// The skin of a source swept along a path, in which given walls replace the walls that the path makes in the
+/// same places.
 /// @throw NotClosed "closure.along_walls"  a given wall does not end where the path's walls end; names the
 ///         place.
 closure::Closed with_given_walls(closure::Closed closed, const topology::Model& walls,
                                  const RunContext& context)
 {
     const topology::Model& swept = closed.volume.model;
-    // Both may have chords of the same edges along the path, of different length.
+    // The given walls and the swept ones may approximate the same edge by chords of different lengths.
     const double tolerance = swept.tolerance + edge_sag(swept) + edge_sag(walls);
     const auto rims_of = [](const topology::Model& model, FaceId face) {
         std::vector<std::vector<Vec3>> rims;
@@ -102,7 +104,7 @@ closure::Closed with_given_walls(closure::Closed closed, const topology::Model& 
     const auto is_on = [&](const Vec3& p) { return (given.closest(p).point - p).norm() <= tolerance; };
     std::vector<FaceId> kept;
     std::vector<Role> roles;
-    std::vector<Vec3> ends; // of segments around the walls that are replaced
+    std::vector<Vec3> ends; // end points of the segments around the walls that are replaced
     std::vector<Triangle> segments;
     for (const FaceId face : topology::all_faces(swept)) {
         const auto rims = rims_of(swept, face);
@@ -135,7 +137,7 @@ closure::Closed with_given_walls(closure::Closed closed, const topology::Model& 
                 if ((around.closest(p).point - p).norm() > tolerance) refuse(p);
     topology::ModelBuilder builder(topology::extract(swept, kept));
     for (topology::Edge& edge : builder.edges) {
-        // A polyline of a given wall joins an edge of the path as another polyline.
+        // Make an edge of the path a polyline, so that it can be joined with the polyline of a given wall.
         if (edge.origin != topology::Origin::made_void ||
             !std::ranges::all_of(edge.points, [&](Index p) { return is_on(builder.points[index(p)]); }))
             continue;
@@ -217,7 +219,7 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
             "close: the volume is sealed already; give these options in the first call of close()");
     if (volume.closure && options) reopen(volume, context);
     if (options) volume.others.reset();
-    if (volume.closure) { // sealed while its roles were found, without logging its assumptions
+    if (volume.closure) { // sealed while its roles were found; its assumptions were not logged then
         if (!std::exchange(volume.told, true)) closure::log_notes(*volume.closure, context);
         return volume;
     }
@@ -229,7 +231,8 @@ Volume close(Volume volume, const std::optional<closure::CloseOptions>& options,
     }
     report_progress(context, "closing");
     volume.told = true;
-    // A trial closing with void edges has neither measured nor logged its assumptions: close again then.
+    // A trial closing with void edges has neither measured nor logged its assumptions, so it is repeated
+    // here.
     if (volume.as_read && asks_nothing(asked) && volume.as_read->closure.void_edges.empty()) {
         volume.closure = std::move(volume.as_read->closure);
         volume.volume = std::move(volume.as_read->volume);

@@ -28,16 +28,18 @@ struct Volume {
     std::optional<matching::Match> match;
     std::optional<closure::Closure> closure;
     std::optional<closure::SealedVolume> as_read; ///< default closure, if the roles were found
-    /// If the roles were found: the alternative sweeps of the same void.
+    /// If the roles were found: the alternative sweep directions of the same void.
     std::shared_ptr<const closure::OtherSweeps> others;
     /// Why no ends to sweep between were found. If set, the volume is sealed, all its faces are walls, and
     /// only a fallback can mesh it.
     std::optional<Message> no_roles;
     std::shared_ptr<const closure::SweptSource> along; ///< for class 0: its source and the motion; else null
-    bool roles_found = false;                          ///< all roles were found, none named
+    bool roles_found = false;                          ///< whether all roles were found, so that the user
+                                                       ///< named none
     bool take_guess = false;                           ///< whether an ambiguous closing is accepted
     bool told = false;                                 ///< whether the notes of the closure were logged
-    /// For a piece cut at steps: 0 runs from source to target; others take the remaining layers.
+    /// For a piece cut at steps: pieces of level 0 run from source to target; the others take the remaining
+    /// layers.
     int level = 0;
     double turn_from = 0, turn_to = 1; ///< for a piece of a full turn: its range, as fractions of the turn
     std::string turn_of;               ///< for a piece of a full turn: region of the whole turn
@@ -45,7 +47,7 @@ struct Volume {
     std::string material;              ///< name or number of its material; empty: none
     std::vector<std::shared_ptr<const io::Deck>> decks; ///< meshes that the model was read from
     double scale = 1;                                   ///< model coordinates / coordinates of `decks`
-    std::string unit;  ///< declared unit of its lengths, as `io::metres_of()`; empty: none
+    std::string unit;  ///< declared unit of its lengths, by a name that `io::metres_of()` knows; empty: none
     bool glued = true; ///< whether it shares nodes with its neighbours in an assembly
 };
 
@@ -53,14 +55,16 @@ struct Volume {
 struct RoleRequest {
     std::optional<topology::Roles> roles;
     bool find_walls = false;                  ///< find the walls from the rim of the one named end
-    std::optional<std::vector<FaceId>> faces; ///< without `roles`; none: all faces of the model
+    std::optional<std::vector<FaceId>> faces; ///< faces to use without `roles`; not set: all faces of the
+                                              ///< model
     int reading = 0; ///< number of a found reading, from 1; with `roles`, 1 accepts ambiguous geometry
     std::optional<topology::VolumeClass> override_class;
     bool full_turn = false;                 ///< the volume makes a full turn: all faces are walls
-    std::optional<geometry::Plane> fill_to; ///< only the part of the void behind this plane
-    /// Path along which the source is swept. Only for a volume without a target and walls.
+    std::optional<geometry::Plane> fill_to; ///< if set, only the part of the void behind this plane is kept
+    /// Path along which the source is swept. The target must not be given; given walls replace walls that the
+    /// sweep would make.
     std::optional<closure::Along> along;
-    /// With `along`: meshes that the model was read from. Their sets of edges become sets of the walls.
+    /// With `along`: decks that the model was read from. Their sets of edges become sets of the swept walls.
     std::vector<std::shared_ptr<const io::Deck>> decks;
     double scale = 1; ///< model coordinates / coordinates of `decks`
     std::string name; ///< region of its cells
@@ -71,11 +75,11 @@ struct RoleRequest {
 /// Open a volume from named faces, or find the roles of its faces. A closed volume without ends to sweep
 /// between is an error only for the stages that need them: match(), cut() and a sweep without a fallback.
 /// @throw InvalidInput "lua.walls_without_ends"  walls are to be found and no end is named;
-///         "lua.class_of_found_roles"  a class is given for faces whose roles were found; "closure.fill_to"
-///         the plane leaves several parts; "closure.along_roles"  a path and other roles than a source;
-///         "closure.along_…" or "geometry.path_…"  the source cannot be swept along the path. Or the errors
-///         of `topology::open_volume()`, `topology::find_walls()`, `closure::find_reading()`,
-///         `require_none_left_out()` and, with a plane, of cut().
+///         "lua.class_of_found_roles" a class is given for faces whose roles were found; "closure.fill_to"
+///         the plane leaves several parts; "closure.along_roles" a path, and no source or a role other than
+///         source and walls; "closure.along_…" or "geometry.path_…" the source cannot be swept along the
+///         path. Also the errors of `topology::open_volume()`, `topology::find_walls()`,
+///         `closure::find_reading()`, `require_none_left_out()` and, with a plane, of cut().
 Volume open(const topology::Model& model, const RoleRequest& request = {}, const RunContext& context = {});
 
 /// Replace the class that was found.
@@ -94,12 +98,13 @@ Volume match(Volume volume, const std::optional<matching::MatchOptions>& options
 Volume close(Volume volume, const std::optional<closure::CloseOptions>& options = {},
              const RunContext& context = {});
 
-/// Where to cut a volume. With no member set it is cut at its steps, its branches and its full turn.
+/// Where to cut a volume. If no member is set, the volume is cut at its steps, its branches and its full
+/// turn.
 struct Cut {
     std::optional<geometry::Plane> plane;
     const topology::Model* model = nullptr; ///< model that `face` belongs to
     FaceId face;
-    bool automatic = false; ///< where pieces that can be swept result; the volume is sealed first
+    bool automatic = false; ///< search for cuts into pieces that can be swept; the volume is sealed first
 };
 
 /// Cut a volume into pieces.

@@ -11,7 +11,7 @@ namespace lacuna::fill {
 /// The contact of two regions, and its faces.
 struct FoundContact {
     Contact contact;
-    std::vector<sweep::FaceContact> faces; ///< `a` is of the first region
+    std::vector<sweep::FaceContact> faces; ///< in each of them, `a` belongs to the first region
 };
 
 /// Find contacts like `contacts()`. Without a gap, only regions that are not glued can be in contact.

@@ -14,16 +14,16 @@
 
 namespace lacuna::fill {
 
-/// For each edge on the rim of a source, the sets of the decks that contain all of its sides: sets and
-/// regions of line elements, and surfaces made of edges of shells. Edges are split where a set begins or
+/// For each edge on the rim of a source: the names of the deck sets that contain all of its sides. These are
+/// sets and regions of line elements, and surfaces made of shell edges. Edges are split where a set begins or
 /// ends.
 /// @param scale  model coordinates / coordinates of the decks.
 std::map<EdgeId, std::vector<std::string>> edge_sets(topology::Model& model,
                                                      std::span<const std::shared_ptr<const io::Deck>> decks,
                                                      double scale);
 
-/// For a volume that is swept from a source alone: the node sets of its decks that hold nodes of the source,
-/// as sets of the columns over these nodes. Otherwise empty.
+/// The node sets of a volume's decks that hold nodes of its source, if the volume is swept from a source
+/// alone; each set contains the columns of nodes over them. Otherwise empty.
 std::vector<io::ColumnSet> column_sets(const Volume& volume, const sweep::Swept& swept);
 
 } // namespace lacuna::fill

@@ -22,13 +22,13 @@ inline Vec3& place(mesh::HexMesh& mesh, Index node)
 /// A finished mesh that joins an assembly unchanged.
 struct KeptMesh {
     io::MeshSkin skin;  ///< made by add_skins()
-    sweep::Swept swept; ///< its `faces` are those of the skin
+    sweep::Swept swept; ///< its `faces` are faces of `skin`
     std::string region; ///< empty: the mesh has no name
     std::string material;
     std::string unit;
-    std::string whole;   ///< volume that this mesh is a piece of; empty: the mesh is no piece
+    std::string whole;   ///< name of the volume that this mesh is a piece of; empty if it is no piece
     bool copied = false; ///< as in `FilledVolume`
-    std::vector<io::ColumnSet> columns{}; ///< likewise
+    std::vector<io::ColumnSet> columns{}; ///< as in `FilledVolume`
     std::string turn_of;                  ///< for a piece of a full turn: region of the whole turn
 };
 
@@ -38,8 +38,8 @@ std::unique_ptr<KeptMesh> keep(const FilledVolume& mesh);
 ///         `split_interface()`; "fill.contact_member"  it has contact pairs.
 std::vector<std::unique_ptr<KeptMesh>> keep(FilledParts mesh);
 
-/// Move nodes of copies onto nodes of other meshes that differ from them by rounding only; then make the
-/// skins.
+/// Move nodes of copies that differ from nodes of other meshes by rounding only onto these nodes. Then make
+/// the skins.
 /// @throw InvalidInput  the errors of `io::skin_of()`.
 void add_skins(std::span<KeptMesh* const> meshes, const RunContext& context);
 

@@ -10,13 +10,14 @@
 
 namespace lacuna::fill {
 
-/// @throw InvalidInput  if no ends to sweep between were found; says why.
+/// @throw InvalidInput  no ends to sweep between were found; says why.
 void require_roles(const Volume& volume);
 
-/// Why a volume cannot be swept, with the option that fills it with tetrahedra as one more thing to try.
+/// The message that a volume cannot be swept. Its remedy also names the option that fills the volume with
+/// tetrahedra.
 Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& options);
 
-/// Run a sweep. @throw NotSweepable  the error of the sweep, with tetrahedra as one more thing to try
+/// Run a sweep. @throw NotSweepable the error of the sweep, whose remedy also names tetrahedra
 template <class Do>
 auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 {
@@ -30,8 +31,8 @@ auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 /// Make the options keep the middle nodes that the decks of a volume contain.
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options);
 
-/// The volume with the rounds divided at which its walls meet an end smoothly, as by
-/// `closure::split_round_rims()`. Unchanged if there are none, or if it was matched or closed by the user.
+/// The volume with the rounds divided at which its walls meet an end smoothly, see
+/// `closure::split_round_rims()`. Unchanged if it has no such rounds, or if the user matched or closed it.
 Volume with_rims_divided(const Volume& volume, const RunContext& context);
 
 /// Close a volume and check that it has a source and a target.
@@ -48,8 +49,8 @@ Volume sealed_whole(const Volume& volume, const RunContext& context);
 /// Make a piece of a cut volume a volume of its own. It inherits the settings of the whole.
 Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string& name);
 
-/// Whether a volume must be swept in pieces, and these pieces: those of `closure::cut_into_pieces()` or, for
-/// class 0, the halves of a full turn.
+/// Whether a volume must be swept in pieces, and these pieces. They are made by `closure::cut_into_pieces()`
+/// or, for class 0, are the halves of a full turn.
 bool has_pieces(const Volume& volume, const RunContext& context);
 std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunContext& context);
 
@@ -60,7 +61,7 @@ std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, co
 FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,
                          const sweep::SweepOptions& options, const RunContext& context);
 
-/// Close a volume and sweep it as an assembly of one member, which periodic faces need.
+/// Close a volume and sweep it as an assembly of one member, because periodic faces need an assembly.
 Filled sweep_as_assembly(const Volume& volume, const sweep::SweepOptions& options, const RunContext& context);
 
 /// Fill one sealed volume with tetrahedra. @pre it has `no_roles`, and the fallback is `mixed`.

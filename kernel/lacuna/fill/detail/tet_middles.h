@@ -21,11 +21,12 @@ struct ElevatedTets {
 
 /// Add middle nodes to pyramids and tetrahedra of order 1, which makes them cells of order 2.
 ///
-/// On the skin the middle nodes of neighbours and those that were given are kept bit for bit. Others lie on
-/// the exact curve or surface of their side, or on its facets. Inside, sides are straight. Where a cell is
-/// not valid by its Bézier bounds, its sides that bend only to follow geometry are straight too.
-/// @param faces   face of each patch of the skin
-/// @param known   middle nodes of the neighbours' meshes
+/// On the skin, middle nodes of neighbours and given middle nodes are kept bit for bit. Other middle nodes of
+/// the skin lie on the exact curve or surface of their side, or on its facets. Sides inside the volume are
+/// straight. If the Bézier bounds do not prove a cell valid, those of its sides that bend only to follow the
+/// geometry are made straight too.
+/// @param faces  face of each patch of the skin
+/// @param known  middle nodes of the neighbours' meshes
 /// @param region  name of the region, for messages
 /// @throw NotSweepable "fill.second_order"  a cell stays invalid because of sides that neighbours or the file
 ///         give.

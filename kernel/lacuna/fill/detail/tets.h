@@ -18,13 +18,15 @@ struct ToFill {
     const topology::OpenVolume* volume = nullptr; ///< its roles do not matter
     std::string region;                           ///< its name
     std::string whole;                            ///< volume that it is a piece of; empty: none
-    bool alone = false;                           ///< it is the only volume, or a piece of that
+    bool alone = false;                           ///< whether it is the only volume, or a piece of the only
+                                                  ///< volume
     Message why;                                  ///< why it is not swept
     std::vector<surface::FixedFace> fixed;        ///< the meshes of its neighbours on shared faces
     const sweep::SharedMiddles& middles;          ///< at order 2: middle nodes of the meshes made before
 };
 
-/// The cells that a mesh has on its face `there`, as seen from the neighbour, whose face `own` is the same.
+/// The cells of a mesh on its face `there`, as the neighbour sees them. Face `own` of the neighbour is the
+/// same face.
 /// @param faces  face of each patch of the mesh
 surface::FixedFace cells_on(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces, FaceId there,
                             FaceId own);
@@ -32,19 +34,20 @@ surface::FixedFace cells_on(const FilledTets& mesh, FaceId there, FaceId own);
 
 /// Fill a sealed volume with tetrahedra, and with pyramids on quads that are given.
 ///
-/// Fixed faces, and faces that were given as meshes, keep their quads, triangles and nodes; the others are
-/// triangulated at the size. The result is proved: conforming, every cell certified, its skin on the sealed
-/// skin. Middle nodes of order 2 are added to a proved mesh of order 1, as `elevate()` of `tet_middles.h`.
-/// @return  without `number`.
+/// Fixed faces, and faces that were given as meshes, keep their quads, triangles and nodes; the other faces
+/// are triangulated at the requested size. The result is proved: it is conforming, every cell is certified
+/// valid, and its skin lies on the sealed skin. At order 2, `elevate()` adds middle nodes to the proved mesh
+/// of order 1.
+/// @return  the mesh; its `number` is still empty.
 /// @throw InvalidInput "fill.no_tets"  the options have no mesher for tetrahedra. Or the errors of
 ///         `surface::triangulate_skin()`.
-/// @throw NotSweepable "sweep.deviation"  the skin or the volume deviates. Or the proof fails, or the errors
-///         of the mesher and of `elevate()`.
+/// @throw NotSweepable "sweep.deviation"  the skin deviates; "sweep.volume" the volume deviates. Also if the
+///         proof fails, and the errors of the mesher and of `elevate()`.
 /// @throw Cancelled
 FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options, const RunContext& context);
 
-/// Number the nodes of tetrahedra after those of the meshes before. A skin node at the same place as a skin
-/// node of one of these meshes gets the number of that node.
+/// Number the nodes of tetrahedra after the nodes of the meshes before them. A skin node at the same place as
+/// a skin node of one of these meshes gets the number of that node.
 /// @throw NotSweepable "fill.not_shared"  sides of skins that should be shared are not.
 void number_nodes(FilledParts& mesh);
 

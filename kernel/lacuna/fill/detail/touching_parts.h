@@ -13,18 +13,19 @@ namespace lacuna::fill {
 /// Add the faces of a model, without joining edges. All edges and vertices become given ones.
 void add_model(topology::ModelBuilder& builder, const topology::Model& more);
 
-/// A model whose parts no longer touch: they are connected along the rims of their contacts instead.
+/// A model whose parts no longer touch. They are connected along the rims of their contacts instead.
 struct JoinedParts {
     topology::Model model;
-    /// For each face of the model before, its faces now: none if it is in contact as a whole.
+    /// For each face of the original model: the faces that it has become. Empty if the whole face was in
+    /// contact.
     std::vector<std::vector<FaceId>> faces_of;
     std::string note; ///< names a pair of faces in contact
 };
 
-/// Leave out the faces that solids share where one stands on all of the other's top: three faces of the
-/// volume meet at each of their edges, so that two are left.
-/// @param named  faces of the volume, or its ends if `all_follow`: these stay, and all faces may be walls.
-/// @return  empty if there are none.
+/// Leave out the faces that solids share where one solid stands on the whole top of another. At each edge of
+/// such a face three faces of the volume meet; without it, two remain.
+/// @param named  faces of the volume. If `all_follow`, its ends: they stay, and any other face may be a wall.
+/// @return  empty if there are no such faces.
 std::optional<JoinedParts> leave_out_shared_faces(const topology::Model& model,
                                                   const std::vector<FaceId>& named, bool all_follow);
 
@@ -32,7 +33,7 @@ std::optional<JoinedParts> leave_out_shared_faces(const topology::Model& model,
 /// The area that two faces share is split off both and left out, because it does not bound the volume.
 ///
 /// Whole solids side by side are not joined, unless they stand inside another part.
-/// @param named  faces of the volume, or some of them if `all_follow`: then the others are found later.
+/// @param named  faces of the volume, or, if `all_follow`, some of them; the others are then found later.
 /// @return  empty if nothing touches.
 /// @throw InvalidInput "assembly.part_of_face"  faces in contact cannot be split; names both.
 ///         "assembly.rims_apart"  see `sweep::shared_faces()`.
