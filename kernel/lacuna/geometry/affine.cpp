@@ -86,7 +86,7 @@ AffineFit AffineFitter::fit(std::span<const Vec3> to, const Vec3& to_area) const
     result.rank = rank_;
 
     const double share = std::sqrt(static_cast<double>(std::max<std::size_t>(to.size(), 1)));
-    Eigen::Matrix3d image = Eigen::Matrix3d::Zero(); // image of the axes, in their own frame
+    Eigen::Matrix3d image = Eigen::Matrix3d::Zero(); // images of the principal axes, as columns
     for (std::size_t i = 0; i < to.size(); ++i) {
         image += ((to[i] - result.to_centre) / share) * basis_.row(static_cast<Eigen::Index>(i));
     }

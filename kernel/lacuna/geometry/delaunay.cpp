@@ -356,7 +356,8 @@ void DelaunayMesh::replace_strip(const std::vector<Index>& strip, std::vector<In
 
 void DelaunayMesh::mark_inside()
 {
-    // Breadth first in order of depth. The triangle at an outer corner is outside.
+    // Visit the triangles breadth first by depth, which is the number of constraints between a triangle and
+    // the outside. The search starts outside, at a corner of the huge triangle.
     std::vector<Index> depth(triangles_.size(), -1);
     std::vector<Index> level{triangle_of_[index(given_)]};
     for (Index now = 0; !level.empty(); ++now) {

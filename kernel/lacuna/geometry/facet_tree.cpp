@@ -23,7 +23,7 @@ constexpr std::uint32_t kLeaf = 4;
 /// Subtrees with fewer triangles are built without checking for cancellation. A search for overlaps checks
 /// once per this number of compared pairs of boxes. Both take a few milliseconds.
 constexpr std::uint32_t kPolled = 16384;
-/// Subtrees with fewer triangles are built on one thread: 1 ms.
+/// Subtrees with fewer triangles are built on one thread, because that takes only 1 ms.
 constexpr std::uint32_t kShared = 4096;
 /// Each level halves the triangles, so 2^31 triangles need at most 31 levels; a depth-first traversal stores
 /// one sibling per level.
@@ -410,7 +410,7 @@ std::pair<double, double> stretch(const Corners& c, const Vec3& heights, const V
     return range;
 }
 
-/// Whether two coplanar triangles overlap by more than `tolerance` in every separating direction.
+/// Whether two coplanar triangles overlap by more than `tolerance` along the normal of each of their sides.
 bool overlap_in_plane(const Corners& a, const Corners& b, const Vec3& normal, double tolerance)
 {
     for (const Corners* triangle : {&a, &b}) {

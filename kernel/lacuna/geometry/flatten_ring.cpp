@@ -47,8 +47,8 @@ Positions ring(const Facets& facets)
     problem.points = facets.points;
     problem.triangles = facets.triangles;
     problem.corner_turns = turns_along(facets.triangles, cut);
-    // The facets are on the left of the loop. So the loop leaves the cut on its right, where the branch is
-    // one turn less.
+    // The facets lie on the left of the loop. So the loop leaves the cut on the cut's right side, where the
+    // branch is one turn less.
     problem.period = Eigen::RowVector2d(-1, 0);
     const auto round_at = [&](std::size_t i) { return i == 0 ? 1 : round[i] / round.back(); };
     // The inner loop runs in the opposite direction. Its rotation is added later, as a harmonic function. Its
@@ -64,7 +64,7 @@ Positions ring(const Facets& facets)
         problem.fixed_values.row(static_cast<Eigen::Index>(i)) << round_at(i), 0;
     for (std::size_t i = 0; i < inner.size(); ++i) {
         const double s = -within[i] / within.back();
-        // Going back from the cut, up to one turn.
+        // Count back from the cut, by up to one turn.
         const double own = i == end ? branch : branch - share(branch - s);
         problem.fixed_values.row(static_cast<Eigen::Index>(outer.size() + i)) << own, 1;
     }

@@ -219,10 +219,11 @@ std::vector<double> evening(const HarmonicProblem& problem, const std::vector<bo
 /// Measured on walls of cylinders at this size: factorisation takes 0.06 s, growing with power 1.5; multigrid
 /// takes 0.03 s, growing linearly.
 constexpr Eigen::Index kMany = 20000;
-/// The same limit if nine digits suffice. Measured at 6,000 unknowns: 0.012 s instead of 0.04 s.
+/// The same limit if nine digits suffice. Measured at 6,000 unknowns: multigrid takes 0.012 s, factorisation
+/// 0.04 s.
 constexpr Eigen::Index kManyForNineDigits = 2000;
 
-/// Solve a large system; nothing if multigrid does not converge.
+/// Solve a large system; empty if multigrid does not converge.
 /// @param factors  row factors from evening()
 std::optional<Eigen::MatrixXd> solve_by_multigrid(const std::vector<Eigen::Triplet<double>>& entries,
                                                   const Eigen::MatrixXd& right,

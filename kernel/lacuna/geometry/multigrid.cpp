@@ -19,7 +19,7 @@ constexpr double kStrong = 0.08;
 /// Damped Jacobi step that smooths the aggregates: 4/3 divided by the largest eigenvalue of D⁻¹A, which is at
 /// most 2 for diagonally dominant rows.
 constexpr double kSmoothing = 2.0 / 3.0;
-/// Levels with at most this number of rows are solved directly: one millisecond.
+/// Levels with at most this number of rows are solved directly, which takes one millisecond.
 constexpr Eigen::Index kCoarsest = 200;
 /// Multigrid is not used if aggregation keeps more than this share of the rows.
 constexpr double kLeastGain = 0.7;
@@ -44,7 +44,7 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
     };
     std::vector<Index> of(index(static_cast<Index>(rows)), -1);
     count = 0;
-    // First, rows whose neighbours are all free form aggregates with these neighbours.
+    // First, each row whose neighbours are all in no aggregate forms an aggregate with them.
     for (Eigen::Index row = 0; row < rows; ++row) {
         bool bare = true, any = false;
         if (of[std::size_t(row)] >= 0) continue;
@@ -82,7 +82,8 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
     return of;
 }
 
-/// Interpolation from the aggregates: one smoothed column for each. Weak couplings are added to the diagonal.
+/// Interpolation from the aggregates: one smoothed column for each aggregate. Weak couplings are added to the
+/// diagonal.
 Matrix prolongation(const Matrix& matrix, const std::vector<Index>& of, Index count)
 {
     const Vector diagonal = matrix.diagonal();

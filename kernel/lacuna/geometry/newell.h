@@ -31,7 +31,7 @@ Plane plane_across(const Vec3& origin, const Vec3& normal);
 /// The normal is the sum of the loops' Newell vectors; inner loops are directed oppositely, so holes are
 /// subtracted. The origin is the mean of the points of the outer loop. If the sum vanishes (a slit, collinear
 /// points, a figure of eight), the least-squares plane of all points is used, with either orientation.
-/// @param loops  the outer first; first points not repeated.
+/// @param loops  the outer loop first; no loop repeats its first point.
 /// @throw InvalidInput "geometry.no_points"  there are no points.
 Plane newell_plane(std::span<const std::vector<Vec3>> loops);
 

@@ -120,11 +120,11 @@ private:
     double start_ = 0; ///< length of the path before this part
 };
 
-/// The projection, along a direction, of a section normal to it onto the plane that halves a corner.
+/// The projection of a section normal to `in`, along `in`, onto the plane that halves the corner.
 Eigen::Matrix3d mitre(const Vec3& in, const Vec3& out)
 {
     const Vec3 normal = (in + out).normalized();
-    // v - in (v · normal) / (in · normal) for v across `in`, and the normal for `in` itself
+    // maps v across `in` to v - in (v · normal) / (in · normal), and `in` itself to the normal
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - in * in.transpose();
     return (Eigen::Matrix3d::Identity() - in * normal.transpose() / in.dot(normal)) * across +
            normal * in.transpose();

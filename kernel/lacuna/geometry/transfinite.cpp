@@ -103,7 +103,8 @@ Vec2 CoonsPatch<Point>::crossing(std::size_t i, std::size_t k, std::size_t l, st
     const double s0 = bottom_.at[i], s1 = top_.at[k], t0 = left_.at[l], t1 = right_.at[j];
     const double ds = s1 - s0, dt = t1 - t0;
     const double determinant = 1 - ds * dt;
-    // Zero only if both lines are the same diagonal. Any point of it is then a solution; take the middle.
+    // The determinant is 0 only if both lines are the same diagonal. Each of its points is then a solution;
+    // take the middle.
     if (determinant <= std::numeric_limits<double>::epsilon()) return {0.5 * (s0 + s1), 0.5 * (t0 + t1)};
     return {(s0 + t0 * ds) / determinant, (t0 + s0 * dt) / determinant};
 }
@@ -112,7 +113,7 @@ template <class Point>
 Point CoonsPatch<Point>::blend(const Vec2& st, const Point& bottom, const Point& right, const Point& top,
                                const Point& left) const
 {
-    // Relative to one corner, to keep precision far from the origin.
+    // Compute relative to one corner, to keep precision far from the origin.
     const Point& c0 = bottom_.points.front();
     const Point c1 = bottom_.points.back() - c0, c2 = top_.points.back() - c0, c3 = top_.points.front() - c0;
     const double s = st.x(), t = st.y();

@@ -16,7 +16,7 @@ struct AffineFit {
     Vec3 to_centre{0, 0, 0};
     double rms = 0;          ///< root mean square distance of images from targets [model length]
     double max_residual = 0; ///< largest such distance [model length]
-    int rank = 3; ///< number of directions that the data determine, 0…3; the other images are completed
+    int rank = 3; ///< number of directions that the data determine, 0…3; images of the others are completed
 
     [[nodiscard]] Vec3 operator()(const Vec3& p) const { return to_centre + linear * (p - from_centre); }
 };

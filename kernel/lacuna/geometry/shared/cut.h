@@ -13,7 +13,7 @@
 namespace lacuna::geometry {
 
 /// Shortest path along sides of facets from a point to one of `ends`. Except at its start, the path avoids
-/// the points in `off`. Empty if there is none. O(facets log).
+/// the points in `off`. Empty if there is no such path. O(facets log facets).
 /// @throw Cancelled
 std::vector<Index> shortest_way(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                 Index start, const std::set<Index>& off, const std::set<Index>& ends,

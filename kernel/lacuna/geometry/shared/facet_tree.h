@@ -21,7 +21,8 @@ namespace lacuna::geometry {
 class FacetTree {
 public:
     FacetTree() = default;
-    /// Build the tree on the threads of the context, by default one. The tree does not depend on the number.
+    /// Build the tree on the threads of the context, by default one thread. The tree does not depend on their
+    /// number.
     /// @pre every corner is an index into `points`. O(triangles log triangles). @throw Cancelled
     FacetTree(std::span<const Vec3> points, std::span<const Triangle> triangles,
               const RunContext& context = {1, nullptr, {}, {}});

@@ -44,14 +44,14 @@ struct HarmonicProblem {
     std::vector<std::array<int, 3>> corner_turns;
     Eigen::RowVectorXd period; ///< k numbers; only used with corner_turns
 
-    /// Use cotangent weights of either sign everywhere, which minimises the Dirichlet energy. They are not
-    /// biased where all diagonals have the same direction, as mean value weights are. But values may leave
-    /// the range of the fixed ones.
+    /// Use cotangent weights of either sign everywhere, which minimises the Dirichlet energy. Unlike mean
+    /// value weights, they are not biased where all diagonals have the same direction. Values may leave the
+    /// range of the fixed values.
     bool least_energy = false;
 
-    /// Nine digits suffice. Multigrid is then used from 2,000 free points on, where it takes a third of the
-    /// time. No system is solved if an affine function of position has the fixed values and satisfies the
-    /// means.
+    /// Whether nine digits suffice. If so, multigrid is used from 2,000 free points on, where it takes a
+    /// third of the time. No system is solved if an affine function of position has the fixed values and
+    /// satisfies the means.
     bool nine_digits = false;
 };
 

@@ -11,8 +11,8 @@
 /// Rotation-minimising frames @cite wang_2008_frames: from section to section by the smallest rotation.
 namespace lacuna::geometry {
 
-/// Direction, at each section centre, of the curve through the section centres. It is averaged over a length
-/// equal to the width of the section, because the centres of coarse sections vary slightly from step to step.
+/// Direction of the curve through the section centres, at each centre. It is averaged over a length equal to
+/// the width of the section, because the centres of coarse sections vary slightly from step to step.
 /// @return  unit vectors; zero if centres coincide.
 /// @pre  as many widths as middles.
 std::vector<Vec3> ways_along(std::span<const Vec3> middles, std::span<const double> widths);

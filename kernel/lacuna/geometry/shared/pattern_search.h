@@ -37,8 +37,8 @@ template <class Value>
 double pattern_search(Vec2& x, double best, const PatternSteps& steps, const Value& value,
                       std::span<const Vec2> directions = all_around())
 {
-    // Limits the number of steps of each length, because values may increase by rounding alone. Far more than
-    // a search needs.
+    // Limits the number of steps of each length, because values may increase by rounding alone. A search
+    // needs far fewer steps.
     constexpr int kRounds = 10000;
     for (double step = steps.first * steps.scale; step > steps.last * steps.scale; step /= 2) {
         bool better = true;

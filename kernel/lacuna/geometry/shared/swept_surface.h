@@ -56,10 +56,10 @@ private:
     std::shared_ptr<const ExactSurface> surface_;
 };
 
-/// An edge of a source: its exact curve if it has one, otherwise its polyline, whose parameter is the number
-/// of the point.
+/// An edge of a source: its exact curve if it has one, otherwise its polyline. The parameter of a polyline is
+/// the index of the point.
 struct SweptEdge {
-    std::shared_ptr<const ExactCurve> curve; ///< null: the polyline
+    std::shared_ptr<const ExactCurve> curve; ///< null: the edge is the polyline
     std::vector<Vec3> points;
     std::vector<double> params; ///< parameter of each point
 };
@@ -72,7 +72,7 @@ public:
         : motion_(std::move(motion)), edge_(std::move(edge)), from_(from), to_(to)
     {
     }
-    /// Projects along the surface's normals, by Gauss and Newton's method.
+    /// Projects along the surface's normals, by the Gauss-Newton method.
     void project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context) const override;
     /// The places at parameters.
     [[nodiscard]] std::vector<Vec3> at(std::span<const Vec2> uv, const RunContext& context = {}) const;
