@@ -54,9 +54,9 @@ void EdgeTrack::refine(std::span<const Vec3> points, std::span<EdgePosition> pla
                        const RunContext& context) const
 {
     if (!curve_) return;
-    constexpr int kSteps = 8;            // upper bound; rule of thumb
-    constexpr double kDifference = 1e-4; // step as a share of a side; the relative error of the tangent is
-                                         // its square
+    constexpr int kSteps = 8;            // limit on the steps; a rule of thumb
+    constexpr double kDifference = 1e-4; // step of the difference, as a share of a side; the relative error
+                                         // of the tangent is the square of this share
     std::vector<std::size_t> active;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (places[i].distance <= reach) active.push_back(i);

@@ -190,7 +190,7 @@ void LooseModel::remove(FaceId f)
 }
 
 /// Split a facet side inside a face if it joins the two ends of a single-segment edge of another face.
-/// Otherwise it would be taken for that edge.
+/// Otherwise the side would be taken for that edge.
 void LooseModel::part_shortcuts()
 {
     std::map<std::pair<Index, Index>, std::vector<FaceId>> single;

@@ -10,9 +10,9 @@
 namespace lacuna::healing {
 namespace {
 
-/// Parameters of Taubin's filter. kStep: share of the way to the mean. kPassBand: frequencies below it keep
-/// their shape, Taubin's value. kPasses: enough to reduce noise of 20 % of the sides to 6 %; the radius of a
-/// tube of 40 sides then changes by less than 1e-3 of itself.
+/// Parameters of Taubin's filter. kStep: share of the way to the mean. kPassBand: lower frequencies are kept;
+/// Taubin's value. kPasses: enough to reduce noise of 20 % of the sides to 6 %; the radius of a tube of 40
+/// sides then changes by less than 1e-3 of itself.
 constexpr double kStep = 0.5, kPassBand = 0.1;
 constexpr int kPasses = 30;
 

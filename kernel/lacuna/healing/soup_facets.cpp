@@ -68,7 +68,8 @@ void check_size(const Vec3& low, const Vec3& high, double diagonal)
                            .remedy("load with another scale"));
 }
 
-/// Weld the used points and number the remaining ones in order of first use.
+/// Weld the points that facets use and add them to `facets`, in the order of the soup. @return for each point
+/// of the soup, its number there; -1: not used
 std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets,
                              const RunContext& context)
 {
@@ -178,7 +179,7 @@ void drop_repeated(Facets& facets)
     std::size_t next = 0;
     for (std::size_t f = 0; f < facets.corner.size(); ++f) {
         if (gone_with_quad(f)) continue;
-        // Half a quad is kept with its quad, even if a triangle coincides with it.
+        // A half of a quad is kept with its quad, even if a triangle coincides with it.
         if (repeated[next++] && facets.quad[f] < 0) continue;
         facets.corner[kept] = facets.corner[f];
         facets.label[kept] = facets.label[f];
@@ -237,8 +238,9 @@ bool has_three_places(const std::vector<Vec3>& points, std::span<const Index> co
     return places >= 3;
 }
 
-/// The default tolerance depends on the extent of all points. One stray point, or two distant parts, can make
-/// it larger than the facets.
+/// Refuse facets of which none are left, or fewer than collapsed with the default tolerance. That tolerance
+/// depends on the extent of all points, so one stray point, or two distant parts, can make it larger than the
+/// facets.
 /// @param given  the user's tolerance; 0: none was given.
 void check_left(const FacetSoup& soup, const Facets& facets, double given)
 {

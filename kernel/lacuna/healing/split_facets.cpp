@@ -99,7 +99,7 @@ Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature,
     }
     if (dust.empty()) return flood;
     borrow_normals(facets, sides, dust, normal, context);
-    for (const Index f : dust) // facets of connected parts that consist of dust only
+    for (const Index f : dust) // a part of such regions only: its facets get their own normals back
         if (normal[index(f)].isZero(0)) normal[index(f)] = before[index(f)];
     return flood_faces(facets, sides, normal, feature, context);
 }

@@ -14,7 +14,8 @@ struct SplitOptions {
     double feature_angle = 40; ///< faces end where facets turn by more than this [degrees]
     double tolerance = 0;      ///< points closer than this are merged [model length]; 0: 1e-6 × the diagonal
     bool whole_labels =
-        false; ///< keep each label one face at any angle; `feature_angle` then only places vertices
+        false; ///< each label becomes one face, whatever its angles; `feature_angle` then only places
+               ///< vertices
     bool keep_noise = false; ///< leave the points of noisy facets where they are
 };
 

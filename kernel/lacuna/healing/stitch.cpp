@@ -316,8 +316,8 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
     stops = std::move(placed);
 }
 
-/// Choose a new start for closed polylines whose vertex is arbitrary: a vertex found on them. @return edge →
-/// vertex.
+/// Choose a new start for each closed polyline whose own vertex is arbitrary: a vertex that was found on it.
+/// @return by edge: its new start
 std::map<EdgeId, VertexId> Stitcher::begin_elsewhere(std::map<EdgeId, std::vector<Stop>>& stops)
 {
     std::vector<int> edges_at(model().vertices.size(), 0);
@@ -347,7 +347,7 @@ std::map<EdgeId, VertexId> Stitcher::begin_elsewhere(std::map<EdgeId, std::vecto
     return begins;
 }
 
-/// Insert the stops into the edge, rotate it to its new start, and split it there.
+/// Insert the stops into an edge, rotate a closed edge to its new start, and split the edge at the stops.
 void Stitcher::insert_stops(EdgeId e, const std::vector<Stop>& stops, std::optional<VertexId> begin)
 {
     topology::Edge edge = model()[e];
@@ -489,6 +489,7 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
     std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
 }
 
+/// Merge an edge into a bundle, if it stays close to the bundle's first edge. @return whether it was merged
 /// @param tolerance  largest distance between edges that merge.
 bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
 {

@@ -14,7 +14,8 @@ namespace lacuna::healing {
 namespace {
 
 /// Two free edges with the same ends look like a gap if their distance is at most this share of the shorter
-/// edge's length. The two half circles of a hole are 0.45 of their length apart, so they do not.
+/// edge's length. The two half circles of a hole are 0.45 of their length apart, so they do not look like a
+/// gap.
 constexpr double kLooksLikeGap = 0.25;
 
 void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector<FaceId>& alike,

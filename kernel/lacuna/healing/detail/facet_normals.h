@@ -8,7 +8,7 @@
 #include <vector>
 
 /// Normals of facets, by which split_facets() decides where faces end; for clean and for noisy surfaces. Each
-/// function is linear in the facets.
+/// function takes time linear in the number of facets.
 namespace lacuna::healing {
 
 /// Number of facets in a patch of `patch_normals()`. With noise of 40 % of the facets' sides, patches of 32
@@ -16,8 +16,8 @@ namespace lacuna::healing {
 /// with 40 sides.
 inline constexpr std::size_t kPatch = 40;
 
-/// The other side with the same label on this side's segment. -1 if there is none, if there are several, or
-/// if a facet of another label also has the segment.
+/// The side of another facet with the same label on the segment of this side. -1 if there is none, if there
+/// are several, or if a facet of another label also has the segment.
 Index partner(const Facets& facets, const FacetSides& sides, Index side);
 
 /// Unit normals of the facets. If moving the points of a thin facet by the tolerance could turn it by the

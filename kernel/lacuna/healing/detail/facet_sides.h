@@ -9,8 +9,9 @@
 
 namespace lacuna::healing {
 
-/// The sides of facets, grouped by segment: the undirected sides, numbered by their points. Side k of facet f
-/// runs from corner k to the next and is called 3·f + k. Linear in the facets.
+/// The sides of facets, grouped by segment. A segment is an undirected side; segments are numbered in the
+/// order of their points. Side k of facet f runs from corner k to the next corner and has the number 3·f + k.
+/// Takes time linear in the number of facets.
 class FacetSides {
 public:
     /// @param facets  must outlive the sides. @param points  every corner is in [0, points).

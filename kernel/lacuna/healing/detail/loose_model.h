@@ -35,7 +35,7 @@ public:
     [[nodiscard]] std::vector<std::vector<EdgeId>> edges_of_faces() const;
 
     /// Merge point `gone` into `stays` at the next `settle_points()`. Nodes of kept meshes do not move: if
-    /// only `gone` is such a node, `stays` moves to its position.
+    /// only `gone` is such a node, `stays` moves to the position of `gone`.
     void join(Index gone, Index stays);
     /// Merge vertex `gone` and its point into `stays`. @pre `stays` is not merged into another vertex.
     void join(VertexId gone, VertexId stays);

@@ -13,7 +13,7 @@ struct NoiseSmoothed {
 
 /// Smooth the noise of facets within faces and along edges without shrinking them @cite taubin_1995_signal:
 /// each pass moves the points towards the mean of their neighbours, and then a little further back. Corners
-/// of edges and nodes that must be kept do not move. Linear in the facets.
+/// of edges and nodes that must be kept do not move. Takes time linear in the number of facets.
 /// @throw Cancelled
 NoiseSmoothed smooth_noise(topology::ModelBuilder& model, const RunContext& context);
 

@@ -25,11 +25,11 @@ struct GrownFace {
 /// exactly two facets and turn by no more than `angle`; a given quad counts as one facet.
 ///
 /// Growth may take facets from other faces. The rest of such a face keeps its tag and its place among the
-/// faces. If the rest is in several parts, the part with the most facets keeps both; the other parts and the
-/// grown face come last, with new tags above all others. A face that is grown over entirely is removed. The
-/// grown face takes its name, groups and regions from the face of the first facet. If growth takes exactly
-/// one existing face, the model is unchanged and that face is returned. Otherwise edges and vertices are
-/// renumbered.
+/// faces. If the rest is in several parts, the part with the most facets keeps the tag and the place; the
+/// other parts and the grown face come last, with new tags above all others. A face that is grown over
+/// entirely is removed. The grown face takes its name, groups and regions from the face of the first facet.
+/// If growth takes exactly one existing face, the model is unchanged and that face is returned. Otherwise
+/// edges and vertices are renumbered.
 /// @param among  faces that may be grown over.
 /// @throw InvalidInput "topology.bad_angle"   an angle outside (0, 180]. "healing.exact_faces"  a face has
 ///                     exact geometry, which cannot be cut into parts. "healing.nothing_to_grow"  `among` is

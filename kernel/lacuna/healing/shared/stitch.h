@@ -40,7 +40,7 @@ inline constexpr double kSewnShare = 0.01;
 /// - Edges with the same ends merge if they stay within the tolerance of each other; exact curves are
 ///   compared where edges have them. The merged edge has the points of both, and the facets of all its faces
 ///   are cut to match. On an exact curve, points closer than a quarter of a side merge. Edges further apart
-///   are kept, with a note if they look like a gap.
+///   than the tolerance are kept, with a note if they look like a gap.
 /// - Two free edges with exact curves also merge, with a note, if their distance is at most `share` of the
 ///   length of the shorter one and no other edge has their ends.
 /// - One of several coincident faces is kept, with a note. Two are kept if other faces are connected to both,
@@ -51,8 +51,8 @@ inline constexpr double kSewnShare = 0.01;
 /// a manifold surface, the model is unchanged, with a note.
 ///
 /// @param tolerance  [model length], > 0.
-/// @param share      [-], >= 0.
-/// @pre   the loops are set, or `with_loops()` would succeed.
+/// @param share  [-], >= 0.
+/// @pre  the loops are set, or `with_loops()` would succeed.
 /// @post  the loops are those that `with_loops()` gives. If gaps are well below the tolerance, a second call
 ///        changes nothing.
 /// @throw Cancelled  the model is then unchanged.
