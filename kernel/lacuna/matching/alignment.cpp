@@ -16,7 +16,7 @@ namespace {
 /// Weight of a rotation by 180° in the score, relative to a residual as large as the loop. It only decides
 /// between fits of about the same residual.
 constexpr double kTurnWeight = 0.1;
-/// Golden-section steps: converges to a millionth of a sample distance.
+/// Number of golden-section steps. They converge to a millionth of a sample distance.
 constexpr int kSections = 30;
 
 using Hard = std::map<VertexId, VertexId>;
@@ -77,8 +77,8 @@ std::vector<Vec3> source_samples(const LoopShape& source, bool by_length)
 }
 
 /// Every alignment, best first.
-/// @param hard           pairs to keep; null: pair by length.
-/// @param only_backward  the direction; empty: both.
+/// @param hard  pairs to keep; null: pair by length.
+/// @param only_backward  the direction; empty: both directions.
 std::vector<Alignment> rated(const Problem& problem, const Hard* hard, const LoopShape& source,
                              const LoopShape& target, bool with_scale, std::optional<bool> only_backward,
                              const PointPairs& known)

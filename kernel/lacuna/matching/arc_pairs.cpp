@@ -26,7 +26,7 @@ constexpr double kNear = 0.25;
 double share(double x)
 {
     const double s = x - std::floor(x);
-    return s < 1 ? s : 0; // floor() rounds for tiny negative numbers
+    return s < 1 ? s : 0; // x may be tiny and negative: then s is rounded to 1
 }
 
 double round_distance(double a, double b)
@@ -52,7 +52,7 @@ public:
 private:
     [[nodiscard]] double turned(double t) const { return share(sign_ * (t - offset_)); }
 
-    /// From the target's shares, after `turned()`, to the source's, or back.
+    /// Convert a share of the target, after `turned()`, to a share of the source, or back.
     [[nodiscard]] double between(double x, bool from_target) const
     {
         if (knots_.empty()) return share(x);
@@ -291,8 +291,8 @@ private:
     double offset_;
     bool backward_;
     double most_twist_;
-    std::vector<std::size_t> partner_; ///< target of each source vertex
-    std::vector<std::size_t> taken_;   ///< source of each target vertex
+    std::vector<std::size_t> partner_; ///< by source vertex: index of its target vertex
+    std::vector<std::size_t> taken_;   ///< by target vertex: index of its source vertex
     std::optional<ShareMap> shares_;
     std::vector<double> place_; ///< by target vertex: its share of the source loop
 };

@@ -18,7 +18,7 @@ double relative(double a, double b)
     return most > 0 ? std::abs(a - b) / most : 0;
 }
 
-/// Distance between the centroids of two loops after the source is moved by `fit`.
+/// Distance between the centroids of two loops after the source is moved by `fit`, relative to `reach`.
 double misfit(const Problem& problem, std::size_t s, std::size_t t, const geometry::RigidFit& fit,
               double reach)
 {
@@ -95,7 +95,7 @@ private:
     double reach_;
     Eigen::Index axis_ = 0;
     std::vector<std::pair<double, std::size_t>> along_; ///< places of the target loops on the axis
-    std::vector<double> lengths_;                       ///< of the target loops, rising
+    std::vector<double> lengths_;                       ///< lengths of the target loops, ascending
 };
 
 /// The arrangement that follows from an alignment of the anchor; empty if it is incomplete or not cheaper

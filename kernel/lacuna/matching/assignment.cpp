@@ -51,7 +51,8 @@ private:
     void augment(const std::size_t start)
     {
         std::vector<double> least(n_, kInfinity);
-        std::vector<std::size_t> from(n_, start), reached; ///< row before each column; columns in the order
+        std::vector<std::size_t> from(n_, start), reached; ///< `from`: row before each column; `reached`:
+                                                           ///< columns in the order in which they were
                                                            ///< reached
         std::vector<bool> done(n_, false);
         std::size_t row = start, column = 0;

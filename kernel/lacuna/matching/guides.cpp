@@ -241,7 +241,8 @@ bool are_alike(const LevelLine& a, const LevelLine& b)
            std::ranges::equal(a.anchors | std::views::values, b.anchors | std::views::values);
 }
 
-/// @param start  start of a closed line without anchors [running length].
+/// Sample points of a level line.
+/// @param start  running length at which a closed line without anchors starts.
 std::vector<Vec3> sampled(const LevelLine& line, double start = 0)
 {
     const std::vector<double> arc = geometry::arc_lengths(line.points);
@@ -274,9 +275,9 @@ std::vector<Vec3> ways_along(const std::vector<LevelLine>& lines)
     return geometry::ways_along(middles, widths);
 }
 
-/// A closed section whose start has the least twist against the section below: the best sample, then refined
-/// until the mean offset along the line is zero. Starting at a sample would twist each section by up to half
-/// a step.
+/// Samples of a closed section, whose start is chosen for the least twist against the section below. The best
+/// sample is found first. The start is then refined until the mean offset along the line is zero, because
+/// starting at a sample would twist each section by up to half a step.
 /// @param onward  rotation of the sweep direction from the section below. Without it, inclined levels would
 ///                twist a little against each other at every step of a bend.
 std::vector<Vec3> aligned(const LevelLine& line, const std::vector<Vec3>& below,
@@ -343,7 +344,8 @@ constexpr std::size_t kAdded = 2;
 constexpr double kReach = 0.5;
 
 /// Whether open walls reach far enough off their chord to extrapolate the rest of their loop.
-/// @param section  of open walls at the rim, without the points of `complete()`. @param rim  the whole loop
+/// @param section  section of the open walls at the rim, without the points of `complete()`. @param rim the
+///         whole loop
 bool says_the_rest(std::span<const Vec3> section, const std::vector<Vec3>& rim)
 {
     const Vec3 from = section.front(), gap = (section.back() - from).stableNormalized();

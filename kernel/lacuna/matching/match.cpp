@@ -103,7 +103,7 @@ private:
         return static_cast<std::size_t>(match_.loops[s].target);
     }
 
-    /// @param arrangement  null for loops other than its anchor
+    /// @param arrangement  null for every loop but the anchor
     void align(std::size_t s, const Arrangement* arrangement)
     {
         const std::size_t t = target(s);
@@ -146,7 +146,7 @@ private:
     template <class Counts>
     [[nodiscard]] std::vector<std::size_t> nearest(std::size_t s, const Counts& counts) const
     {
-        std::vector<std::pair<double, std::size_t>> near; // by distance²
+        std::vector<std::pair<double, std::size_t>> near; // squared distances and loops, ascending
         const Vec3& centre = problem_.source[s].centroid;
         const double at = centre[axis_];
         auto above = std::ranges::lower_bound(along_, std::pair(at, std::size_t{0})), below = above;
@@ -321,9 +321,9 @@ private:
     const Problem& problem_;
     Match& match_;
     std::vector<Alignment> chosen_;
-    std::vector<bool> aligned_;       ///< by loop
+    std::vector<bool> aligned_;       ///< by loop: whether it is aligned already
     std::vector<PointPairs> sampled_; ///< corresponding points of the aligned loops, before loops are slid
-    Eigen::Index axis_ = 0;           ///< along which the loops extend farthest
+    Eigen::Index axis_ = 0;           ///< axis along which the loops extend farthest
     std::vector<std::pair<double, std::size_t>> along_; ///< places of the loops on the axis
     std::optional<bool> backward_;
 };
@@ -334,7 +334,7 @@ std::string numbers(const std::vector<int>& list)
     return full_list(list, [](int i) { return formatted("{}", i + 1); });
 }
 
-/// Whether the other method succeeds where `nearest` failed.
+/// Whether method `aligned` succeeds where `nearest` failed.
 bool can_be_aligned(const OpenVolume& volume, MatchOptions options, const RunContext& context)
 {
     options.method = Method::aligned;

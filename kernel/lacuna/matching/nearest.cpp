@@ -27,9 +27,10 @@ constexpr double kShare = 0.5;
 struct Ends {
     std::vector<VertexId> vertex;
     std::vector<Vec3> at;
-    std::vector<std::size_t> loop;  ///< for each vertex
-    std::vector<std::size_t> first; ///< first vertex of each loop, then the total
-    std::vector<Vec3> area;         ///< for each loop
+    std::vector<std::size_t> loop;  ///< by vertex: its loop
+    std::vector<std::size_t> first; ///< index of the first vertex of each loop, then the number of all
+                                    ///< vertices
+    std::vector<Vec3> area;         ///< area vector of each loop
 
     [[nodiscard]] std::size_t count(std::size_t l) const { return first[l + 1] - first[l]; }
 };
@@ -92,8 +93,8 @@ private:
     struct Way {
         std::size_t shift = 0;
         bool backward = true;
-        std::size_t agree = 0;       ///< vertices whose own match agrees with it
-        double distance = kInfinity; ///< sum over the loop
+        std::size_t agree = 0;       ///< number of vertices whose own match agrees with it
+        double distance = kInfinity; ///< sum of the distances of its pairs
     };
 
     [[nodiscard]] double distance(std::size_t s, std::size_t t) const
@@ -192,7 +193,7 @@ private:
         }
     }
 
-    /// Step 7: matches far from the mean distance are dropped and paired again.
+    /// Step 7: matches whose distance is far from the mean are dropped and paired again.
     void validate()
     {
         for (std::size_t l = 0; l + 1 < source_.first.size(); ++l) {
@@ -247,7 +248,7 @@ private:
         return result;
     }
 
-    /// The alignment that most vertices agree on; of equal ones the nearest.
+    /// The alignment that most vertices agree on; of equally good ones, that with the least distance.
     static Way best_of(const std::vector<Way>& list)
     {
         return *std::ranges::min_element(list, [](const Way& a, const Way& b) {
@@ -377,7 +378,7 @@ private:
     Ends source_, target_;
     std::vector<std::size_t> partner_;           ///< target of each source vertex
     std::vector<std::size_t> fixed_;             ///< target of each fixed source vertex
-    std::vector<std::size_t> nearest_to_source_; ///< step 4 i, kept for messages
+    std::vector<std::size_t> nearest_to_source_; ///< result of step 4 i, kept for messages
     std::vector<std::size_t> loop_;              ///< target loop of each source loop
     bool backward_ = true;                       ///< target loops are traversed against their own direction
     Match result_;

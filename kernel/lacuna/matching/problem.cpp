@@ -71,7 +71,8 @@ void read_walls(Problem& problem, const std::vector<SideLine>& lines)
     }
 }
 
-/// Levels between the rims: a bend turns by less than 6° between two.
+/// Number of levels between the rims. Even along a full turn, the direction changes by less than 6° from
+/// level to level.
 constexpr int kLevels = 64;
 
 /// Points of the first section through the given walls, and the corresponding points of the last one. They

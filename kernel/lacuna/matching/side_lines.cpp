@@ -138,7 +138,7 @@ std::vector<double> heights_of(const OpenVolume& volume, const std::vector<std::
     return heights;
 }
 
-/// Climbing edges, grouped by their lower vertex.
+/// A wall edge that climbs, and its cost in a path. `Rises` groups such edges by their lower vertex.
 struct Rise {
     EdgeUse use;
     VertexId to;

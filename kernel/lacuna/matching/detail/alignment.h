@@ -15,10 +15,10 @@ inline constexpr double kMostTwist = 1.0 / 32;
 
 /// A cyclic shift and direction that place a source loop on a target loop.
 struct Alignment {
-    /// Target vertex paired with the source's first vertex; for loops paired by length the sample, or the
-    /// given node, where the source starts.
+    /// Index of the target vertex that is paired with the source's first vertex. For loops paired by length:
+    /// index of the target's sample, or given node, at which the source starts.
     std::size_t shift = 0;
-    /// For loops paired by length: share of the target's length where the source's start lies.
+    /// For loops paired by length: share of the target's length at which the source starts.
     double offset = 0;
     bool backward = true; ///< the target loop is traversed against its own direction
     double score = kInfinity;
@@ -28,9 +28,9 @@ struct Alignment {
 /// Rotation of the alignment's fit, as a share of half a turn.
 double turn_of(const Alignment& alignment);
 
-/// Every alignment of source loop s on target loop t that hard pairs and direction allow, best first. Pairs
-/// already matched are part of the fit.
-/// @param backward  the direction; empty: both.
+/// Every alignment of source loop s on target loop t that the hard pairs and the direction allow, best first.
+/// @param backward  the direction; empty: both directions.
+/// @param known  pairs of points that are matched already; they are part of the fit.
 std::vector<Alignment> alignments_of(const Problem& problem, std::size_t s, std::size_t t, bool with_scale,
                                      std::optional<bool> backward, const PointPairs& known = {});
 
@@ -44,9 +44,9 @@ PointPairs samples(const Problem& problem, std::size_t s, std::size_t t, const A
 /// Whether two alignments differ by more than a small shift along a smooth loop.
 bool differ(const Problem& problem, std::size_t s, std::size_t t, const Alignment& a, const Alignment& b);
 
-/// Number of mismatches of given sides under an alignment: source edges paired with an edge that has another
-/// number of sides. For loops that are paired by length and measured in sides: vertices of the loop with
-/// fewer vertices that meet no vertex of the other loop.
+/// Number of places where the given meshes of two loops do not match under an alignment: source edges that
+/// are paired with an edge of another number of sides. For loops that are paired by length and measured in
+/// sides: vertices of the loop with fewer vertices that meet no vertex of the other loop.
 std::size_t unlike_sides(const Problem& problem, std::size_t s, std::size_t t, const Alignment& alignment);
 
 } // namespace lacuna::matching

@@ -34,9 +34,10 @@ struct ArcPairs {
 ///   the shortest side next to them; splitting there would leave a short edge.
 /// - For each corner that is still unpaired, the other loop is split at the same share of its length. Smooth
 ///   vertices stay unpaired.
-/// - If there is no pair at all, the target is split for the source vertex furthest from its vertices.
-/// @param offset      share of the target's length where the source's start lies.
-/// @param backward    the target is traversed against the source.
+/// - If there is neither a pair nor a split, the target is split for the source vertex that is furthest from
+///   the target's vertices.
+/// @param offset  share of the target's length at which the source starts.
+/// @param backward  the target is traversed against the source.
 /// @param most_twist  largest distance of paired smooth vertices, as a share of the loop.
 /// @pre hard pairs keep the order along the loops: keeps_order().
 ArcPairs pair_by_arc(const ArcLoop& source, const ArcLoop& target, double offset, bool backward,

@@ -34,7 +34,8 @@ struct LoopShape {
 /// @param kept  topology::kept_edges() of the model
 LoopShape shape_of(const topology::Model& model, const topology::Rim& rim, const std::set<EdgeId>& kept);
 
-/// The place on a loop of `count` places that a cyclic shift and a direction pair with place `i` of another.
+/// The place on a loop of `count` places that a cyclic shift and a direction pair with place `i` of another
+/// loop.
 inline std::size_t partner_place(std::size_t i, std::size_t count, std::size_t shift, bool backward)
 {
     return (backward ? shift + count - i : shift + i) % count;

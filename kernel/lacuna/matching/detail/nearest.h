@@ -5,7 +5,7 @@
 
 namespace lacuna::matching {
 
-/// Algorithm 1 as in the paper: each vertex is paired with the nearest.
+/// Algorithm 1 as in the paper: each vertex is paired with the nearest vertex of the other end.
 ///
 /// Steps 4 to 7 of the paper, one function each; the caller does steps 1 to 3. Where the paper is silent: the
 /// first of equal distances wins; pairs compete for a vertex by distance; loops of one or two vertices take

@@ -38,17 +38,18 @@ struct Problem {
     std::map<VertexId, VertexId> walls; ///< source vertex → target vertex, joined by walls
     std::map<VertexId, VertexId> hard;  ///< the pairs from the walls and those of the user
     std::vector<int> forced;            ///< target loop of each source loop, -1: not fixed
-    std::vector<bool> on_wall;          ///< for each vertex of the model
-    std::optional<bool> backward; ///< set if walls join the ends: the target loops run against the source's
+    std::vector<bool> on_wall;          ///< by vertex of the model
+    std::optional<bool> backward; ///< set to true if walls join the ends: the target loops then run against
+                                  ///< the source loops
     /// Results of `paired_by_length()` so far; the key is source · number of targets + target.
     mutable std::unordered_map<std::size_t, bool> by_length;
     PointPairs led; ///< source rim points and their images under the given walls; empty if all loops have
                     ///< walls
 
     /// Whether two loops are paired by length rather than vertex by vertex: if they have different numbers of
-    /// vertices, or one each; if no pairing of vertices keeps the pairs joined by walls; if the best one
-    /// pairs a corner with a smooth vertex although a corner is available; or if it pairs no two corners and
-    /// its mean twist exceeds `kMostTwist`.
+    /// vertices, or only one vertex each; if no pairing of vertices keeps the pairs joined by walls; if the
+    /// best one pairs a corner with a smooth vertex although a corner is available; or if it pairs no two
+    /// corners and its mean twist exceeds `kMostTwist`.
     [[nodiscard]] bool paired_by_length(std::size_t s, std::size_t t) const;
     /// The pairs of `led` nearest to a source loop.
     [[nodiscard]] PointPairs led_near(std::size_t s) const;

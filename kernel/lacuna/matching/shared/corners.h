@@ -8,8 +8,8 @@
 
 namespace lacuna::matching {
 
-/// True where a closed loop has a corner at the start of its use number `i`: it turns by more than 15° there,
-/// and by more than 1.5 times as much as between its facets next to it. Other vertices lie on a smooth run.
+/// Whether a closed loop has a corner at the start of its i-th use: it turns there by more than 15°, and by
+/// more than 1.5 times the turn between the facets next to it. Other vertices lie on a smooth run.
 bool is_corner(const topology::Model& model, const std::vector<topology::EdgeUse>& walk, std::size_t i);
 
 } // namespace lacuna::matching

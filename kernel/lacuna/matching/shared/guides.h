@@ -8,9 +8,9 @@
 
 namespace lacuna::matching {
 
-/// Sections of open walls on one source loop, over the points of that loop only.
+/// Sections of the open walls on one source loop. They contain points of these walls only.
 struct LoopSections {
-    std::vector<Index> rim;                ///< model points of that loop
+    std::vector<Index> rim;                ///< model points of the loop
     std::vector<FaceId> faces;             ///< the walls
     std::vector<std::vector<Vec3>> levels; ///< as in `Sections`
 };
@@ -20,9 +20,9 @@ struct Sections {
     std::vector<double> heights; ///< over the whole model, from `wall_heights()`
     std::vector<Vec3> areas;     ///< area vector of each level's lines, pointing up the walls
     std::vector<std::vector<Vec3>>
-        levels; ///< level by level from the source rim to the target rim; point i of each corresponds
-    bool closed = false; ///< by level, from the source rim to the target rim; points with the same index in
-                         ///< two levels correspond
+        levels; ///< by level, from the source rim to the target rim; points with the same index in two levels
+                ///< correspond
+    bool closed = false; ///< whether a wall part is a closed ring; open wall parts are then ignored
     /// Sections of the loops whose open walls reach far enough round to extrapolate the rest of the loop.
     std::vector<LoopSections> loops;
 };
