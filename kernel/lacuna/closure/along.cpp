@@ -359,8 +359,7 @@ private:
     ModelBuilder builder_;
     std::vector<bool> source_points_;
     std::vector<Index> used_;                ///< points of the source's facets
-    std::vector<std::vector<Index>> at_row_; ///< by row and point of the source: its image in that row; -1:
-                                             ///< none
+    std::vector<std::vector<Index>> at_row_; ///< by row and point of the source: its image there, or -1
     std::map<std::pair<VertexId, std::size_t>, VertexId> vertices_;
     std::set<std::pair<VertexId, std::size_t>> paths_; ///< source vertices and levels whose void edge along
                                                        ///< the path exists

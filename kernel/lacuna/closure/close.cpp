@@ -170,7 +170,7 @@ struct Asked : CloseOptions {
 /// Seals a volume of a class; tries several methods.
 class Sealer {
 public:
-    /// @param lines  side lines of the volume; empty: to be found when needed.
+    /// @param lines  side lines of the volume; empty: they are found when needed.
     Sealer(const OpenVolume& volume, const std::optional<std::vector<matching::SideLine>>& lines,
            VolumeClass value, const Asked& options, const RunContext& context)
         : volume_(volume), lines_(lines), value_(value), options_(options), context_(context)

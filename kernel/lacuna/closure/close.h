@@ -37,7 +37,7 @@ enum class Cap {
 
 /// Treatment of a given end's holes without walls.
 enum class Holes {
-    automatic, ///< an error if the other end is missing; otherwise joined to the loops they are matched with
+    automatic, ///< an error if the other end is missing; otherwise holes are joined as matched
     cover,     ///< closed by a face in the end's surface
     through,   ///< extended to the other end
 };
@@ -66,7 +66,7 @@ struct Along {
         double angle = 0; ///< up to a full turn either way, by the right-hand rule [degree]
     };
     struct Helix {
-        Vec3 point, direction; ///< of its axis
+        Vec3 point, direction; ///< of the axis of the helix
         double pitch = 0;      ///< advance along the axis for each turn [model length]
         double turns = 0;      ///< negative: by the left-hand rule
     };

@@ -161,10 +161,8 @@ private:
     /// Refuse a cut that leaves a thin strip beside an edge.
     void refuse_thin(double least) const
     {
-        std::vector<char> joined(model_.vertices.size(), 0); // by vertex: whether it ends an edge that meets
-                                                             // the plane
-        std::vector<std::pair<EdgeId, Vec3>> near;           // edges near the plane, each with its nearest
-                                                             // place
+        std::vector<char> joined(model_.vertices.size(), 0); // by vertex: ends an edge that meets the plane
+        std::vector<std::pair<EdgeId, Vec3>> near;           // edges near the plane, with their nearest place
         for (std::size_t e = 0; e < model_.edges.size(); ++e) {
             const Edge& edge = model_.edges[e];
             double low = kInfinity, high = -kInfinity, next = least;
@@ -270,8 +268,7 @@ private:
 
     void add_partitions(const WalkImprint& made)
     {
-        std::vector<std::vector<EdgeUse>> loops, skin; // `loops` includes the new edges across gaps, `skin`
-                                                       // does not
+        std::vector<std::vector<EdgeUse>> loops, skin; // `skin` lacks the new edges across gaps
         std::vector<std::vector<EdgeUse>> open;
         for (std::size_t w = 0; w < walks_.size(); ++w) {
             if (walks_[w].closed) {

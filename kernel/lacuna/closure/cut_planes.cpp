@@ -26,7 +26,7 @@ constexpr double kQuarterTurn = 2 * std::numbers::sqrt2 / std::numbers::pi;
 
 bool are_parallel(const Vec3& a, const Vec3& b) { return a.cross(b).norm() < kParallel; }
 
-/// The direction of a straight edge.
+/// The direction of a straight edge; empty if the edge is curved.
 std::optional<Vec3> straight_along(const Model& model, EdgeId edge)
 {
     const Vec3 chord = model.at(model[model[edge].to].point) - model.at(model[model[edge].from].point);

@@ -190,7 +190,8 @@ bool prove(FlatFilling& filling, const RunContext& context)
 /// least steep form the end.
 constexpr double kSlope = 60;
 
-/// Make the new faces that face away from the source its target; the others stay walls.
+/// Make the new faces that are least inclined to the source, by up to `kSlope`, its target. The others stay
+/// walls.
 void part_end_from_walls(FlatFilling& filling, const std::vector<FaceId>& source)
 {
     const Model& model = filling.volume.model;

@@ -17,9 +17,9 @@ constexpr int kLevels = 64;
 /// Largest bow of ring walls, as a share of the rims' radius, up to which void edges are straight. The
 /// section then loses about twice that share, 1 %.
 constexpr double kAstray = 0.005;
-/// The same limit for open walls that determine the rest of their loop, and for other open walls. The limits
-/// are higher because walls with a given mesh, and single twisted walls of few facets, deviate as much even
-/// if the true wall is straight.
+/// The same limits for open walls: the first if the walls determine the rest of their loop, otherwise the
+/// second. These limits are higher because walls with a given mesh, and single twisted walls of few facets,
+/// deviate as much even if the true wall is straight.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
 /// If the bow of open walls exceeds kBeside (share of the rims' radius), they may belong to another shape
 /// than a sweep. Edges that follow them are then tried before straight ones only if they leave their chord by

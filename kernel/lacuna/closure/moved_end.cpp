@@ -42,8 +42,9 @@ constexpr int kSamples = 8;
 /// A segment of an end's rim between two vertices from which wall edges lead up, with walls along it or
 /// without.
 struct Stretch {
-    std::vector<EdgeUse> foot; ///< as used by the end
-    std::vector<EdgeUse> top;  ///< as used by the walls, from above the foot's start; empty: no wall here
+    std::vector<EdgeUse> foot; ///< uses by the end
+    std::vector<EdgeUse> top;  ///< uses by the walls, starting above the start of the foot; empty: there is
+                               ///< no wall here
 };
 
 double off_chain(const Vec3& p, const std::vector<Vec3>& chain)

@@ -35,9 +35,9 @@ namespace {
 
 /// Bounds of the search, so that a part with hundreds of features ends in seconds.
 constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
-/// Only for this many cuts, those that leave the least length to cut, the ends of the pieces are searched,
-/// because a search costs more than a cut. The same number limits the planes between features and the axes
-/// for steps that are tried.
+/// The ends of pieces are searched only for this many cuts, those that leave the least length to cut, because
+/// a search costs more than a cut. The same number limits the planes between features and the axes for steps
+/// that are tried.
 constexpr std::size_t kMostRead = 6;
 
 /// A piece and, if it has no ends, the bends and the length that are left to cut.
@@ -46,7 +46,7 @@ struct CutPart {
     std::vector<Bend> bends;
     double left = 0; ///< [model length]
     bool has_ends = false;
-    std::vector<StepPiece> blocks{}; ///< into which it is divided at its middle; may be empty
+    std::vector<StepPiece> blocks{}; ///< blocks into which the piece is divided; empty if it is not divided
 };
 
 CutPart part_of(StepPiece piece, const RunContext& context)

@@ -153,7 +153,7 @@ public:
         return found;
     }
 
-    /// Whether each wall runs from end to end, so that two walls meet in a line of columns.
+    /// Whether each wall runs from end to end, so that columns can follow the line in which two walls meet.
     [[nodiscard]] bool are_ends(FaceSet source, FaceSet target) const
     {
         const FaceSet all = one(faces_.size()) - 1;

@@ -367,8 +367,7 @@ std::string partition_name(const Model& model)
     int number = 1;
     for (const Face& face : model.faces) {
         if (face.name.starts_with("cut_"))
-            number = std::max(number, std::atoi(face.name.c_str() + 4) + 1); // atoi() gives 0 if no number
-                                                                             // follows
+            number = std::max(number, std::atoi(face.name.c_str() + 4) + 1); // 0 if no number follows
     }
     return formatted("cut_{}", number);
 }

@@ -249,8 +249,8 @@ RimShapes shapes_through(std::span<const Vec3> rim, const geometry::Plane& plane
     return result;
 }
 
-/// Whether a given face at the edges of some loops lies on a quadric. A missing face beside it cannot lie on
-/// such a quadric if that is a pair of planes.
+/// Whether a given face at the edges of some loops lies on a quadric. If the quadric is a pair of planes, a
+/// missing face beside the given face cannot lie on it.
 bool holds_given_face(const Model& model, const std::vector<Loop>& loops, const Quadric& quadric)
 {
     std::set<EdgeId> rim;

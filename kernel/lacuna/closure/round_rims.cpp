@@ -28,7 +28,7 @@ constexpr double kHalfway = std::numbers::sqrt2 / 2;
 /// Inclination and height of a facet relative to an end.
 struct Slope {
     double cosine = 0; ///< 1 where the facet is parallel to the end, 0 where it is normal to the end
-    double height = 0; ///< of its centre along the way from the end to the rounds [model length]
+    double height = 0; ///< height of its centre in the direction from the end to the rounds [model length]
 };
 
 Slope slope_of(const Model& model, const Triangle& t, const Vec3& out, const Vec3& way)

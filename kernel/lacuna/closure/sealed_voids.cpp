@@ -108,8 +108,8 @@ bool is_settled(const Void& v)
                                [&](FaceId face) { return is_about_flat(v.sealed.volume.model, face); });
 }
 
-/// Keep the voids that cost at most `RoleOptions::margin` more than the cheapest. Those with an ambiguous
-/// bend are dropped if there are settled ones.
+/// Keep the voids that cost at most `RoleOptions::margin` more than the cheapest. Voids with an ambiguous
+/// bend are dropped if there is one for which `is_settled()` is true.
 void keep_likely(std::vector<Void>& found)
 {
     if (std::ranges::any_of(found, is_settled)) std::erase_if(found, &Void::untold);
@@ -203,7 +203,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
         Void now;
         now.sealed = {{Closed(std::move(one)), {}}, one.enclosed};
         now.filled = formatted("sealed with the shape of {} at the other end", entity_of(model, one.from));
-        now.first.roles.walls = faces; // face i of its volume is faces[i] of the model
+        now.first.roles.walls = faces; // face i of the sealed volume is faces[i] of the model
         const auto is_same = [&](const Void& v) { return enclose_the_same(v.sealed, now.sealed); };
         if (std::ranges::any_of(ends, is_same)) continue;
         told = told && !one.through;

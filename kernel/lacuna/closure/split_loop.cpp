@@ -64,7 +64,8 @@ std::vector<EdgeUse> uses_of(const Rim& rim, const Run& run)
     return uses;
 }
 
-/// Start of the run after the r-th in a loop; may exceed the number of uses. @pre the runs are ascending
+/// Start of the run that follows the r-th run of a loop; it may exceed the number of uses. @pre the runs are
+/// ascending
 std::size_t next_start(const Rim& rim, std::span<const Run> runs, std::size_t r)
 {
     return r + 1 == runs.size() ? runs.front().first + rim.uses.size() : runs[r + 1].first;
@@ -86,7 +87,8 @@ bool overlap(const Rim& rim, const std::vector<Run>& runs)
     return false;
 }
 
-/// Separate runs of uses from a loop by straight void edges. @return  each run's loop, then the rest.
+/// Separate runs of uses from a loop by straight void edges. @return the loop of each run, then the loop of
+/// the rest.
 std::vector<Loop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& runs)
 {
     std::vector<Loop> parts(runs.size() + 1);
@@ -103,7 +105,7 @@ std::vector<Loop> cut_off(Model& model, const Rim& rim, const std::vector<Run>& 
 }
 
 /// The run to separate from a loop that lies in two planes.
-/// @param run  by use of the loop: `flat_run()` from there.
+/// @param run  by use of the loop: the length of the flat run that starts there.
 std::optional<Run> half_run(const std::vector<std::size_t>& run)
 {
     const std::size_t uses = run.size();

@@ -379,8 +379,7 @@ private:
     /// Surface parameters of points projected onto the opposite end.
     std::map<Index, Vec2> uv_;
     std::optional<geometry::FacetTree> tree_;           ///< facets of the original opposite end
-    std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree: its face, and its index
-                                                        ///< there
+    std::vector<std::pair<FaceId, std::size_t>> facet_; ///< by triangle of the tree: its face and index there
 };
 
 /// Close a missing end opposite to steps by a face in the only open loop, flat or bent like that loop.

@@ -290,7 +290,7 @@ private:
     }
 
     /// The edge from the end of a run to its start that has the shape of the run between its first and last
-    /// side, if these are straight, parallel and of one length.
+    /// side, if these two sides are straight, parallel and equally long.
     [[nodiscard]] static std::optional<FaceSide> image_of_opposite(const FaceChain& run)
     {
         if (run.size() < 3) return std::nullopt;

@@ -143,8 +143,8 @@ VoidFilling fill_transfinite(const Model& model, const std::vector<std::vector<E
         by_height(side[1], *follower, true);
         by_height(side[3], *follower, false);
     }
-    // Measure the rectangle in segments of its sides: facets then have the sides' segment length in each
-    // direction, which depends on curvature.
+    // Measure the rectangle in segments of its sides. Facets then are as long as the segments of the sides,
+    // whose length depends on curvature.
     const auto segments = [&](std::size_t i, std::size_t j) {
         return static_cast<double>(std::max(side[i].chain.size(), side[j].chain.size()) - 1);
     };

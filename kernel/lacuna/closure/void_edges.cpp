@@ -24,7 +24,8 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of segments of a void edge: a bend by 90° turns by less than 1.5° at each.
+/// Maximum number of segments of a void edge: a bend by 90° turns by less than 1.5° from one segment to the
+/// next.
 constexpr int kMostSegments = 64;
 /// Maximum turn between the tangents at both ends of a smooth curve: 3/4 of a circle [radian]. At a full
 /// circle the handles become infinite.

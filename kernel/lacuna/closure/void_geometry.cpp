@@ -109,7 +109,7 @@ std::optional<VoidFilling> fill_on_sheet(const Model& model, const NewellOutline
                                          const QuadricSheet& sheet, const RunContext& context)
 {
     // Number of facets along the diagonal of the outline. They are off the sheet by about a thousandth of its
-    // bulge; the number of all facets grows with the square of this one.
+    // bulge; the number of all facets grows with the square of this number.
     constexpr double kFacets = 32;
     const Outline& outline = newell.outline;
     Eigen::AlignedBox2d box;
@@ -161,8 +161,7 @@ std::optional<VoidFilling> fill_between_corners(const Model& model, const std::v
     const auto sides = four_corners(model, loops.front());
     if (sides.empty()) return std::nullopt;
     if (on_quadric && !is_ruled(model, sides)) return std::nullopt;
-    return unless_refused([&] { return fill_transfinite(model, sides, nullptr, context); }); // the patch may
-                                                                                             // fold
+    return unless_refused([&] { return fill_transfinite(model, sides, nullptr, context); }); // it may fold
 }
 
 /// The edges of two loops that cross, for messages.

@@ -15,8 +15,8 @@ struct EndLoops {
 /// The first connected part of the walls that does not have two free loops; empty if all are tubes.
 std::vector<FaceId> no_tube(const topology::OpenVolume& volume);
 
-/// Divide the free loops between source and target: steps 3 to 6 of Algorithm 11 of the paper on classes of
-/// open volumes (see docs/bibliography.md).
+/// Divide the free loops between source and target, as in steps 3 to 6 of the paper's Algorithm 11 (see
+/// docs/bibliography.md).
 ///
 /// Each connected part of the walls is a tube with a free loop at either end. The largest tube defines the
 /// two ends. Each loop of another tube belongs to the nearer end. A tube inside another one is reversed, so

@@ -18,7 +18,7 @@ struct Bend {
     /// Length of the edge. For a cylinder: its length times the number of right angles by which it turns,
     /// times a factor that is 0 for a quarter turn and 1 for a full turn [model length].
     double length = 0;
-    std::optional<Vec3> axis; ///< a sweep in this direction follows the bend; empty: a curved edge
+    std::optional<Vec3> axis; ///< a sweep in this direction follows the bend; empty for a curved edge
 };
 
 /// All bends of a sealed volume. O(facets).
@@ -31,8 +31,7 @@ double length_to_cut(const std::vector<Bend>& bends);
 /// A plane that may cut a volume into pieces that are easier to sweep.
 struct CutPlane {
     geometry::Plane plane;
-    std::vector<EdgeId> edges; ///< only regions of the plane that adjoin these edges are cut; empty: all
-                               ///< regions
+    std::vector<EdgeId> edges; ///< cut only regions of the plane that adjoin these edges; empty: all
 };
 
 /// Planes to cut a volume by, in this order:

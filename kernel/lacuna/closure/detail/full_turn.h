@@ -19,7 +19,7 @@ namespace lacuna::closure {
 /// @return  two pieces, whose `turn_from` and `turn_to` are their share of the turn, by arc length along the
 ///         centroids of the sections.
 /// @throw NotSweepable "closure.full_turn"  no such plane; reports the result of the shortest cut.
-///         InvalidInput "closure.full_turn_ends" a face is not a wall; names it.
+///         InvalidInput "closure.full_turn_ends"  a face is not a wall; names it.
 /// @note  O(facets · directions), and a cut for each plane tried.
 std::vector<StepPiece> cut_full_turn(const topology::OpenVolume& volume, const RunContext& context = {});
 

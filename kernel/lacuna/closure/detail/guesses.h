@@ -34,7 +34,7 @@ FaceId open_hole(const topology::Model& model, const std::vector<FaceId>& given,
 /// The error "topology.shape_open" about the hole that `open_hole()` finds, without a remedy.
 Message guess_of_hole(const topology::Model& model, FaceId face);
 
-/// Add a note about an assumption; it is listed as an assumption if it changes the volume enough.
+/// Add a note. It is listed among the assumptions if the alternative changes the volume enough.
 /// @param share  relative change of the volume under the alternative
 void assume(Closure& closure, Message note, double share);
 

@@ -16,7 +16,7 @@ struct Outline {
     std::vector<Vec2> flat;
     std::vector<std::vector<Index>> loops;
 
-    /// Add a loop. @param points its points in the model, if it has any there.
+    /// Add a loop. @param points  indices of its points in the model; empty: they are no points of the model
     void add_loop(const std::vector<Vec2>& places, const std::vector<Index>& points = {})
     {
         std::vector<Index>& loop = loops.emplace_back(places.size());

@@ -42,7 +42,7 @@ topology::WalkImprint imprint(topology::OpenVolume& volume, const std::vector<to
 std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context);
 
 /// Cut every piece that a plane crosses. A piece that `cut` misses stays as it is.
-/// @throw the errors of `cut`, except "closure.cut_misses".
+/// @throw  the errors of `cut`, except "closure.cut_misses".
 /// @note  O(facets) for each piece that the plane does not cross.
 std::vector<StepPiece> cut_each(
     std::vector<StepPiece> pieces, const geometry::Plane& plane,

@@ -21,7 +21,8 @@ namespace lacuna::closure {
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);
 
-/// Whether a flat face in a rim would lie in the plane of all given faces round it: a wall is missing there.
+/// Whether a flat face in a rim would lie in the plane of all given faces round it. If so, a wall is missing
+/// there.
 bool continues_given_planes(const topology::Model& model, const topology::Rim& rim);
 
 /// Whether a void face joins two rims of different lengths, of which one needs a wall. A straight wall that

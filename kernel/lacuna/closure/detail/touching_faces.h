@@ -23,10 +23,10 @@ bool tells_face(const topology::Model& model, const topology::Loop& loop, const 
 
 /// Split a free loop that runs around two or three adjacent missing faces into the loops of these faces.
 ///
-/// Of two faces, one is flat, because its part of the loop lies in a plane. The other is flat too, or its rim
-/// determines its shape. The void edge between them is straight, or a shifted copy of the opposite side of
-/// the second face. Of three faces, all are flat and meet in a void vertex, or one is flat and the other two
-/// are split as above.
+/// If there are two faces, one is flat, because its part of the loop lies in a plane. The other is flat too,
+/// or its rim determines its shape. The void edge between them is straight, or a shifted copy of the opposite
+/// side of the second face. If there are three faces, either all are flat and meet in a void vertex, or one
+/// is flat and the other two are split as above.
 /// @param rim  a loop that is not flat. The void edges and the void vertex are added to the model.
 /// @return  empty if no split fits, or more than one.
 std::optional<std::vector<topology::Loop>> split_touching(topology::Model& model, const topology::Rim& rim,

@@ -23,8 +23,9 @@ std::vector<Gap> find_gaps(const topology::OpenVolume& volume, const matching::M
 
 /// Course of the void edges that the user did not give.
 struct Course {
-    const Follower* follower = nullptr; ///< not null: follows the motion of the given walls. @pre leads()
-    bool smooth = false;                ///< a cubic along tangents at both ends; `follower` is null
+    const Follower* follower = nullptr; ///< void edges follow the motion of these walls; may be null. @pre
+                                        ///< leads()
+    bool smooth = false;                ///< void edges are cubics along tangents; `follower` is then null
     const Follower* walls = nullptr;    ///< source of wall tangents for `smooth`; null: none
 };
 

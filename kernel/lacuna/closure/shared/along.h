@@ -41,7 +41,7 @@ struct SweptSource {
 SweptSource swept_source(const topology::Model& model, topology::OpenVolume source, const Along& along,
                          const RunContext& context);
 
-/// @throw InvalidInput "closure.along_axis"  edges of the source lie on the axis of its turn.
+/// @throw InvalidInput "closure.along_axis"  edges of the source lie on the axis of rotation.
 void refuse_edges_on_axis(const SweptSource& swept);
 
 /// Build the skin of a source swept along a path. Each rim edge of the source sweeps one void wall for each

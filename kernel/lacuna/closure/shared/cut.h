@@ -18,9 +18,9 @@ namespace lacuna::closure {
 /// volume is closed first, so that its void faces are cut too. If it cannot be closed as a whole, straight
 /// void edges join the open ends of the section, and each piece can be closed on its own.
 ///
-/// A cut that meets an end becomes a wall of its pieces. Otherwise it becomes the end that a piece lacks,
-/// together with coplanar walls next to it. A piece without ends takes one from its other faces if they
-/// determine it; a piece between two cuts has these as ends.
+/// A cut face that meets an end becomes a wall of its pieces. Any other cut face becomes the end that a piece
+/// lacks, together with coplanar walls next to it. If a piece has no other end, one is chosen from its other
+/// faces, if they determine it. A piece between two cuts has the two cut faces as ends.
 /// @return  pieces behind the plane first.
 /// @throw NotSweepable "closure.cut_misses"  the plane crosses nothing; names the faces it touches or the
 ///         distance. "closure.cut_apart" the volume stays connected, as a ring does that is cut once.
@@ -47,7 +47,7 @@ std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const ge
 /// share the face itself, whatever its shape. Any other face must be flat and cuts by its plane. A face of
 /// the volume cuts along the whole plane. A face of another model cuts only where its own facets are inside
 /// the volume.
-/// @param face  of `model`, which may be the volume's.
+/// @param face  a face of `model`, which may be the model of the volume.
 /// @throw NotSweepable "closure.cut_face"  a curved face whose rim leaves the volume's edges; names the face
 ///         and the place. Or the errors of `cut_by_plane()`.
 std::vector<StepPiece> cut_by_face(const topology::OpenVolume& volume, const topology::Model& model,

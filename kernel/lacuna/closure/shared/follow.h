@@ -40,7 +40,8 @@ public:
     [[nodiscard]] Vec3 leaving(const Vec3& source) const;
     [[nodiscard]] Vec3 arriving(const Vec3& target) const;
 
-    /// The image of a source point on the target under the motion from the source alone. @pre leads()
+    /// The image of a source point on the target, by the affine map fitted from the source's section to the
+    /// target's. @pre leads()
     [[nodiscard]] Vec3 carried(const Vec3& source) const { return ways_[0].from_source.back()(source); }
 
     /// True if the walls stray so far from straight lines between the rims that void walls between straight
@@ -71,8 +72,8 @@ private:
     [[nodiscard]] double missed_by_all(const topology::Model& model,
                                        const matching::LoopSections& loop) const;
 
-    std::vector<Way> ways_;                         ///< the motion of all walls, then motions of the walls of
-                                                    ///< single loops
+    std::vector<Way> ways_;                         ///< the motion of all walls, then motions for single
+                                                    ///< loops
     std::unordered_map<Index, std::size_t> at_rim_; ///< by rim point of a loop with its own motion: the index
                                                     ///< of that motion in `ways_`
     std::vector<double> heights_;

@@ -29,7 +29,8 @@ using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 /// of a cone. A cut is undone if none of the resulting pieces has ends or is divided.
 ///
 /// If a piece is left without ends, the whole volume is tried in four other ways, in this order:
-/// - as one piece with ends along an axis, the rounds at their rims divided (`split_round_rims()`);
+/// - as one piece with ends along an axis, after the rounds at the rims of these ends were divided
+///   (`split_round_rims()`);
 /// - cut in steps between all faces that face along an axis (`cut_steps()`);
 /// - divided at its middle (`midpoint_blocks()`);
 /// - divided at a centre, if no cut was made and no length is left to cut.
