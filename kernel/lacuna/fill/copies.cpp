@@ -80,8 +80,8 @@ OfPart owner(std::span<const mesh::NodeNumbers> numbering, Index node)
 /// The skins of all parts together.
 struct Skin {
     std::vector<OfPart> nodes, sides;
-    std::vector<Vec3> places;  ///< of the nodes
-    std::vector<Quad> corners; ///< of the sides
+    std::vector<Vec3> places;  ///< places of `nodes`
+    std::vector<Quad> corners; ///< corners of `sides`, as indices in `nodes`
     std::vector<Triangle> facets;
 
     explicit Skin(const FilledParts& mesh)
@@ -109,7 +109,7 @@ struct Skin {
 
 /// The nodes and skin sides that a mesh shares with a copy of it.
 struct InCommon {
-    std::vector<std::pair<OfPart, OfPart>> nodes; ///< of the copy, and of the mesh
+    std::vector<std::pair<OfPart, OfPart>> nodes; ///< pairs of a node of the copy and a node of the mesh
     std::vector<OfPart> of_copy, of_mesh;         ///< sides of the skins
 };
 
@@ -127,7 +127,7 @@ std::vector<sweep::NearMiss> check_volumes(const FilledParts& mesh, const Filled
         for (FilledParts& one : pair) one.swept.parts[p].mesh.volume_groups = {"volume"};
     }
     RunContext quiet = context;
-    quiet.log = nullptr; // it would report faces that are shared in part as near misses
+    quiet.log = nullptr; // the sweep would report faces that are shared in part as near misses
     const std::array<Member, 2> members{Member{nullptr, nullptr, &pair[0]}, {nullptr, nullptr, &pair[1]}};
     return std::get<FilledParts>(sweep(members, quiet).mesh).swept.near_misses;
 }

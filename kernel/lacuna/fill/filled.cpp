@@ -247,8 +247,7 @@ Vec3 node(const FilledParts& mesh, std::size_t node)
     }
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p) {
         const mesh::NodeNumbers& number = mesh.swept.numbering[p];
-        const std::size_t fresh = node - index(number.first()); // index among the nodes that this part
-                                                                // numbers first
+        const std::size_t fresh = node - index(number.first()); // index among the nodes numbered first here
         if (fresh < number.fresh())
             return mesh.swept.parts[p].skin()[static_cast<Index>(number.fresh_node(fresh))];
     }

@@ -26,8 +26,8 @@ struct FilledVolume {
     sweep::Swept swept;
     std::string material; ///< material of the volume
     std::string unit{};   ///< as `Volume::unit`
-    bool copied = false;  ///< made by moved(): in an assembly, rounding may move its nodes onto those of
-                          ///< other members
+    bool copied = false;  ///< made by moved(): in an assembly, its nodes are moved onto nodes of other
+                          ///< members from which they differ by rounding only
     std::vector<io::ColumnSet> columns{}; ///< made from node sets on the source of a path
 };
 
@@ -126,8 +126,7 @@ struct WholeCells {
     std::vector<Vec3> nodes;
     /// Corners; for wedges see `mesh::is_wedge()`, for pyramids and tetrahedra `mesh::has_apex()`.
     std::vector<Hex> hexes;
-    std::vector<mesh::CellNodes> curved; ///< at order 2: all nodes of each cell, as `mesh::merged_nodes()`
-                                         ///< returns them
+    std::vector<mesh::CellNodes> curved; ///< at order 2: all nodes of each cell, see `mesh::merged_nodes()`
     std::vector<Index> column;           ///< column that each cell belongs to, numbered over all parts
 };
 WholeCells whole_cells(const FilledParts& mesh);
@@ -162,8 +161,8 @@ struct InterfaceFaces {
     /// least 1, and less than the number of layers.
     std::vector<int> levels{};
     std::string region = "interface";
-    /// Abaqus name of the cells: COH3D8 or GK3D8, or a kind of these. "NONE": nodes are duplicated, and there
-    /// are no cells.
+    /// Abaqus name of the cells: COH3D8 or GK3D8, or a variant of one of them. "NONE": nodes are duplicated,
+    /// and there are no cells.
     std::string element = "COH3D8";
 };
 

@@ -21,8 +21,7 @@ struct PartSkin {
     std::string region;
     const std::vector<mesh::SkinPatch>* patches = nullptr;
     std::vector<Index>* number = nullptr; ///< by node of the part: its number in the whole mesh
-    std::vector<mesh::CellNodes> sides{}; ///< sides of the skin, in the part's own node numbers, seen from
-                                          ///< outside
+    std::vector<mesh::CellNodes> sides{}; ///< sides of the skin in the part's own numbers, seen from outside
     std::vector<Index> patch{};           ///< by side: its patch
 };
 
@@ -149,8 +148,7 @@ private:
     /// Parts that stay connected at a node of a split face get a node of their own there.
     void number_nodes()
     {
-        std::map<Index, std::vector<const SharedSide*>> at; // by node of a split face: the shared sides round
-                                                            // it
+        std::map<Index, std::vector<const SharedSide*>> at; // by node of a split face: shared sides there
         for (const SharedSide& side : shared_)
             if (side.is_split)
                 for (const Index n : side.nodes_a) at[n];

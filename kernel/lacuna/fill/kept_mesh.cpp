@@ -40,14 +40,13 @@ std::unique_ptr<KeptMesh> keep(const sweep::Swept& swept, const std::string& nam
     return kept;
 }
 
-/// Move nodes of copies that differ from other nodes by rounding only onto these nodes.
+/// Move each node of a copy onto the node from which it differs by rounding only, if there is one.
 void settle(std::span<KeptMesh* const> meshes, const RunContext& context)
 {
     if (std::ranges::none_of(meshes, &KeptMesh::copied)) return;
     std::vector<Vec3> points;
     std::vector<std::pair<KeptMesh*, Index>> nodes;
-    for (const bool copied : {false, true}) { // nodes of meshes that are no copies come first; they stay in
-                                              // place
+    for (const bool copied : {false, true}) { // nodes that stay in place come first
         for (KeptMesh* const kept : meshes) {
             const mesh::HexMesh& mesh = kept->swept.mesh;
             if (kept->copied != copied) continue;

@@ -54,7 +54,7 @@ void for_each_names(Options& options, const Do& give)
         if (interval.of == surface::Interval::Of::wall) give("intervals", interval.walls);
 }
 
-/// Options for several volumes may name faces that only one of them has. Drop the faces that this volume does
+/// Options for several volumes may name faces that only one of them has. Drop the faces that the member does
 /// not have.
 void keep_known_faces(sweep::AssemblyMember& member)
 {
@@ -363,7 +363,7 @@ void choose_sweeps(Prepared& ready, const RunContext& context)
     }
 }
 
-/// Fill the volumes that are not swept with tetrahedra, one after the other, each beside the meshes made
+/// Fill with tetrahedra the volumes that are not swept, one after the other, each beside the meshes made
 /// before it.
 void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunContext& context)
 {

@@ -151,8 +151,7 @@ Filled turn_at_axis(const Volume& volume, const SweepRequest& request, const Run
                      {},
                      {}};
     const std::string name = volume.name.empty() ? "volume" : volume.name;
-    for (const sweep::Swept& part : mesh.swept.parts) // a part without hexahedra consists of the wedges along
-                                                      // the axis
+    for (const sweep::Swept& part : mesh.swept.parts) // without hexahedra: the wedges along the axis
         mesh.regions.push_back(part.mesh.hex_count() > 0 ? name : name + "_axis");
     mesh.materials.assign(mesh.swept.parts.size(), volume.material);
     Filled filled{{}, std::move(mesh)};

@@ -34,8 +34,7 @@ struct Volume {
     /// only a fallback can mesh it.
     std::optional<Message> no_roles;
     std::shared_ptr<const closure::SweptSource> along; ///< for class 0: its source and the motion; else null
-    bool roles_found = false;                          ///< whether all roles were found, so that the user
-                                                       ///< named none
+    bool roles_found = false;                          ///< all roles were found; the user named none
     bool take_guess = false;                           ///< whether an ambiguous closing is accepted
     bool told = false;                                 ///< whether the notes of the closure were logged
     /// For a piece cut at steps: pieces of level 0 run from source to target; the others take the remaining
@@ -55,8 +54,7 @@ struct Volume {
 struct RoleRequest {
     std::optional<topology::Roles> roles;
     bool find_walls = false;                  ///< find the walls from the rim of the one named end
-    std::optional<std::vector<FaceId>> faces; ///< faces to use without `roles`; not set: all faces of the
-                                              ///< model
+    std::optional<std::vector<FaceId>> faces; ///< without `roles`: the faces to use; not set: all faces
     int reading = 0; ///< number of a found reading, from 1; with `roles`, 1 accepts ambiguous geometry
     std::optional<topology::VolumeClass> override_class;
     bool full_turn = false;                 ///< the volume makes a full turn: all faces are walls

@@ -22,8 +22,8 @@ std::map<EdgeId, std::vector<std::string>> edge_sets(topology::Model& model,
                                                      std::span<const std::shared_ptr<const io::Deck>> decks,
                                                      double scale);
 
-/// The node sets of a volume's decks that hold nodes of its source, if the volume is swept from a source
-/// alone; each set contains the columns of nodes over them. Otherwise empty.
+/// If a volume is swept from a source alone: the node sets of its decks that hold nodes of the source. Each
+/// becomes a set of the columns of mesh nodes that stand on these nodes. Otherwise empty.
 std::vector<io::ColumnSet> column_sets(const Volume& volume, const sweep::Swept& swept);
 
 } // namespace lacuna::fill

@@ -31,8 +31,8 @@ auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 /// Make the options keep the middle nodes that the decks of a volume contain.
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options);
 
-/// The volume with the rounds divided at which its walls meet an end smoothly, see
-/// `closure::split_round_rims()`. Unchanged if it has no such rounds, or if the user matched or closed it.
+/// The volume, with the rounds divided at which its walls meet an end smoothly (see
+/// `closure::split_round_rims()`). Unchanged if it has no such rounds, or if the user matched or closed it.
 Volume with_rims_divided(const Volume& volume, const RunContext& context);
 
 /// Close a volume and check that it has a source and a target.

@@ -16,7 +16,7 @@ namespace lacuna::fill {
 /// The result of adding middle nodes to pyramids and tetrahedra.
 struct ElevatedTets {
     quality::Quality quality; ///< of the cells of order 2
-    std::string report;       ///< a line
+    std::string report;       ///< one line of the report
 };
 
 /// Add middle nodes to pyramids and tetrahedra of order 1, which makes them cells of order 2.
