@@ -68,8 +68,8 @@ void check_size(const Vec3& low, const Vec3& high, double diagonal)
                            .remedy("load with another scale"));
 }
 
-/// Weld the points that facets use and add them to `facets`, in the order of the soup. @return for each point
-/// of the soup, its number there; -1: not used
+/// Weld the points that facets use and add them to `facets`, in the order of the soup.
+/// @return  for each point of the soup, its number there; -1: not used
 std::vector<Index> weld_used(const FacetSoup& soup, double tolerance, Facets& facets,
                              const RunContext& context)
 {
@@ -238,9 +238,9 @@ bool has_three_places(const std::vector<Vec3>& points, std::span<const Index> co
     return places >= 3;
 }
 
-/// Refuse facets of which none are left, or fewer than collapsed with the default tolerance. That tolerance
-/// depends on the extent of all points, so one stray point, or two distant parts, can make it larger than the
-/// facets.
+/// Refuse facets if none is left after welding or, with the default tolerance, if more collapsed than are
+/// left. The default tolerance depends on the extent of all points, so one stray point, or two distant parts,
+/// can make it larger than the facets.
 /// @param given  the user's tolerance; 0: none was given.
 void check_left(const FacetSoup& soup, const Facets& facets, double given)
 {

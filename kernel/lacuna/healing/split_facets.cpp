@@ -99,7 +99,7 @@ Flood flood_noisy(const Facets& facets, const FacetSides& sides, double feature,
     }
     if (dust.empty()) return flood;
     borrow_normals(facets, sides, dust, normal, context);
-    for (const Index f : dust) // a part of such regions only: its facets get their own normals back
+    for (const Index f : dust) // facets with no larger face beside them get their own normals back
         if (normal[index(f)].isZero(0)) normal[index(f)] = before[index(f)];
     return flood_faces(facets, sides, normal, feature, context);
 }

@@ -14,8 +14,7 @@ struct SplitOptions {
     double feature_angle = 40; ///< faces end where facets turn by more than this [degrees]
     double tolerance = 0;      ///< points closer than this are merged [model length]; 0: 1e-6 × the diagonal
     bool whole_labels =
-        false; ///< each label becomes one face, whatever its angles; `feature_angle` then only places
-               ///< vertices
+        false; ///< each label becomes one face at any angle; only vertices depend on `feature_angle`
     bool keep_noise = false; ///< leave the points of noisy facets where they are
 };
 

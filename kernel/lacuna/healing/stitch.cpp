@@ -317,7 +317,7 @@ void Stitcher::place_stops(EdgeId e, std::vector<Stop>& stops)
 }
 
 /// Choose a new start for each closed polyline whose own vertex is arbitrary: a vertex that was found on it.
-/// @return by edge: its new start
+/// @return  by edge: its new start
 std::map<EdgeId, VertexId> Stitcher::begin_elsewhere(std::map<EdgeId, std::vector<Stop>>& stops)
 {
     std::vector<int> edges_at(model().vertices.size(), 0);
@@ -489,8 +489,9 @@ void Stitcher::sew_by_vertices(std::vector<Bundle>& bundles)
     std::erase_if(bundles, [&](const Bundle& bundle) { return bundle.first == b; });
 }
 
-/// Merge an edge into a bundle, if it stays close to the bundle's first edge. @return whether it was merged
+/// Merge an edge into a bundle, if it stays close to the bundle's first edge.
 /// @param tolerance  largest distance between edges that merge.
+/// @return  whether the edge was merged
 bool Stitcher::try_add(Bundle& bundle, EdgeId e, double tolerance)
 {
     const topology::Edge& first = model()[bundle.first];
