@@ -197,8 +197,8 @@ private:
                                 source_loop(s)});
     }
 
-    /// Lower the confidence to that of the best alignment against the next different one. One hard pair fixes
-    /// the whole loop.
+    /// Lower the confidence if the next different alignment of a loop fits nearly as well as the best. A loop
+    /// with a hard pair has only one alignment.
     void rate(std::size_t s, const std::vector<Alignment>& found)
     {
         const std::size_t t = target(s);

@@ -56,15 +56,15 @@ struct Match {
 
 /// Match the rims of source and target.
 ///
-/// Algorithm: the paper's Algorithm 1. `aligned` (default): hard pairs from the walls, loops by assignment,
-/// vertices by the best rigid fit over all cyclic shifts and both directions. `nearest`: the paper's own
-/// vertex distances.
+/// Algorithm: the paper's Algorithm 1. Method `aligned` (default) keeps the vertex pairs that walls join,
+/// pairs the loops by an assignment, and pairs the other vertices by the best rigid fit over all cyclic
+/// shifts and both directions. Method `nearest` uses the paper's own vertex distances.
 ///
-/// `aligned` pairs vertices by arc length, pair_by_arc(), where a vertex-to-vertex pairing is not reliable:
-/// loops with different numbers of vertices, loops with one vertex, loops without corners whose vertices
-/// would twist the void edges by more than 1/32 of the loop, and loops where a corner would be paired with a
-/// smooth vertex. Corners always get a partner, if necessary by splitting an edge of the other loop; a vertex
-/// on a smooth run may stay without one.
+/// `aligned` pairs vertices by arc length, pair_by_arc(), where a vertex-to-vertex pairing is not reliable.
+/// This concerns loops with different numbers of vertices, loops with one vertex, loops without corners whose
+/// vertices would twist the void edges by more than 1/32 of the loop, and loops where a corner would be
+/// paired with a smooth vertex. Corners always get a partner, if necessary by splitting an edge of the other
+/// loop; a vertex on a smooth run may stay without one.
 /// @throw InvalidInput   a pair or loop fixed by the user that contradicts the faces.
 /// @throw NotClosed      different numbers of loops; fixed parts that contradict each other; names them.
 /// @throw Cancelled

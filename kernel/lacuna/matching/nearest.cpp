@@ -28,8 +28,7 @@ struct Ends {
     std::vector<VertexId> vertex;
     std::vector<Vec3> at;
     std::vector<std::size_t> loop;  ///< by vertex: its loop
-    std::vector<std::size_t> first; ///< index of the first vertex of each loop, then the number of all
-                                    ///< vertices
+    std::vector<std::size_t> first; ///< index of each loop's first vertex, then the number of vertices
     std::vector<Vec3> area;         ///< area vector of each loop
 
     [[nodiscard]] std::size_t count(std::size_t l) const { return first[l + 1] - first[l]; }

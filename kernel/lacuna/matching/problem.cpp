@@ -25,7 +25,7 @@ public:
         for (std::size_t l = 0; l < loops.size(); ++l)
             for (const VertexId vertex : loops[l].vertices) loop_.try_emplace(vertex, static_cast<int>(l));
     }
-    /// @return  -1: none
+    /// @return  index of the loop; -1: none
     [[nodiscard]] int operator()(VertexId vertex) const
     {
         const auto loop = loop_.find(vertex);

@@ -334,7 +334,7 @@ std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& con
     std::set<VertexId> taken;
     for (const VertexId start : rim_vertices(volume, Role::source)) {
         check_cancelled(context);
-        if (targets.contains(start)) // for example after the rims of steps were divided
+        if (targets.contains(start)) // possible, for example, after the rims of steps were divided
             throw InvalidInput(Message("topology.ends_touch",
                                        "source and target meet in {}; the ends of a sweep must not touch",
                                        entity_of(model, start))

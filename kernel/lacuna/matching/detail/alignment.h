@@ -9,8 +9,8 @@
 
 namespace lacuna::matching {
 
-/// Largest mean twist of void edges, as a share of the loop. The waist of a round wall ruled with this twist
-/// is narrower by 1 − cos(π/32), half a percent.
+/// Largest mean twist of void edges, as a share of the loop's length. The waist of a round wall ruled with
+/// this twist is narrower by 1 − cos(π/32), half a percent.
 inline constexpr double kMostTwist = 1.0 / 32;
 
 /// A cyclic shift and direction that place a source loop on a target loop.

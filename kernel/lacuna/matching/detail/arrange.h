@@ -11,7 +11,7 @@ namespace lacuna::matching {
 
 /// An assignment of source loops to target loops that follows from the alignment of one of them, the anchor.
 struct Arrangement {
-    std::vector<int> target; ///< by source loop
+    std::vector<int> target; ///< by source loop: its target loop
     int anchor = 0;
     Alignment alignment;           ///< of the anchor; its score includes the misfit of the other loops
     std::optional<Alignment> next; ///< the second best alignment with the same pairs

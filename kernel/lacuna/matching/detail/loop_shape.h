@@ -21,7 +21,7 @@ inline constexpr std::size_t kNearLoops = 8;
 struct LoopShape {
     std::vector<VertexId> vertices;
     std::vector<Vec3> points;       ///< polyline, closed: first repeated at the end
-    std::vector<double> arc;        ///< running length of `points`; after count_by_sides() in sides
+    std::vector<double> arc;        ///< running length of `points`, measured in sides after count_by_sides()
     std::vector<double> vertex_arc; ///< running length at each vertex
     std::vector<bool> corner;       ///< by vertex: the loop turns there
     std::vector<std::size_t> sides; ///< by vertex: number of given sides on the edge after it; 0: none given

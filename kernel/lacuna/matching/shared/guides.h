@@ -20,8 +20,7 @@ struct Sections {
     std::vector<double> heights; ///< over the whole model, from `wall_heights()`
     std::vector<Vec3> areas;     ///< area vector of each level's lines, pointing up the walls
     std::vector<std::vector<Vec3>>
-        levels; ///< by level, from the source rim to the target rim; points with the same index in two levels
-                ///< correspond
+        levels;          ///< by level, from source to target rim; points with the same index correspond
     bool closed = false; ///< whether a wall part is a closed ring; open wall parts are then ignored
     /// Sections of the loops whose open walls reach far enough round to extrapolate the rest of the loop.
     std::vector<LoopSections> loops;
