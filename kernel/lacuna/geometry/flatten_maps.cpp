@@ -268,8 +268,8 @@ double step_to_flip(const Facets& facets, const Positions& from, const Positions
     for (const Triangle& c : facets.triangles) {
         const Vec2 a = from[index(c[1])] - from[index(c[0])], b = from[index(c[2])] - from[index(c[0])];
         const Vec2 da = step[index(c[1])] - step[index(c[0])], db = step[index(c[2])] - step[index(c[0])];
-        // Area along the step: k0 + k1 s + k2 s², k0 > 0. Smallest positive root,
-        // computed without cancellation.
+        // Area along the step: k0 + k1 s + k2 s², with k0 > 0. The smallest positive root is computed without
+        // cancellation.
         const double k0 = cross(a, b), k1 = cross(a, db) + cross(da, b), k2 = cross(da, db);
         const double inside = k1 * k1 - 4 * k2 * k0;
         if (inside < 0) continue;

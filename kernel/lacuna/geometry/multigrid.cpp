@@ -44,7 +44,7 @@ std::vector<Index> aggregates(const Matrix& matrix, Index& count)
     };
     std::vector<Index> of(index(static_cast<Index>(rows)), -1);
     count = 0;
-    // First, each row whose neighbours are all in no aggregate forms an aggregate with them.
+    // First, each row forms an aggregate with its neighbours if none of these is in an aggregate.
     for (Eigen::Index row = 0; row < rows; ++row) {
         bool bare = true, any = false;
         if (of[std::size_t(row)] >= 0) continue;

@@ -33,7 +33,7 @@ Vec3 newell_vector(std::span<const Vec3> closed_loop)
 {
     Vec3 sum = Vec3::Zero();
     if (closed_loop.size() < 3) return sum;
-    // Relative to one of its points, to keep precision for a small loop far from the origin.
+    // Compute relative to one of its points, to keep precision for a small loop far from the origin.
     const Vec3 origin = closed_loop.front();
     for (std::size_t i = 1; i + 1 < closed_loop.size(); ++i)
         sum += (closed_loop[i] - origin).cross(closed_loop[i + 1] - origin);

@@ -77,7 +77,7 @@ public:
 private:
     /// Two of the barycentric weights of a triangle, as linear functions of the point.
     struct Weights {
-        Vec2 corner, first, second; ///< the two weights are these times (point - corner)
+        Vec2 corner, first, second; ///< `first` and `second` times (point - corner) are the two weights
     };
     [[nodiscard]] FacetPosition in_bins(const Vec2& place) const;
 

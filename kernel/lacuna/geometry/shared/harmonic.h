@@ -37,10 +37,10 @@ struct HarmonicProblem {
         }
     }
 
-    /// For values that are known up to a period only, such as the angle around a cylinder. For each triangle
-    /// corner: the number of periods to add to the value of its point to get its value on the branch of the
-    /// triangle. The corners of a triangle across the cut have different numbers; all other triangles may
-    /// have 0. Empty: all are 0.
+    /// Used for values that are known only up to a period, such as the angle around a cylinder. For each
+    /// triangle corner: the number of periods to add to the value of its point to get its value on the branch
+    /// of the triangle. The corners of a triangle across the cut have different numbers; all other triangles
+    /// may have 0. Empty: all are 0.
     std::vector<std::array<int, 3>> corner_turns;
     Eigen::RowVectorXd period; ///< k numbers; only used with corner_turns
 

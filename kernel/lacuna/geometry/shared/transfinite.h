@@ -65,7 +65,7 @@ private:
 /// @return (m + 1) × (n + 1) points, row by row from the bottom: node (i, j) at j * (n + 1) + i.
 /// @post   the points of the sides are returned bit for bit; straight sides with equal spacing give the
 ///         bilinear grid (affine for a parallelogram) up to rounding.
-/// @throw InvalidInput "geometry.transfinite_sides" opposite sides have different numbers of points, a side
+/// @throw InvalidInput "geometry.transfinite_sides"  opposite sides have different numbers of points, a side
 ///         has fewer than two points, or neighbouring sides do not share their corner.
 std::vector<Vec3> transfinite(std::span<const Vec3> bottom, std::span<const Vec3> right,
                               std::span<const Vec3> top, std::span<const Vec3> left,

@@ -33,7 +33,7 @@ public:
     }
     [[nodiscard]] std::size_t find(Index i) { return find(index(i)); }
 
-    /// Merge the set of `b` into that of `a`, whose root is kept. @return false if both are in one set
+    /// Merge the set of `b` into that of `a`, whose root is kept. @return  false if both are in one set
     /// already.
     bool unite(std::size_t a, std::size_t b)
     {
