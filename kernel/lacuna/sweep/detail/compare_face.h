@@ -43,8 +43,8 @@ struct DeviationLimit {
     double share = 0;  ///< allowed distance as a share of the side of a quad
     double at_tip = 0; ///< `share` within two sides of a tip, where at most four quads meet
     double least = 0;  ///< lower bound of the allowed distance, for short sides [model length]
-    /// Whether inverted quads are reported as folds. False for sharply twisted void walls next to which
-    /// neither skin is given: the facet nearest to a quad may then have any orientation.
+    /// Whether inverted quads are reported as folds. False for void faces: if such a face is sharply twisted,
+    /// the facet nearest to a quad may have any orientation.
     bool folds = true;
 };
 

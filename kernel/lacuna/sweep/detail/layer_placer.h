@@ -14,8 +14,8 @@
 
 namespace lacuna::sweep {
 
-/// `place_layers()` for a few layers at a time: the fits and the factorisation are done once, then any layer
-/// can be placed separately. The source, the target and the columns must outlive it.
+/// `place_layers()` in steps: the constructor computes the fits and the factorisation once, and `place()`
+/// then places any layers. The source, the target and the columns must outlive this object.
 class LayerPlacer {
 public:
     /// @param room  memory for all layers. A second thread clears its pages during the factorisation, which

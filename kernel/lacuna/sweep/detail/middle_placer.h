@@ -12,8 +12,8 @@
 namespace lacuna::sweep {
 
 /// Places the middle nodes of a mesh from the middle nodes of its skin, a few layers at a time. Corner nodes
-/// may be stored or generated. The bends of the walls are computed once; then any layer can be placed
-/// separately.
+/// may be stored or generated. The constructor computes the bends of the walls once, so that any layer can
+/// then be placed separately.
 class MiddlePlacer {
 public:
     /// @param corners  corner nodes of a mesh whose sides are numbered; must outlive this object.

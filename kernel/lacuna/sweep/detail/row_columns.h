@@ -76,7 +76,8 @@ std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal
 /// The point at a position.
 Vec3 point_at(const std::vector<Vec3>& line, double place);
 
-/// The point of a chain closest to `p`: first on the chain's polyline, then by iteration on its exact curve.
+/// The point of a chain closest to `p`. It is found on the chain's polyline and then improved by iteration on
+/// the exact curve.
 Vec3 nearest_on(const topology::Model& model, const surface::Chain& chain, const Vec3& p);
 
 /// New positions of the inner nodes of a line, by index. Given nodes have the given positions; the others
