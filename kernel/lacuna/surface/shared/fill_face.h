@@ -32,7 +32,7 @@ struct FaceQuads {
 /// Fill a face with quads inside given boundary nodes.
 ///
 /// A planar face is filled in its plane. Any other face is flattened, with rim nodes, using facets that are
-/// fine enough for the size (`fine_facets()`). The size is corrected for the local stretch of the flattening,
+/// fine enough for the size (`fine_facets()`). The size is corrected for the distortion by the flattening,
 /// and the flat image is filled. New nodes are mapped back through their facets to the exact surface.
 /// @param rim    nodes of the boundary, kept in this order.
 /// @param loops  cycles of indices in `rim`, with the face on the left.
