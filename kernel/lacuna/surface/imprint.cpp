@@ -128,8 +128,8 @@ private:
         }
     }
 
-    /// Pair closed edges that enclose about the same region. Then map both ends again with the pairs
-    /// coincident.
+    /// Pair closed edges that enclose about the same region. Then map both ends again so that each
+    /// pair coincides.
     void pair_closed()
     {
         const std::vector<EdgeId> low = inner_edges(base_, Role::source);

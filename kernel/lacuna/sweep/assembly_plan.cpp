@@ -228,7 +228,7 @@ private:
         corners_ = std::move(places);
     }
 
-    /// Move the nodes of an edge onto the edge that represents it and its images.
+    /// Move the nodes of a periodic edge onto the edge that represents all its images.
     [[nodiscard]] std::vector<Vec3> at_home(std::vector<Vec3> nodes, std::size_t e) const
     {
         if (!tied_.contains(same_.find(e))) return nodes;
@@ -1053,7 +1053,7 @@ private:
     /// For each set of same edges: the edge with a requested bias, and that bias in the direction of this
     /// edge.
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
-    /// Sets of same edges that are part of a side line of several edges in some member.
+    /// Sets of same edges that, in some member, form only a part of a side line.
     std::set<std::size_t> stacked_;
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class

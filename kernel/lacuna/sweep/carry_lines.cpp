@@ -113,8 +113,8 @@ private:
         return geometry::arc_lengths(surface::edge_line(to_, edge));
     }
 
-    /// Insert a point on the rim of the whole face: after the point before it, and before the next point of
-    /// the walk that this rim already has.
+    /// Insert point i of the walk on the rim of the whole face. The point splits the edge from the previous
+    /// point of the walk to the next one that the rim already has.
     void insert(const std::vector<Index>& walk, std::size_t i)
     {
         const Index before = place_.at(walk[i - 1]);

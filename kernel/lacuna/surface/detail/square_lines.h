@@ -15,12 +15,14 @@ namespace lacuna::surface {
 /// meet the edges at angles as close to 90° as nearly even spacing allows.
 ///
 /// Example: if nodes are evenly spaced on both long sides of a flat half ring, the lines between opposite
-/// nodes are oblique where the ring bends most. A Gauss-Newton method minimizes Σ (u(k+1) − u(k) − 1)² + Σ
-/// cos² where the u are node positions in units of the original sides. The first sum runs over the sides of
-/// all edges. The second sum runs over the angles between line and edge at both ends of each line. If both
-/// ends of a line lie on rims and lines are straight, the second sum is the mean over five sections of the
-/// volume, because a shift on the source shears the mesh above it. These sections are found by meshing the
-/// walls with few layers.
+/// nodes are oblique where the ring bends most. A Gauss-Newton method minimizes
+///   Σ (u(k+1) − u(k) − 1)² + Σ cos²
+/// where the u are node positions in units of the original sides. The first sum runs over the sides of all
+/// edges. The second sum runs over the angles between line and edge at both ends of each line.
+///
+/// If a line is straight and both its ends lie on rims, its cosines are means over five sections of the
+/// volume, because a shift on the source shears the mesh above it. To find these sections, the function
+/// meshes the walls with few layers.
 ///
 /// Where a side would become too long or too short, evenness gets a higher weight. Nodes then move back
 /// towards square lines as far as the allowed lengths permit. The sides at both ends of an edge count twice,

@@ -51,8 +51,9 @@ private:
     std::vector<Vec3> first_, last_;
     std::vector<double> share_;
     bool columns_bend_ = false;
-    std::optional<HarmonicSpread> spread_; ///< spreads the bends of the walls minus the columns' cubics
-    std::vector<Vec3> beyond_;             ///< for each layer: these bends at the rim nodes
+    std::optional<HarmonicSpread> spread_; ///< spreads `beyond_` over the inside
+    /// For each layer, at the rim nodes: the bends of the walls that are not represented by cubics.
+    std::vector<Vec3> beyond_;
 };
 
 } // namespace lacuna::sweep
