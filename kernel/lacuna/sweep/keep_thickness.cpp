@@ -22,8 +22,7 @@ using namespace topology;
 namespace {
 
 /// Maximum number of rounds of moves. Each round corrects errors that the previous round left where cells
-/// bend. In tests with tapered, twisted and
-/// bulging walls, no more were needed.
+/// bend. In tests with tapered, twisted and bulging walls, no more were needed.
 constexpr int kMostCorrections = 8;
 /// A row has converged if its relative thickness error is below this: a tenth of the tolerance.
 constexpr double kMet = kThicknessOff / 10;
