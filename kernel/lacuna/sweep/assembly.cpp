@@ -164,9 +164,9 @@ void check_alike(std::span<const AssemblyMember> members)
         if (own.order != first.order || own.second_order.serendipity != first.second_order.serendipity)
             throw InvalidInput(
                 Message("assembly.order",
-                        "{} and {} become one mesh, which needs the same order and 'serendipity' everywhere",
+                        "{} and {} are parts of one mesh and must have the same 'order' and 'serendipity'",
                         members.front().region, members[m].region)
-                    .remedy("give both the same"));
+                    .remedy("give both volumes the same values"));
         for (std::size_t n = 0; n < m; ++n)
             if (members[m].region == members[n].region)
                 throw InvalidInput(Message("assembly.same_name",

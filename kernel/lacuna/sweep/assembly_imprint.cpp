@@ -318,22 +318,21 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
             Message(kPartOfFace,
                     "{} of {} and {} of {}: {} {}, and cannot be split along the rim of the other", a.whole,
                     a.region, b.whole, b.region, entity_of(side->model(), side->face),
-                    side->fixed ? "is a face of a mesh that stays as it is"
-                                : "came with quads, which stay as they are")
+                    side->fixed ? "belongs to a mesh that must not change" : "keeps its given quads")
                 .remedy("{}", side->fixed
                                   ? "use the unmeshed volume instead, or split the face before the volume "
                                     "is meshed"
-                                  : "mesh the two faces alike, or, of a mesh from a file, load it with "
+                                  : "mesh both faces alike, or load meshes from files with "
                                     "keep_mesh = false"));
     }
     Parts parts{split_along(a, onto_a, within, context), split_along(b, onto_b, within, context)};
     if (parts.a.empty() || parts.b.empty())
         throw InvalidInput(
             Message(kPartOfFace,
-                    "{} of {} and {} of {}: the rim of one cannot be laid onto the facets of the "
-                    "other",
+                    "{} of {} and {} of {}: the rim of one face cannot be projected onto the facets "
+                    "of the other",
                     a.whole, a.region, b.whole, b.region)
-                .remedy("split the larger face along it where the faces were made"));
+                .remedy("split the larger face along the rim of the smaller one in the CAD system"));
     return parts;
 }
 
@@ -406,7 +405,7 @@ FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const Assembl
         }
         parts(faces.a, faces.face_a) = all_a;
         imprint.report.push_back(
-            formatted("imprinted: {} of {} and {} of {} share a part, which is a face of both now", face_a,
+            formatted("imprinted: {} of {} and {} of {} share a part, which is now a face of both", face_a,
                       a.region, face_b, b.region));
     }
     for (std::size_t m = 0; m < volumes.size(); ++m) {

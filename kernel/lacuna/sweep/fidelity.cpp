@@ -207,16 +207,17 @@ std::optional<Message> misfit(const Fidelity& fidelity, int layers, const Fideli
             "faces up to {:.2g}{}, may be left out. The sides of quads there are {:.2g} long",
             worst->entity, found(worst->found), place, needed(worst->allowed), limit, worst->side);
     if (worst->misfit == Misfit::folded)
-        return Message(code, "the skin of the mesh folds over on {}: a quad at {} faces into the volume",
+        return Message(code,
+                       "the skin of the mesh folds on {}: the normal of a quad at {} points into the volume",
                        worst->entity, place);
     if (worst->misfit == Misfit::straight)
         return with_finer_sides(
-            Message(code, "{}: the skin of the mesh is {:.2g} off it at {}, more than {:.2g}{}",
+            Message(code, "{}: the skin of the mesh is {:.2g} away from this face at {}, more than {:.2g}{}",
                     worst->entity, found(worst->found), place, needed(worst->allowed), limit),
             *worst, layers, options);
     return Message(code,
-                   "{}: the skin of the mesh is {:.2g} off it at {}, more than {:.2g}{}. The quads there run "
-                   "across an edge of the face; the sides of the largest are {:.2g} long",
+                   "{}: the skin of the mesh is {:.2g} away from this face at {}, more than {:.2g}{}. The "
+                   "quads there run across an edge of the face; the sides of the largest are {:.2g} long",
                    worst->entity, found(worst->found), place, needed(worst->allowed), limit, worst->side);
 }
 

@@ -74,8 +74,8 @@ Message in_words(const std::string& code, const StuckCorner& stuck, const mesh::
     }
     return Message(
                code,
-               "at {}, {} lie in one line, and the cell that has both at one corner has no volume wherever "
-               "its other nodes are",
+               "at {}, {} lie in one line: a cell with both at one corner has no volume, whatever its other "
+               "nodes are",
                corner, sides)
         .remedy("name other faces as source and target, or cut the volume there");
 }

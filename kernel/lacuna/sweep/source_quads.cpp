@@ -165,7 +165,7 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
     } else {
         size.by_default = surface::default_size(volume);
         const double part = links.plan.part;
-        if (part < 1) size.by_default->why += formatted(", of that {:.2g} for the bends of the ends", part);
+        if (part < 1) size.by_default->why += formatted(", times {:.2g} because the ends bend", part);
         size.asked = surface::even_size(size.by_default->length *= part);
     }
     const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;

@@ -319,7 +319,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     Morphed morphed;
     if (keeps_target) {
         morphed.nodes = std::move(given_target.nodes);
-        morphed.report = "its own quads are laid out as the source's and stay";
+        morphed.report = "its given quads are connected like the source's and are kept";
     } else if (moved) {
         morphed = moved_by(*motion, source, columns);
     } else {
