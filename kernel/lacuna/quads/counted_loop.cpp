@@ -128,7 +128,8 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
 
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range)
 {
-    std::vector<int> runs(task.segments.size(), 0), sides(task.segments.size(), 0); // of each segment
+    // Numbers of runs and of sides of each segment.
+    std::vector<int> runs(task.segments.size(), 0), sides(task.segments.size(), 0);
     for (const CountedRun& run : loop.runs) {
         ++runs[run.segment];
         sides[run.segment] += run.count;

@@ -110,7 +110,7 @@ private:
     Vec2 low_;
     double cell_ = 1;
     int nx_ = 0, ny_ = 0;
-    std::vector<double> most_, least_; ///< for each cell
+    std::vector<double> most_, least_; ///< bounds of the size in each cell
 };
 
 } // namespace

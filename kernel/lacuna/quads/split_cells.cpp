@@ -147,7 +147,7 @@ private:
     /// For each cell: the odd cell from which it was reached, and the cell before it on this path.
     std::vector<Index> root_, from_;
     std::vector<int> steps_;
-    std::vector<char> whole_; ///< for each side
+    std::vector<char> whole_; ///< for each side, whether it stays whole
 };
 
 class Splitter {

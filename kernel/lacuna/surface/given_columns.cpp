@@ -105,7 +105,7 @@ private:
         std::vector<FaceId> faces;
         FaceId wall;
     };
-    using Ring = std::map<std::size_t, Column>; ///< by number of the rim's node
+    using Ring = std::map<std::size_t, Column>; ///< columns by the index of their rim node
 
     void find_sides()
     {

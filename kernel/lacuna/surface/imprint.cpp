@@ -518,9 +518,9 @@ private:
     std::vector<ClosedPair> closed_;
     FlatEnds flat_;
     std::vector<FlatPiece> pieces_;   ///< pieces that exist only on the target
-    std::vector<Vec2> place_;         ///< for each model point
+    std::vector<Vec2> place_;         ///< plane position of each model point
     std::vector<Border> borders_;     ///< pieces of the source, of the target and of the rim
-    std::vector<PlaneChain> chains_;  ///< for each border
+    std::vector<PlaneChain> chains_;  ///< chain of each border
     std::map<EdgeId, FaceId> new_on_; ///< for each new edge, the source face that it lies on
     std::map<FaceId, Vec2> seam_jump_;
     std::set<FaceId> split_; ///< source faces with new edges

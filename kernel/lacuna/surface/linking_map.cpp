@@ -119,8 +119,8 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
     const std::vector<Triangle> facets = topology::facets_of(model, link.walls);
     const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
     const Eigen::MatrixXd s = natural_coordinate(model, facets, link, cut, context);
-    // The difference between the free coordinate s and the position on the target, as a share of its length.
-    // The mean of this difference is taken on the circle.
+    // At each point of the target rim, take the difference between its running length, as a share of the
+    // rim, and the free coordinate s. The differences are averaged as angles on a circle.
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
     for (const ChainNode& p : chain_nodes(model, link.target)) {

@@ -239,7 +239,7 @@ private:
     double least_;
     double mean_width_ = 0;
     geometry::FacetTree tree_;
-    std::vector<RimPiece> pieces_; ///< for each triangle in the tree
+    std::vector<RimPiece> pieces_; ///< piece of each triangle in the tree
     std::vector<EdgeId> edges_;
     std::unordered_map<std::uint64_t, Index> opposite_; ///< corner of the facet at a side
 };

@@ -406,7 +406,7 @@ private:
     const WallNet& net_;
     const RunContext& context_;
     std::size_t count_, layers_;
-    std::vector<int> level_layer_; ///< for each level of the net
+    std::vector<int> level_layer_; ///< layer of each level of the net
     StripGrid laid_;
 };
 

@@ -169,7 +169,8 @@ bool Trimming::is_near(const Projected& point, Near& near) const
     near.inward = near.share <= 0 ? side.inward_at_start : near.share >= 1 ? side.inward_at_end : side.inward;
     if (std::sqrt(hit.distance2) <= side.bulge) return true;
     if ((*point.at - hit.point).dot(near.inward) >= 0) return false;
-    // The border may be near in space but far along the face. The point is then not beyond the border.
+    // The border may be near the point in space, but far from it along the face. The point cannot have
+    // crossed such a border.
     return std::sqrt(tree_.closest(point.from->point).distance2) <= reach;
 }
 

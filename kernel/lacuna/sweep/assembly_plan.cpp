@@ -1026,7 +1026,7 @@ private:
     /// Which given nodes of an edge are kept: none, the rim nodes of a face whose mesh is only its shape, or
     /// the nodes of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
-    std::vector<Kept> kept_; ///< for each edge
+    std::vector<Kept> kept_; ///< for each edge, which nodes are kept
     /// For each class, the highest value of its edges in this order.
     std::map<std::size_t, Kept> kept_of_class_;
     std::map<std::size_t, std::array<RowsHere, 2>>
@@ -1042,14 +1042,16 @@ private:
     /// For each member: its side lines of several edges, if an unswept member shares some of these edges.
     std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
-    std::map<std::size_t, int> count_;                  ///< for each class
+    std::map<std::size_t, int> count_;                  ///< number of sides of each class
     std::vector<int> per_turn_, layers_;                ///< numbers that each member needs to keep its volume
     AssemblyLevels levels_;
     /// For each member, heights of its layers that result from its levels, counted from its source.
     std::vector<std::vector<double>> heights_;
-    std::map<std::size_t, Followed> followed_;                ///< for each set of same edges
-    std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member with intervals
-    std::map<std::size_t, SidesOfClass> intervals_;           ///< for each class with an interval request
+    std::map<std::size_t, Followed> followed_; ///< sets of same edges that follow facets
+    /// Interval requests of each member that has any.
+    std::map<std::size_t, surface::IntervalDemands> demands_;
+    /// Number of sides requested for a class by 'intervals'.
+    std::map<std::size_t, SidesOfClass> intervals_;
     /// For each set of same edges: the edge with a requested bias, and that bias in the direction of this
     /// edge.
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;

@@ -206,7 +206,7 @@ private:
         // If the point is far from the face, as on a long quad in a bend, the nearest facet may belong to an
         // opposite part of the face. The orientation of that facet then proves nothing, so it is not checked.
         // A higher factor checks more of such points. Not measured.
-        constexpr double kNear = 0.1; // of the quad's width
+        constexpr double kNear = 0.1; // share of the quad's width
         const auto found = static_cast<Index>(facet);
         sample.turned = limit_.folds && sample.distance * sample.side < kNear * across.norm() &&
                         sign_ * across.dot(walk.normal(found)) < 0;
@@ -422,7 +422,7 @@ private:
 
     struct QuadTree {
         geometry::FacetTree tree;
-        std::vector<std::size_t> quad; ///< for each triangle
+        std::vector<std::size_t> quad; ///< quad of each triangle in the tree
     };
 
     [[nodiscard]] QuadTree tree_of_quads() const

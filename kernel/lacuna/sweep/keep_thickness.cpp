@@ -451,7 +451,7 @@ private:
 
     /// Required heights at one end of a line of nodes, given by a table.
     struct HeightsOver {
-        int table = -1; ///< none
+        int table = -1; ///< index of the table; -1: none
         Vec3 normal = Vec3::Zero();
     };
     using Places = std::map<std::size_t, double>;

@@ -141,7 +141,7 @@ ColumnWindow column_window(int layers, int layer)
 
 Vec3 column_bend(std::span<const Vec3> column, std::size_t low)
 {
-    constexpr double kMost = 0.2; // of the side; cells invert if it bends by more than a quarter
+    constexpr double kMost = 0.2; // share of the side's length; from a quarter on, cells invert
     const std::size_t count = column.size();
     std::array<double, ColumnWindow::kMost> t{};
     for (std::size_t i = 1; i < count; ++i) t[i] = t[i - 1] + (column[i] - column[i - 1]).norm();

@@ -43,7 +43,7 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
 struct Part {
     mesh::QuadMesh mesh;
     std::vector<Index> node; ///< for each node, its number in the whole mesh
-    RimColumns columns;      ///< one layer
+    RimColumns columns;      ///< columns of one layer over the rim of the part
 };
 
 Part part_of(const mesh::QuadMesh& whole, const std::vector<Quad>& quads,

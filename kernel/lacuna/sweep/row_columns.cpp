@@ -140,7 +140,7 @@ Vec3 nearest_on(const Model& model, const surface::Chain& chain, const Vec3& p)
     }
     // The exact curve differs slightly from its polyline. Two steps were enough in all cases tried.
     constexpr int kSteps = 4;
-    constexpr double kStep = 1e-5; // of the length, for the tangent; not measured
+    constexpr double kStep = 1e-5; // step for the tangent, as a share of the chain's length; not measured
     const double step = kStep * chain.length();
     Vec3 point = p;
     for (int i = 0; i < kSteps; ++i) {

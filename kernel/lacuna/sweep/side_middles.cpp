@@ -68,7 +68,7 @@ private:
 
     struct Curve {
         geometry::FacetTree tree;
-        std::vector<EdgeId> edge; ///< for each side
+        std::vector<EdgeId> edge; ///< edge of each side in the tree
         std::vector<double> arc;  ///< for each edge, the running length at its start
     };
 

@@ -68,7 +68,7 @@ enum class Interior {
 /// Nodes of the skin that are moved onto coincident nodes of a neighbour, from which they differ by rounding.
 struct SettledNodes {
     std::set<FaceId> faces; ///< the faces that these nodes lie on; all nodes of these faces are then fixed
-    std::vector<std::pair<Index, Vec3>> nodes; ///< with the neighbour's positions; duplicates are allowed
+    std::vector<std::pair<Index, Vec3>> nodes; ///< node and new position; a node may occur more than once
 };
 
 /// Constraints from neighbouring volumes of an assembly.

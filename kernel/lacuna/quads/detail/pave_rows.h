@@ -9,8 +9,8 @@ namespace lacuna::quads::paving {
 
 /// Where a row must have the requested height.
 enum class RowKind {
-    tall,  ///< on most of the loop; otherwise the row is dropped
-    exact, ///< everywhere; otherwise the row is dropped
+    tall,  ///< the row must be so high on most of the loop; otherwise it is dropped
+    exact, ///< the row must be so high everywhere; otherwise it is dropped
 };
 
 /// Whether a loop needs a row. It does if the differences between its angles and multiples of a right angle

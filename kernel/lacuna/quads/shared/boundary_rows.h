@@ -23,7 +23,7 @@ struct BoundaryRows {
     std::vector<std::vector<double>> heights;
     /// For each boundary node, the table of the side from it to the next node of its loop; -1: no rows.
     std::vector<int> table;
-    std::vector<RowTurn> turn; ///< for each boundary node
+    std::vector<RowTurn> turn; ///< turn of the boundary at each of its nodes
     /// The scale at a position: a length in the plane, divided by the same length in the unit of `heights`.
     /// Empty: the scale is 1 everywhere.
     std::function<double(const Vec2&)> scale{};

@@ -14,7 +14,7 @@ namespace lacuna::surface {
 struct FlatEnds {
     /// `target` has no closed edges that coincide with closed edges of the source.
     std::vector<FlatEdge> source, target;
-    std::vector<Vec2> place;      ///< for each node
+    std::vector<Vec2> place;      ///< position of each node in the plane
     std::vector<VertexId> vertex; ///< for each node; not valid if the node is no vertex of the source
     std::vector<EdgeId> rim;      ///< edges of the source's rim
 };

@@ -50,7 +50,7 @@ private:
                     std::span<const KnownLine> known);
 
     const topology::OpenVolume& volume_;
-    std::vector<Vec2> source_, target_; ///< for each model point
+    std::vector<Vec2> source_, target_; ///< plane position of each model point
     FacetSet source_facets_;
     geometry::PlanarLocator locator_;
     std::map<FaceId, geometry::PlanarLocator> face_locator_;

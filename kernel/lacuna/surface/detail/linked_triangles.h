@@ -92,7 +92,7 @@ public:
 
     std::vector<Node> nodes;
     std::vector<Side> sides;
-    std::vector<Owner> owners; ///< for each triangle
+    std::vector<Owner> owners; ///< owner of each triangle
 
 private:
     void set_twins(Index a, Index b);

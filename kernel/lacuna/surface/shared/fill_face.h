@@ -15,7 +15,7 @@ namespace lacuna::surface {
 
 /// A node on the boundary of a face.
 struct RimNode {
-    Vec3 point;          ///< on the exact edge
+    Vec3 point;          ///< position on the exact edge
     EdgeId edge;         ///< edge of the face
     double fraction = 0; ///< fraction of the edge's length, in the direction of the edge
 };

@@ -13,7 +13,7 @@ namespace lacuna::surface {
 
 /// The numbers of sides and layers that intervals request.
 struct IntervalDemands {
-    std::vector<SidesAsked> sides; ///< on the source's edges
+    std::vector<SidesAsked> sides; ///< requested numbers of sides on the source's edges
     struct Layers {
         int count = 1;
         double bias = 1; ///< ratio of last to first height, from the source [-]

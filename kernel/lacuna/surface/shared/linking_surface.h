@@ -45,8 +45,8 @@ struct LinkingLine {
 struct LinkingSurface {
     std::vector<FaceId> walls;
     Chain source, target;
-    std::vector<LinkingLine> lines;   ///< in walking order
-    std::vector<RimSegment> segments; ///< in walking order; the first one starts at source length 0
+    std::vector<LinkingLine> lines;   ///< side lines in walking order
+    std::vector<RimSegment> segments; ///< segments in walking order; the first one starts at source length 0
     /// For a ring without side lines: the position on the target rim at which the shortest path from the
     /// source's start ends, as a number of turns around the ring. Empty if corresponding vertices of both
     /// rims are given.

@@ -20,7 +20,7 @@ struct FacetPosition {
 /// The facets of several faces together.
 struct FacetSet {
     std::vector<Triangle> triangles;
-    std::vector<FaceId> face;  ///< for each facet
+    std::vector<FaceId> face;  ///< face of each facet
     std::vector<Index> number; ///< index of each facet in its face
 };
 

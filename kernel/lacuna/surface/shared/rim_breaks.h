@@ -27,7 +27,7 @@ struct RimBreaks {
 /// A chain of facet sides along the walls from rim to rim. A column of nodes follows it.
 struct Crease {
     double source_at = 0;      ///< running length of its start on the source's chain
-    std::vector<Index> points; ///< from the source's rim to the target's
+    std::vector<Index> points; ///< points from the source's rim to the target's rim
 };
 
 /// Finds the vertices of coarse facets at which rims need nodes.

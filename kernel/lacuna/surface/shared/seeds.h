@@ -24,7 +24,7 @@ enum class QuadStyle {
     automatic,
     kept,   ///< the face's own quads are kept; an error if it has none
     mapped, ///< mapped or submapped; an error if that is impossible
-    free,   ///< by the planar mesher
+    free,   ///< filled by the planar mesher
 };
 
 /// A part of an edge with its own number of sides.

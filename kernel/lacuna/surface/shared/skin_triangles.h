@@ -15,7 +15,7 @@ namespace lacuna::surface {
 struct FixedFace {
     FaceId face;
     std::vector<Vec3> nodes; ///< [model length]
-    std::vector<Quad> quads; ///< by indices in `nodes`; a triangle repeats its last corner
+    std::vector<Quad> quads; ///< corners are indices in `nodes`; a triangle repeats its last corner
 };
 
 /// A meshed skin, and the face of each of its cells.

@@ -12,7 +12,7 @@ namespace lacuna::sweep {
 
 /// The given meshes of walls and rims that the sweep keeps, as columns and layers.
 struct GivenMeshes {
-    std::vector<surface::GivenColumns> columns; ///< for each linking surface
+    std::vector<surface::GivenColumns> columns; ///< given columns of each linking surface
     std::vector<double> heights;                ///< heights of the layers; empty: not constrained
     std::vector<std::string> notes;
 };

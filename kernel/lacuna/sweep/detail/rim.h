@@ -46,7 +46,7 @@ public:
 
 private:
     geometry::AffineFitter points_;
-    geometry::AffineFitter paired_; ///< with the pseudo-normal
+    geometry::AffineFitter paired_; ///< fit that includes the pseudo-normal
     bool spans_inside_ = false;
 };
 

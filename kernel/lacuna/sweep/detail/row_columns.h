@@ -45,7 +45,7 @@ struct RowColumn {
     std::size_t link, node;
     bool before = false, after = false; ///< whether the sides before and after the node have rows
     int table = -1;
-    std::vector<Index> nodes; ///< one per row
+    std::vector<Index> nodes; ///< source node of each row, from the rim inward
     std::vector<double> lean; ///< tangential offset of each node from the base node, on the source [model
                               ///< length]
 
