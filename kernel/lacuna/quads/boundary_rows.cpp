@@ -16,19 +16,19 @@ namespace {
 
 using namespace paving;
 
-/// Share of a row's height by which the node at the row's end may miss this height. Nodes are placed along
-/// curves, but heights are measured square to the side, so the two differ slightly.
+/// Largest deviation of the node at a row's end from the row's height, as a share of this height. Nodes are
+/// placed along curves, but heights are measured perpendicular to the side, so the two differ slightly.
 constexpr double kOffHeight = 0.05;
 
 /// A loop to which rows are being added.
 struct Front {
     Cycle nodes;
-    std::vector<int> table; ///< table of the side from each node to the next
+    std::vector<int> table; ///< for each node, the table of the side from it to the next node
 };
 
-/// A run: consecutive sides of a front with the same table, which get rows together.
+/// A run: consecutive sides of a front that have the same table and get their rows together.
 struct Run {
-    /// First position in the front and number of sides. A run is closed if it contains all sides of the
+    /// First position in the front, and number of sides. The run is closed if it contains all sides of the
     /// front.
     std::size_t first = 0, sides = 0;
     bool closed = false;
@@ -50,7 +50,7 @@ public:
         }
     }
 
-    /// Place the rows of all sides. @return false, with a finding, if they do not fit
+    /// Place the rows of all sides. @return false if they do not fit; `finding()` then has the reason
     bool lay()
     {
         for (std::size_t f = 0; f < fronts_.size(); ++f) {
@@ -110,8 +110,9 @@ private:
         return partial_.is_fixed(node) ? node : foot_[index(node) - partial_.fixed];
     }
 
-    /// How the front turns at a position. At boundary nodes the input states the turn. At nodes of rows, and
-    /// where rows take up a part of the angle, the angle of the front decides.
+    /// How the front turns at a position. At an untouched boundary node, the input states the turn. At a node
+    /// of a row, and at a boundary node where rows take up a part of the angle, the angle of the front
+    /// decides.
     [[nodiscard]] RowTurn turn_at(const Front& front, std::size_t i) const
     {
         const Index node = front.nodes[i];
@@ -151,16 +152,17 @@ private:
 
     /// How the rows of a run end at one end of the run.
     struct RunEnd {
-        /// Nodes on which the rows end, from the lowest. They are new if the rows end on a side of their own.
+        /// Nodes on which the rows end, the lowest row first. They are new nodes if the rows end on a side of
+        /// their own.
         std::vector<Index> nodes;
-        std::vector<double> lean; ///< offset of each row's end node along the run [length]
-        /// Length from the end over which the rows of the adjacent side cross these rows.
+        std::vector<double> lean; ///< for each row, offset of its end node along the run [length]
+        /// Length from this end over which the rows of the adjacent side cross the rows of the run.
         double block = 0;
         bool own = false; ///< whether the rows end on a side of their own
     };
 
-    /// The run's nodes, with vectors inward. Moving a node by h times its vector puts it at height h above
-    /// both of its sides.
+    /// The nodes of the run, each with a vector inward. A node that is moved by h times its vector is at
+    /// height h above both of its sides.
     struct Base {
         std::vector<Index> nodes;
         std::vector<Vec2> normal, along;
@@ -191,8 +193,8 @@ private:
         return base;
     }
 
-    /// Find the end nodes of the rows at an end of the run: existing nodes of the adjacent side, or new ones
-    /// if the rows have a side of their own.
+    /// Find the nodes on which the rows end at one end of the run. These are existing nodes of the adjacent
+    /// side, or new nodes if the rows end on a side of their own.
     bool make_end(const Front& front, const Run& run, const Base& base, int table, bool last, RunEnd& end)
     {
         const std::size_t n = front.nodes.size(), k = last ? base.nodes.size() - 1 : 0;
@@ -207,13 +209,13 @@ private:
         if (turn == RowTurn::smooth && beyond >= 0 && beyond != table)
             return refuse(RowsFinding::Why::unlike, corner, table, heights.front(), 0);
         end.own = turn != RowTurn::inner;
-        // If the adjacent side has rows too, these continue along the new side, which therefore extends the
-        // line of the adjacent side.
+        // If the adjacent side has rows too, its rows will continue along the new side. The new side
+        // therefore extends the line of the adjacent side.
         Vec2 way = normal;
         if (turn == RowTurn::outer && beyond >= 0) {
             const Vec2 line = (at - partial_.at(front.nodes[(place + (last ? 1 : n - 1)) % n])).normalized();
-            // Minimum sine of the angle between this line and the run. If it is smaller, the new side is
-            // square to the run. A choice, not measured.
+            // Minimum sine of the angle between this line and the run. If the sine is smaller, the new side
+            // is perpendicular to the run. A choice, not measured.
             constexpr double kUpright = 0.5;
             if (line.dot(normal) >= kUpright) way = line;
         }
@@ -248,12 +250,12 @@ private:
         return partial_.add(p);
     }
 
-    /// Share of an end's lean that applies to a node at a distance from the end. Within the block it is 1.
-    /// Beyond, it decreases slowly enough for the nodes to keep their order.
+    /// The share of an end's offset (`lean`) that applies to a node at a distance from this end. Within the
+    /// block it is 1. Beyond the block it decreases so slowly that the nodes keep their order.
     static double share_of(const RunEnd& end, double distance, double length)
     {
-        constexpr double kSlowly = 3; // the share falls to 0 over this multiple of the largest lean; a
-                                      // choice, not measured
+        // The share decreases to 0 over this multiple of the largest offset; a choice, not measured.
+        constexpr double kSlowly = 3;
         const double most = std::ranges::max(end.lean |
                                              std::views::transform([](double x) { return std::abs(x); }));
         if (distance <= end.block) return 1;
@@ -309,15 +311,15 @@ private:
         return true;
     }
 
-    /// Mark a node where rows end on a side of their own. The remaining angle decides how the front turns
-    /// there.
+    /// Mark a boundary node at which rows end on a side of their own. At this node, the remaining angle
+    /// decides how the front turns.
     void mark_cut(Index node)
     {
         if (partial_.is_fixed(node)) is_cut_[index(node)] = true;
     }
 
-    /// Mark the boundary node that is now a corner between the ends of these rows and the adjacent side. Rows
-    /// of the adjacent side will end on these rows.
+    /// Mark the boundary node between the ends of these rows and the adjacent side. It is now an inner
+    /// corner, and the rows of the adjacent side will end on these rows.
     void mark_inner(Index node)
     {
         if (partial_.is_fixed(node)) turn_[index(node)] = RowTurn::inner;
@@ -338,11 +340,11 @@ private:
         const std::size_t rows = level.size() - 1, n = front.nodes.size();
         const std::size_t after = run.first + run.sides; // position of the last node
         const int before_table = front.table[(run.first + n - 1) % n], after_table = front.table[after % n];
-        // The part of the front without rows: from the last node of the run, or from where its rows end,
-        // around to its first node.
+        // Keep the part of the front without rows. It leads from the last node of the run, or from the node
+        // where the rows end, around to the first node of the run.
         std::size_t from = after, left = n - run.sides;
         if (end.own) {
-            // The rows' end is a side for the rows of the adjacent side.
+            // For the rows of the adjacent side, the end of these rows is a side.
             for (std::size_t r = rows; r > 0; --r) {
                 next.nodes.push_back(level[r].back());
                 next.table.push_back(after_table);
@@ -381,9 +383,9 @@ private:
     PartialMesh partial_;
     std::vector<Cycle> given_;
     std::vector<RowTurn> turn_;
-    std::vector<bool> is_cut_; ///< boundary nodes where the ends of rows take up a part of the angle
+    std::vector<bool> is_cut_; ///< for each boundary node, whether ends of rows take up a part of its angle
     std::vector<Front> fronts_;
-    std::vector<Index> foot_; ///< boundary node below each added node
+    std::vector<Index> foot_; ///< for each added node, the boundary node below it
     std::optional<RowsFinding> finding_;
 };
 

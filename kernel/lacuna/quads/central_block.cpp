@@ -11,16 +11,17 @@ namespace lacuna::quads {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Angle between the first or last side of a quad on the block's boundary and the line between the block's
-/// corners. The block's corners then have 132°, and each of the two quads outside has 114°, close to the 120°
-/// of three equal quads. A larger bulge flattens the block's own corners.
+/// Angle between the line that joins two corners of the block and the first or last edge on the block's side
+/// between them. The block's corners are then 132°. Each of the two quads outside has 114° there, close to
+/// the 120° of three equal quads. A larger angle flattens the block's own corners.
 constexpr double kBulge = 21 * kPi / 180;
 /// Distances from the centre to the block's corners and to the middles of its sides, as shares of the
-/// distance to the boundary. With a half, the quads around the block get about the size of those inside.
+/// distance to the boundary. With a half, the quads around the block have about the same size as the quads
+/// inside.
 constexpr double kCornerReach = 0.5, kSideReach = 0.5;
 
-/// Distance from the centre to the boundary in a direction: the smallest one within an eighth of a turn to
-/// either side.
+/// Distance from the centre to the boundary in a direction. It is the smallest distance of a boundary node
+/// within an eighth of a turn to either side, repeated by quarter turns.
 double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
 {
     double least = kInfinity;
@@ -63,7 +64,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
         angle += kPi / 4;
         std::swap(free[0], free[1]);
     }
-    // If the corners are at distance 1 from the centre, this is the distance of the middle of a side.
+    // Distance of the middle of a side from the centre, if the distance of the corners is 1.
     const double half = std::numbers::sqrt2 / 2, middle = half * (1 + std::tan(kBulge / 2));
     const double reach = std::min(kCornerReach * free[0], kSideReach * free[1] / middle);
     if (!(reach > 0) || !std::isfinite(reach)) return std::nullopt;
@@ -72,7 +73,8 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
 
     CentralBlock block{region, {}, {}};
     const auto first = static_cast<Index>(region.points.size());
-    // The sides bulge: they are arcs about points beyond the centre, and each quad's side is a chord.
+    // The sides of the block bulge. They follow arcs whose centres lie on the far side of the block's centre;
+    // each edge is a chord of such an arc.
     const double bulge = kBulge * sides / (sides - 1);
     const double radius = half * reach / std::sin(bulge);
     std::vector<Vec2> rim; // counter-clockwise
@@ -85,7 +87,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
             rim.push_back(about + radius * Vec2(std::cos(turn), std::sin(turn)));
         }
     }
-    // A hole runs clockwise: its nodes are numbered like the rim but visited in reverse.
+    // A hole runs clockwise, so its nodes have the numbers of the rim in reverse order.
     std::vector<Index> hole;
     for (std::size_t i = 0; i < rim.size(); ++i) {
         block.around.points.push_back(rim[i]);
@@ -93,7 +95,7 @@ std::optional<CentralBlock> central_block(const PlanarRegion& region, const std:
     }
     block.around.loops.push_back(std::move(hole));
 
-    const auto at = [&](int x, int y) { // on the block's rim: the position along it, else -1
+    const auto at = [&](int x, int y) { // position along the block's rim; -1: inside
         if (y == 0) return x;
         if (x == sides) return sides + y;
         if (y == sides) return 3 * sides - x;

@@ -12,12 +12,12 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// A boundary point keeps its number of quads if this number differs from the point's angle divided by 90° by
-/// less than this. The value exceeds 0.5, so that an angle halfway between two numbers accepts both. Larger
-/// values leave more distorted corners.
+/// A boundary point may keep its number of quads if this number differs from the point's angle divided by 90°
+/// by less than this. The value exceeds 0.5, so that either number is accepted if the angle is halfway
+/// between two numbers. Larger values leave more distorted corners.
 constexpr double kFits = 0.65;
-/// kSizeLoss weighs size against shape: it is the loss of a quad whose area is off by a factor e. The loss is
-/// quadratic in the logarithm of the factor; kFarOff is the logarithm used for a folded quad.
+/// The weight of size against shape: the loss of a quad whose area deviates by a factor e is kSizeLoss. The
+/// loss is quadratic in the logarithm of the factor. kFarOff is used as the logarithm for a folded quad.
 constexpr double kSizeLoss = 0.1, kFarOff = 10;
 
 } // namespace
@@ -71,7 +71,8 @@ int CleanMesh::right_angles(Index p) const
         any = true;
         last = at(net_.from(QuadNet::before(side))) - at(p);
     });
-    // An angle about halfway between two multiples of 90° suits either valence, so the present one is kept.
+    // If the angle is about halfway between two multiples of 90°, either valence suits it, and the present
+    // one is kept.
     const double fit = turn_between(first, last) / kRightAngle;
     const int valence = net_.valence(p);
     return std::abs(fit - valence) < kFits ? valence : std::max(1, static_cast<int>(std::lround(fit)));

@@ -5,7 +5,7 @@ namespace lacuna::quads::cleaning {
 
 namespace {
 
-/// Maximum number of points that are visited in the search for irregular ones around a seed. It bounds the
+/// Maximum number of points that are visited in the search for irregular points around a seed. It limits the
 /// distance over which irregular points are paired.
 constexpr std::size_t kLookedAt = 900;
 
@@ -42,7 +42,8 @@ void PatchGrower::look_for_others(Index seed, std::size_t most)
             see(net.to(side));
             last = side;
         });
-        see(net.from(QuadNet::before(last))); // an inner point has no further neighbour than those visited
+        // One more neighbour on the boundary; at an inner point it was visited before.
+        see(net.from(QuadNet::before(last)));
     }
 }
 
@@ -77,7 +78,7 @@ PatchState PatchGrower::close(std::size_t largest)
     }
 }
 
-/// Add quads until no point of the outline is concave. @return false if there are too many
+/// Add quads until no point of the outline is concave. @return false if the patch would have too many quads
 bool PatchGrower::fill_notches(std::size_t largest)
 {
     for (bool more = true; more;) {
@@ -94,7 +95,8 @@ bool PatchGrower::fill_notches(std::size_t largest)
     return true;
 }
 
-/// Find the successor of each point on the outline. @return a point that the outline passes twice, or -1
+/// Find the successor of each point on the outline. @return a point that the outline passes twice; -1 if
+/// there is none
 Index PatchGrower::link_sides()
 {
     const QuadNet& net = mesh_.net();
@@ -126,7 +128,7 @@ bool PatchGrower::walk_outline()
     Index p = start_;
     do {
         const int valence = net.valence(p), inside = count_[p], wanted = mesh_.ideal_valence(p);
-        // On the mesh's boundary, a filling may change the number of quads at a point.
+        // At a point on the mesh's boundary, a filling may change the number of quads.
         const bool whole = inside == valence;
         const int corner = whole ? wanted : inside;
         if (corner > 2) return false;

@@ -19,22 +19,24 @@ namespace {
 
 /// Limits of the search before a patch is given up.
 struct SearchLimits {
-    std::size_t growths;  ///< limit of irregular points to which a patch is grown
-    std::size_t largest;  ///< limit of the quads in a patch
-    std::size_t fillings; ///< limit of fillings tried for each patch
+    std::size_t growths;  ///< maximum number of irregular points to which a patch is grown
+    std::size_t largest;  ///< maximum number of quads in a patch
+    std::size_t fillings; ///< maximum number of fillings that are tried for each patch
     int sweeps;           ///< smoothing sweeps over a filling before its second judgement
-    double hopeless;      ///< a filling is rejected early if its loss exceeds the allowed loss by this factor
+    double hopeless; ///< a filling is rejected early if its loss exceeds this multiple of the allowed loss
 };
-/// Stages of the search. Small patches come first: they are cheap and remove most irregular points. Larger
-/// patches follow with more effort, as long as the budget lasts. Larger limits remove slightly more irregular
-/// points but take much more time.
+/// Stages of the search. Small patches come first, because they are cheap and remove most irregular points.
+/// Larger patches follow as long as the budget lasts. With larger limits, slightly more irregular points are
+/// removed, but in much more time.
 constexpr std::array<SearchLimits, 3> kStages{
     {{3, 60, 2, 1, 1.8}, {12, 100'000, 2, 1, 1.8}, {12, 100'000, 4, 2, 3}}};
-/// Base budget of quads in fillings, for a thorough and for a quick search. The quick one was measured on the
-/// named outlines and 40 of the held family (`benchmarks/pave/`): on meshes below 1,000 quads, a budget more
-/// than three times as large removes no more irregular nodes. The thorough one allows for larger meshes.
+/// Base budget of quads in fillings, for a thorough and for a quick search. The budget of the quick search
+/// was measured on the named outlines and 40 of the held family (`benchmarks/pave/`). On meshes below 1,000
+/// quads, three times this budget removes no more irregular nodes. The thorough search needs more for larger
+/// meshes.
 constexpr long kLeastBudget = 50'000, kQuickBudget = 15'000;
-/// Rings of quads around a patch that are smoothed with it: enough room for a filling to adapt.
+/// Number of rings of quads around a patch that are smoothed together with a filling, so that the filling can
+/// adapt.
 constexpr int kRings = 2;
 
 class Cleaner {
@@ -46,7 +48,7 @@ public:
                   static_cast<long>(options.effort * static_cast<double>(quads));
     }
 
-    /// Visit everything again, within these limits.
+    /// Prepare to visit all points again, within these limits.
     void begin(const SearchLimits& limits)
     {
         if (limits.hopeless > limits_.hopeless) tried_.clear();
@@ -66,9 +68,9 @@ private:
     Trial trial_;
     SearchLimits limits_ = kStages[0];
     long budget_ = 0;
-    std::vector<char> due_;                   ///< points to visit, if irregular
+    std::vector<char> due_;                   ///< for each point, whether to visit it if it is irregular
     std::unordered_set<std::uint64_t> tried_; ///< patches already tried with at least the same effort
-    /// Fillings of patches that were smoothed completely without success.
+    /// Fillings that were smoothed completely but were not good enough.
     std::unordered_set<std::uint64_t> poor_;
     std::vector<Vec2> loop_;
 };
@@ -100,7 +102,8 @@ bool Cleaner::refill(const QuadPatch& patch)
     return false;
 }
 
-/// Grow a patch from an irregular point to further irregular points, until one of its fillings is better.
+/// Grow a patch from an irregular point to further irregular points, until one of its fillings improves the
+/// mesh.
 bool Cleaner::improve(Index seed)
 {
     grower_.start(seed, limits_.growths);
@@ -124,7 +127,8 @@ bool Cleaner::pass(const RunContext& context)
         due_[index(p)] = 0;
         if (!improve(p)) continue;
         improved = true;
-        // The surroundings of points that were tried without success have changed.
+        // The quads around these points have changed, so points that were tried without success are visited
+        // again.
         for (const Index q : grower_.seen_points()) due_[index(q)] = 1;
     }
     return improved;

@@ -9,14 +9,15 @@ namespace {
 
 /// Allowed loss of scaled Jacobian for each irregular point removed, summed over a patch's quads. Compared
 /// with 0.15, this value leaves a sixth fewer irregular points on meshes below 1,000 quads, and two fifths
-/// fewer from 20,000 quads on, while the mean scaled Jacobian falls by at most 0.0003. With 2.5 it falls by
-/// 0.002. Measured on the named outlines, 30 of the held family and 60 generated ones.
+/// fewer from 20,000 quads on, while the mean scaled Jacobian decreases by at most 0.0003. With 2.5 it
+/// decreases by 0.002. Measured on the named outlines, 30 of the held family and 60 generated ones.
 constexpr double kLossForgiven = 1.2;
-/// At least this share of a filling's loss remains after the first smoothing sweeps, in 99 % of 6,000
-/// fillings from six domains. A filling is rejected early if its loss times this share is above the limit.
+/// Share of a filling's loss that remains after the first smoothing sweeps. In 99 % of 6,000 fillings from
+/// six domains, the remaining share was larger. A filling is therefore rejected early if this share of its
+/// loss is above the limit.
 constexpr double kLeft = 0.6;
 /// Number of smoothing sweeps over a filling and its surroundings before the last judgement, and number of
-/// rounds over the poor quads there.
+/// rounds in which the poor quads among them are improved.
 constexpr int kSweeps = 6, kRepairs = 4;
 
 } // namespace
@@ -58,7 +59,7 @@ Verdict Trial::run(const TemplateMesh& filling, int sweeps, double hopeless)
     return Verdict::good;
 }
 
-/// Whether the loss of the first `filled` quads plus that of the surroundings exceeds `most`.
+/// Whether the loss of the first `filled` quads, plus the loss of the surroundings, exceeds `most`.
 bool Trial::exceeds(std::size_t filled, double most) const
 {
     double loss = loss_around_;
@@ -71,8 +72,8 @@ bool Trial::exceeds(std::size_t filled, double most) const
 /// `most`
 bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
 {
-    // Smoothing makes no quad worse than the worst one it is given. To set this bound, the worst surrounding
-    // quad is included.
+    // Smoothing makes no quad worse than the worst quad it gets. The worst quad of the surroundings is
+    // therefore included, so that quads may become as bad as this one.
     points_.clear();
     quads_.clear();
     if (worst_ >= 0) {
@@ -94,8 +95,8 @@ bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
     return true;
 }
 
-/// Number the points of the loop and the surroundings. Points that stay come first: those on the boundary and
-/// those with quads further out.
+/// Number the points of the loop and the surroundings. Points that do not move come first: points on the
+/// boundary, and points that also belong to quads farther out.
 void Trial::number_points()
 {
     const QuadNet& net = mesh_.net();
@@ -124,7 +125,7 @@ void Trial::number_points()
     }
 }
 
-/// Smooth a filling with its surroundings. @return whether it is good
+/// Smooth a filling together with its surroundings. @return whether the result is good
 bool Trial::fits(const TemplateMesh& filling, double allowed)
 {
     points_.clear();

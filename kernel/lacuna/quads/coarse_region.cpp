@@ -13,8 +13,9 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Maximum number of runs with an odd number of sides. From each of them leads a row of quads that have
-/// double width until smoothing. A larger limit coarsens more regions but distorts more rows.
+/// Maximum number of runs with an odd number of sides. A row of quads leads from each of these runs, and its
+/// quads have double width until they are smoothed. With a larger limit, more regions can be coarsened, but
+/// more rows are distorted.
 constexpr std::size_t kMostOdd = 8;
 
 void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
@@ -25,7 +26,7 @@ void add_point(CoarseRegion& made, const Vec2& point, Index own, Index next)
     made.next.push_back(next);
 }
 
-/// Add the points of a run of a loop, except its last node.
+/// Add the points of one run of a loop, without its last node.
 void add_run(CoarseRegion& made, const PlanarRegion& region, const std::vector<Index>& nodes,
              std::size_t whole)
 {
@@ -68,14 +69,14 @@ void add_runs(CoarseRegion& made, const PlanarRegion& region, const std::vector<
     }
 }
 
-/// A row of quads from one boundary side to another.
+/// A row of quads that leads from one boundary side to another.
 struct Row {
     Index from = -1, to = -1; ///< the boundary sides at its ends
     std::size_t quads = std::numeric_limits<std::size_t>::max();
 };
 
-/// Find the boundary side at which the row from another boundary side ends. Calls `visit(a, b)` with the two
-/// sides of each quad that the row crosses.
+/// Find the boundary side where the row that starts at another boundary side ends. Calls `visit(a, b)` for
+/// each quad that the row crosses, with the two opposite sides that the row passes.
 /// @return  -1 if the row ends at a triangle.
 template <class Visit>
 Index follow_row(const std::vector<Quad>& quads, const std::vector<Index>& opposite, Index side,
@@ -90,7 +91,7 @@ Index follow_row(const std::vector<Quad>& quads, const std::vector<Index>& oppos
     }
 }
 
-/// A set of rows between whole sides; each whole side is the end of exactly one row.
+/// A set of rows between whole sides. Exactly one row ends at each whole side.
 struct Pairing {
     std::vector<Row> rows;
     std::size_t quads = std::numeric_limits<std::size_t>::max(); ///< number of quads of all rows
@@ -102,7 +103,7 @@ struct Pairing {
 void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pairing& now, Pairing& best)
 {
     const std::size_t runs = left.size();
-    // Runs are paired in reverse order, so that runs of the outer loop, which may have many whole sides, come
+    // Runs are paired in reverse order. Runs of the outer loop, which may have many whole sides, then come
     // last.
     std::size_t r = runs;
     while (r > 0 && left[r - 1] == 0) --r;
@@ -125,8 +126,8 @@ void pair_up(const std::vector<Row>& between, std::vector<std::size_t>& left, Pa
     ++left[r];
 }
 
-/// Put the points of a run on nodes of the region.
-/// @param whole  positions of the points after which the side is whole
+/// Place the points of a run on nodes of the region.
+/// @param whole  positions of the points that are followed by a whole side
 void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::size_t>& whole)
 {
     std::size_t place = 0;
@@ -142,8 +143,8 @@ void settle_run(CoarseRegion& made, const WholeRun& run, const std::vector<std::
 
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place)
 {
-    // A node at which the loop turns by more than 20° stays, so that round holes keep at least nine nodes. A
-    // larger angle coarsens more but rounds corners off.
+    // If the loop turns by more than 20° at a node, the node stays, so that round holes keep at least nine
+    // nodes. With a larger angle, more regions could be coarsened, but corners would be rounded off.
     constexpr double kTurnsLeftOut = std::numbers::pi / 9;
     return std::abs(corner_angle(region.points, loop, place) - std::numbers::pi) > kTurnsLeftOut;
 }
@@ -177,8 +178,8 @@ std::optional<CoarseRegion> coarse_region(const PlanarRegion& region, WholeSides
                      takes_all ? odd - own_of_longest : own_of_longest);
             continue;
         }
-        // All runs have even numbers of sides, so the nodes that stay are all at even or all at odd
-        // positions. If no node must stay, the first one does, because symmetries often pass through it.
+        // All runs have even numbers of sides. The nodes that stay are therefore all at even or all at odd
+        // positions. If no node must stay, the first node stays, because symmetries often pass through it.
         for (std::size_t i = corners[l].front() % 2; i < loop.size(); i += 2)
             add_point(made, region.points[index(loop[i])], loop[i], loop[(i + 1) % loop.size()]);
     }
@@ -200,7 +201,7 @@ std::optional<std::vector<char>> choose_whole_sides(CoarseRegion& made, const Pl
     }
     const std::vector<Index> opposite = mesh::opposite_sides(coarse.quads,
                                                              static_cast<Index>(coarse.points.size()));
-    // Sides of cells on the boundary have the direction of the loops. Each starts at a point of the coarse
+    // A side of a cell on the boundary has the direction of the loop. It starts at a point of the coarse
     // region.
     const auto point_before = [&](Index side) {
         return index(coarse.quads[index(side / 4)][index(side % 4)]);
@@ -246,7 +247,7 @@ PlanarQuads cut_in_four(const PlanarRegion& fine, const CoarseRegion& made, cons
         result.points.push_back(p);
         return static_cast<Index>(result.points.size() - 1);
     };
-    // Numbered in the order of the cells, so that neighbours have close numbers.
+    // New points are numbered in the order of the cells, so that neighbouring points have close numbers.
     std::vector<Index> number = made.own, middle(opposite.size(), -1);
     number.resize(coarse.points.size(), -1);
     for (std::size_t q = 0; q < coarse.quads.size(); ++q) {
@@ -270,7 +271,7 @@ PlanarQuads cut_in_four(const PlanarRegion& fine, const CoarseRegion& made, cons
         }
         if (sides[0] < 0 && sides[1] < 0) {
             result.quads.push_back(corners);
-        } else if (sides[0] < 0 || sides[1] < 0) { // cut it in two, from one cut side to the other
+        } else if (sides[0] < 0 || sides[1] < 0) { // cut it in two, along the line between its two cut sides
             const std::size_t k = sides[0] < 0 ? 1 : 0;
             result.quads.push_back({corners[k], sides[k], sides[k + 2], corners[(k + 3) % 4]});
             result.quads.push_back({sides[k], corners[k + 1], corners[k + 2], sides[k + 2]});

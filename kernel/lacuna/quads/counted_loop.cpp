@@ -16,7 +16,7 @@ void add(CountedLoop& loop, CountedRun& run, int by)
     advance(loop.excess, run.quarter, by);
 }
 
-/// Whether a run may be changed to `count` sides, given that its segment now has `now` sides in all.
+/// Whether a run may be changed to `count` sides. Its segment has `now` sides in total before the change.
 bool may_be(const CountTask& task, int now, const CountedRun& run, int count, const CountRange& range)
 {
     const BoundarySegment& own = task.segments[run.segment];
@@ -118,7 +118,7 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
         if (!task.segments[run.segment].fixed)
             add(counted, run, std::max(1, static_cast<int>(std::lround(run.wanted))) - run.count);
     }
-    // After rounding, a segment of several runs may have fewer sides than its minimum.
+    // By rounding, a segment that has several runs may have fewer sides than its minimum.
     for (CountedRun& run : counted.runs) {
         const BoundarySegment& own = task.segments[run.segment];
         if (!own.fixed && sides_of(counted, run.segment) < own.least) add(counted, run, 1);
@@ -128,7 +128,8 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
 
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range)
 {
-    std::vector<int> runs(task.segments.size(), 0), sides(task.segments.size(), 0); // of each segment
+    // Numbers of runs and of sides of each segment.
+    std::vector<int> runs(task.segments.size(), 0), sides(task.segments.size(), 0);
     for (const CountedRun& run : loop.runs) {
         ++runs[run.segment];
         sides[run.segment] += run.count;
@@ -143,7 +144,8 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
         CountedRun *best = nullptr, *other = nullptr;
         int best_by = 0;
         for (CountedRun& run : loop.runs) {
-            // A segment whose number is given and that has a single run contains no turn that could be moved.
+            // If the number of a segment is given and the segment has a single run, it contains no turn that
+            // could be moved.
             if (task.segments[run.segment].fixed && runs[run.segment] == 1) continue;
             for (const int by : {1, -1}) {
                 if (!may_be(task, sides[run.segment], run, run.count + by, range)) continue;
@@ -156,7 +158,8 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
                     best_by = by;
                     continue;
                 }
-                // If the segment's number of sides is given, the turn within the segment is moved instead.
+                // If the number of the segment is given, another run of the segment changes by the opposite
+                // number: the turn between the runs moves.
                 for (CountedRun& next : loop.runs) {
                     if (next.segment != run.segment || &next == &run || next.count - by < 1) continue;
                     const double both = cost + cost_of(next, next.count - by) - cost_of(next, next.count);
@@ -232,7 +235,7 @@ std::vector<Vec2> divided_loop(const CountTask& task, const Cycle& loop, std::sp
 {
     const std::size_t n = loop.size();
     const auto own = [&](std::size_t i) { return task.segment_of(loop[i % n]); };
-    // Start at the start of a segment; if the loop is a single segment, start at its first node.
+    // Start at the first node of a segment. If the whole loop is one segment, start at the loop's first node.
     std::size_t start = 0;
     while (start < n && own(start) == own(start + n - 1)) ++start;
     if (start == n) start = 0;

@@ -19,25 +19,25 @@
 namespace lacuna::quads {
 namespace {
 
-/// A coordinate around a ring, from 0 up to the period.
+/// A position around a ring, as a coordinate from 0 to below the period.
 int wrapped(int along, int period) { return ((along % period) + period) % period; }
 
-/// The lines of a grid around a hole that lead from the outer loop to the hole: one for every side along the
+/// The grid lines that lead from the outer loop to the hole of a ring: one line for every side along the
 /// ring.
 class Spokes {
 public:
-    /// @param outer, inner  closed loops. `outer` runs once along the first grid axis, and `inner` once in
-    ///         the opposite direction.
+    /// @param outer, inner  closed loops. `outer` runs once around the ring in the direction of the first
+    ///         grid axis, and `inner` once in the opposite direction.
     Spokes(const std::vector<Vec2>& points, const GridLoop& outer, const GridLoop& inner, int period)
         : outer_(ends_of(points, outer, period, true)), inner_(ends_of(points, inner, period, false))
     {
         turn_inner();
     }
 
-    /// Offset of the inner loop's positions along the ring.
+    /// Offset along the ring of the inner loop's positions.
     [[nodiscard]] int shift() const { return shift_; }
 
-    /// Number of rows between the loops for the height asked.
+    /// Number of rows between the loops that gives rows of the requested height.
     [[nodiscard]] int rows(const SizeField& size) const
     {
         double sum = 0;
@@ -51,7 +51,8 @@ public:
         return std::max(least, static_cast<int>(std::lround(sum / static_cast<double>(outer_.size()))));
     }
 
-    /// Grid coordinates at a point between the loops; empty if it lies on no spoke.
+    /// Grid coordinates of a point between the loops. Empty if the point is not between two neighbouring
+    /// spokes.
     [[nodiscard]] std::optional<Vec2> position(const Vec2& p, int rows) const
     {
         const std::size_t n = outer_.size();
@@ -86,8 +87,8 @@ private:
         int row = 0;
     };
 
-    /// For each position along the ring, the node of a loop; if there are several, the one farthest into the
-    /// region.
+    /// For each position along the ring, the node of a loop. If there are several nodes, the one farthest
+    /// into the region.
     static std::vector<End> ends_of(const std::vector<Vec2>& points, const GridLoop& loop, int period,
                                     bool outer)
     {
@@ -107,8 +108,8 @@ private:
     void turn_inner()
     {
         const std::size_t n = outer_.size();
-        // On a large loop, only 64 to 127 spokes are evaluated for each shift of the inner loop; on a small
-        // one, all are.
+        // On a large loop, only 64 to 127 spokes are evaluated for each shift of the inner loop. On a small
+        // loop, all are evaluated.
         const std::size_t step = std::max<std::size_t>(1, n / 64);
         double least = kInfinity;
         std::size_t best = 0;
@@ -124,7 +125,8 @@ private:
         shift_ = -static_cast<int>(best);
     }
 
-    /// Signed distance of a point from spoke u, > 0 ahead of it along the ring.
+    /// Signed distance of a point from spoke u. It is positive if the point is ahead of the spoke along the
+    /// ring.
     [[nodiscard]] double side_of(std::size_t u, const Vec2& p) const
     {
         const Vec2 across = inner_[u].at - outer_[u].at;
@@ -135,8 +137,8 @@ private:
     int shift_ = 0;
 };
 
-/// The nearest integer. Halfway values are rounded down, even with rounding errors, so that all holes that
-/// are images of each other move in the same direction.
+/// The nearest integer. Values halfway between two integers are rounded down, even if they have rounding
+/// errors. Holes that are images of each other are thus all moved in the same direction.
 int nearest(double x) { return static_cast<int>(std::ceil(x - 0.5 - kCountSlack)); }
 
 void move(GridLoop& loop, int along, int across, int period)
@@ -147,17 +149,18 @@ void move(GridLoop& loop, int along, int across, int period)
     }
 }
 
-/// One way to fill a region.
+/// One way to fill a region with a grid.
 struct FacePattern {
-    std::size_t about = 0; ///< the loop that the grid follows; 0: none, its lines are straight
-    int rows = 1;          ///< rows of quads between the round parts of a loop and the grid's corners there
-    int steps = 0;         ///< rows by which the outer loop of a ring steps in where the ring is narrow
-    int corners = 0;       ///< nodes at which rows of a ring change their number of sides
+    std::size_t about = 0; ///< the loop that the grid lines follow; 0: the lines are straight
+    /// Number of rows of quads between the round parts of a loop and the places where the grid turns.
+    int rows = 1;
+    int steps = 0; ///< number of rows by which the outer loop of a ring steps inward where the ring is narrow
+    int corners = 0; ///< number of nodes at which rows of a ring change their number of sides
     TurnStyle style = TurnStyle::soft;
 };
 
-/// If quads fold, move inner nodes to the middle of their neighbours a few times. The result is kept if the
-/// worst quad improves. The smoother's own untangling takes far longer if rows overlap.
+/// If quads fold, move each inner node to the mean of its neighbours a few times. The result is kept if it
+/// improves the worst quad. This is far faster than untangling in the smoother if rows overlap.
 void spread_folds(PlanarQuads& mesh, std::size_t fixed)
 {
     constexpr int kSweeps = 20; // limit of sweeps; not measured
@@ -184,7 +187,8 @@ void spread_folds(PlanarQuads& mesh, std::size_t fixed)
     if (least_scaled_jacobian(points, mesh.quads) > before) mesh.points = std::move(points);
 }
 
-/// The mesh with smoothed inner nodes and corrected row heights; empty if it has a fault.
+/// The mesh after smoothing of its inner nodes and correction of its row heights. Empty if this mesh has a
+/// fault.
 std::optional<PlanarQuads> smoothed(PlanarQuads mesh, const PlanarRegion& region, const SizeField& size,
                                     const RunContext& context)
 {
@@ -215,10 +219,10 @@ public:
     /// Number of soft turns of all loops.
     [[nodiscard]] std::ptrdiff_t turns() const { return soft_; }
 
-    /// Number of sides of the outer loop minus that of the hole that the grid follows, if both are loops of a
-    /// ring.
+    /// Number of sides of the outer loop minus that of the hole that the grid lines follow, if these two
+    /// loops form a ring.
     [[nodiscard]] int more_sides() const { return more_sides_; }
-    /// Whether the rows of a ring may change their number of sides along either loop.
+    /// Whether rows along one of the loops of a ring may change their number of sides.
     [[nodiscard]] bool may_change() const { return may_change_; }
 
 private:
@@ -263,7 +267,7 @@ private:
         return true;
     }
 
-    /// Mean offset from a loop's grid coordinates to the goal of each node.
+    /// Mean offset between the grid coordinates of a loop's nodes and their goals.
     static Vec2 way_to(const std::vector<Vec2>& goal, const GridLoop& grid)
     {
         Vec2 sum = Vec2::Zero();
@@ -272,8 +276,9 @@ private:
         return sum / static_cast<double>(goal.size());
     }
 
-    /// Move a hole to the grid position nearest to its goal. If the goal lies between two grid lines in both
-    /// directions, a round hole becomes one column narrower and one row higher, which places it on lines.
+    /// Move a hole to the grid position nearest to its goal. If the goal is halfway between two grid lines in
+    /// both directions, a round hole is made one column narrower and one row higher, which places it on grid
+    /// lines.
     /// @return  false if the hole has no position in the grid.
     bool settle(std::size_t l, const std::vector<Vec2>& goal)
     {
@@ -316,7 +321,8 @@ private:
         return true;
     }
 
-    /// Give the two loops of a ring the same number of sides along it, as the pattern requires.
+    /// Give the two loops of a ring the same number of sides along the ring, by the means that the pattern
+    /// allows.
     bool make_alike(PatternLoop& outer, PatternLoop& inner)
     {
         more_sides_ = along(outer) + along(inner);
@@ -347,7 +353,7 @@ private:
         return sum;
     }
 
-    /// Place a hole other than the one that the grid follows.
+    /// Place a hole that the grid lines do not follow.
     bool place_beside(std::size_t l, const Spokes& spokes, int rows)
     {
         const LoopFrame frame{false, Vec2::Zero(), spokes.angle(centre_of(region_.points, region_.loops[l]))};
@@ -377,13 +383,13 @@ private:
     bool may_change_ = false;
 };
 
-/// The patterns for a ring whose loops have different numbers of sides. Patterns with the fewest irregular
-/// nodes come first.
+/// The patterns for a ring whose loops have different numbers of sides. The patterns with the fewest
+/// irregular nodes come first.
 std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeField& size, std::size_t about,
                                       int more_sides)
 {
-    // With more corners there would be no fewer irregular nodes than in a straight grid, which has four for
-    // each loop.
+    // A straight grid has four irregular nodes for each loop. With more corners, a ring would have at least
+    // as many.
     constexpr int kMostCorners = 4;
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
     const double height = size(region.points[index(region.loops[about].front())]);
@@ -400,7 +406,8 @@ std::vector<FacePattern> unlike_rings(const PlanarRegion& region, const SizeFiel
 }
 
 /// Whether nearly all quads of a mesh are square and have the requested size, and the rows along the boundary
-/// have the requested height. Higher bounds continue the search more often, for a better mesh in more time.
+/// have the requested height. With higher bounds, the search continues more often and finds better meshes,
+/// but takes longer.
 bool is_fine(const PlaneQuality& quality, double least, double rows)
 {
     constexpr double kMean = 0.92;
@@ -408,7 +415,8 @@ bool is_fine(const PlaneQuality& quality, double least, double rows)
            quality.size_share() > kPromisedShare && quality.row_share() >= rows;
 }
 
-/// The corners of a region's only loop: its nodes that suit one quad. Empty if a node suits more than two.
+/// The corners of the only loop of a region: the nodes whose angle suits one quad. Empty if the angle of some
+/// node suits more than two quads.
 std::vector<std::size_t> lone_corners(const PlanarRegion& region)
 {
     std::vector<std::size_t> corners;
@@ -420,7 +428,7 @@ std::vector<std::size_t> lone_corners(const PlanarRegion& region)
     return corners;
 }
 
-/// Tries ways to fill a region, the most promising first, as long as the result can improve.
+/// Tries several ways to fill a region, the most promising first, until the result can hardly improve.
 class PatternTrial {
 public:
     PatternTrial(const PlanarRegion& region, const RunContext& context)
@@ -440,8 +448,8 @@ public:
         if (!is_square_ && region_.loops.size() == 1) try_corners();
     }
 
-    /// The meshes found. If the region has no holes, or has ends of 135°, only meshes with the wanted number
-    /// of quads are returned, if there are any.
+    /// The meshes that were found. If the number of quads matters (the region has no holes, or has ends of
+    /// 135°), only meshes with the wanted number are returned, provided there are any.
     std::vector<PlanarQuads> take()
     {
         std::vector<PlanarQuads> fit;
@@ -452,7 +460,7 @@ public:
     }
 
 private:
-    /// Try lines around a hole.
+    /// Try grid lines that follow a hole.
     void try_round(std::size_t about)
     {
         const PatternFiller like = fill({about, 1});
@@ -463,11 +471,11 @@ private:
         }
     }
 
-    /// Try straight lines.
+    /// Try straight grid lines.
     void try_straight(TurnStyle style)
     {
-        constexpr std::size_t kMost = 3; // limit of meshes of a style once one has nearly square quads; a
-                                         // choice, not measured
+        // Maximum number of meshes of one style, once a mesh has nearly square quads; a choice, not measured.
+        constexpr std::size_t kMost = 3;
         const std::size_t before = made_.size();
         for (const int rows : rows_to_try(fitting_rows(style))) {
             if (is_fine_ || (is_square_ && made_.size() >= before + kMost)) return;
@@ -488,7 +496,7 @@ private:
         return most;
     }
 
-    /// Try a grid at each of a few corners.
+    /// Try one grid at each corner, if there are only a few corners.
     void try_corners()
     {
         const std::vector<std::size_t> corners = lone_corners(region_);
@@ -512,9 +520,9 @@ private:
 
     void keep(PlanarQuads mesh)
     {
-        // Quality of the worst quad at which the search ends. Above kSquare, hard ends of 135° and rows that
-        // change their number of quads are no longer tried. Above kFine, with the promised share of good
-        // rows, nothing else is tried. Discs do not exceed kFine.
+        // Minimum quality of the worst quad at which the search ends. Above kSquare, hard ends of 135° and
+        // rows that change their number of quads are not tried. Above kFine, and with the promised share of
+        // good rows, nothing else is tried. Discs never exceed kFine.
         constexpr double kSquare = 0.75, kFine = 0.85;
         made_.push_back(std::move(mesh));
         const bool decides = has_half_ends_ || region_.loops.size() == 1;
@@ -537,7 +545,8 @@ private:
     const RunContext& context_;
     const paving::BoundarySizes sizes_;
     std::vector<PlanarQuads> made_;
-    std::vector<char> fits_; ///< for each mesh, whether it has the number of quads asked for, if that matters
+    /// For each mesh, whether it has the requested number of quads, or this number does not matter.
+    std::vector<char> fits_;
     const bool has_half_ends_;
     bool is_square_ = false; ///< whether some mesh has nearly square quads
     bool is_fine_ = false;   ///< whether some mesh also has good rows

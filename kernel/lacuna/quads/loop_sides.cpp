@@ -9,7 +9,7 @@ namespace {
 
 using geometry::orient2d;
 
-constexpr std::size_t kRun = 16; ///< sides in a box
+constexpr std::size_t kRun = 16; ///< number of sides in a box
 
 } // namespace
 
@@ -37,7 +37,7 @@ bool LoopSides::is_clear(Index a, Index b) const
     return true;
 }
 
-/// Whether the open segment from a to b does not meet the side from c to d.
+/// Whether the segment from a to b, without its ends, does not meet the side from c to d.
 bool LoopSides::passes(Index a, Index b, Index c, Index d) const
 {
     const Vec2 &pa = partial_.at(a), &pb = partial_.at(b), &pc = partial_.at(c), &pd = partial_.at(d);

@@ -17,7 +17,7 @@ namespace {
 
 const Vec2& at(std::span<const Vec2> points, Index p) { return points[index(p)]; }
 
-/// @param first, second  ideal angles at the ends of the side
+/// @param first, second  ideal angles of the quad at the two ends of the side
 bool stands_well(std::span<const Vec2> points, const Quad& quad, std::size_t side, double height,
                  double first, double second)
 {
@@ -52,7 +52,7 @@ std::size_t boundary_irregular(const PlanarRegion& region, const std::vector<dou
     return count;
 }
 
-/// Find a corner that is not a point's number, or occurs twice in a quad.
+/// Find a corner that is not the number of a point, or that occurs twice in a quad.
 std::string find_bad_corner(const PlanarQuads& mesh)
 {
     for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
@@ -68,7 +68,8 @@ std::string find_bad_corner(const PlanarQuads& mesh)
     return {};
 }
 
-/// Find a side that is used wrongly; sides used once must be those of the loops. Counts the sides in `edges`.
+/// Find a side that is used wrongly. A side that only one quad uses must be a side of the loops. Counts the
+/// sides in `edges`.
 std::string find_bad_side(const PlanarQuads& mesh, const PlanarRegion& region, std::size_t& edges)
 {
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads,
@@ -97,7 +98,7 @@ std::string find_bad_side(const PlanarQuads& mesh, const PlanarRegion& region, s
 
 double scaled_jacobian(std::span<const Vec2> points, const Quad& quad)
 {
-    // Rounding may take the sine of a right angle above 1.
+    // By rounding, the sine of a right angle may exceed 1.
     return std::min(
         1.0, least_sine(at(points, quad[0]), at(points, quad[1]), at(points, quad[2]), at(points, quad[3])));
 }
@@ -129,7 +130,8 @@ std::vector<double> boundary_angles(const PlanarRegion& region)
 
 double row_corner(double angle, Index quads)
 {
-    constexpr double kMostBend = kRightAngle / 2 * (1 + 1e-6); // eight sides for a full turn bend by 45° each
+    // The boundary of a hole with eight sides bends by 45° at each node.
+    constexpr double kMostBend = kRightAngle / 2 * (1 + 1e-6);
     return quads == 2 && std::abs(angle - 2 * kRightAngle) <= kMostBend ? angle / 2 : kRightAngle;
 }
 
@@ -140,7 +142,7 @@ bool may_be_good(double angle, Index quads)
 
 bool may_be_good(double angle)
 {
-    constexpr Index kMostQuads = 4; // right angles in a full turn
+    constexpr Index kMostQuads = 4; // a full turn has four right angles
     for (Index quads = 1; quads <= kMostQuads; ++quads) {
         if (may_be_good(angle, quads)) return true;
     }
@@ -233,7 +235,7 @@ std::string find_fault(const PlanarQuads& mesh, const PlanarRegion& region)
     const std::vector<Index> valence = valences(mesh.quads, mesh.points.size());
     const auto unused = std::ranges::find(valence, 0);
     if (unused != valence.end()) return formatted("point {} has no quad", unused - valence.begin());
-    // Euler: a disc with holes, connected and not pinched.
+    // Euler's formula holds for a disc with holes that is in one piece and not pinched.
     const auto euler = static_cast<long>(mesh.points.size() + mesh.quads.size()) - static_cast<long>(edges);
     if (euler != 2 - static_cast<long>(region.loops.size()))
         return formatted(

@@ -15,9 +15,9 @@
 namespace lacuna::quads {
 namespace {
 
-/// Numbers of sides for a part of a region between mirror axes: those of a ring, or else those of a straight
-/// grid, within the range of segments. If there are few quads and none fit, the range of a ring's segments is
-/// tried.
+/// Numbers of sides for a part of a region between mirror axes. A ring is tried first, and then a straight
+/// grid within the range of segments. If there are few quads and this range has no solution, the wider range
+/// of a ring's segments is tried.
 std::optional<Counts> counts_of_part(const PlanarRegion& part, std::span<const int> segment,
                                      std::span<const BoundarySegment> segments, bool few,
                                      const RunContext& context)
@@ -28,12 +28,12 @@ std::optional<Counts> counts_of_part(const PlanarRegion& part, std::span<const i
     return counts || !few ? counts : straight_counts(task, {kRingSegment, true, few});
 }
 
-/// A region with additional nodes where mirror axes cross sides whose numbers are not given.
+/// A region with an additional node wherever a mirror axis crosses a side whose number is not given.
 struct Halved {
     PlanarRegion region;
     std::vector<int> segment;   ///< segment of the side from each node to the next
     std::vector<Index> next;    ///< successor of each node in its loop
-    std::vector<double> weight; ///< 1, or ½ for half a side of the region
+    std::vector<double> weight; ///< 1 for a side of the region, ½ for half a side
     [[nodiscard]] int segment_at(Index p) const { return segment[index(p)]; }
 };
 
@@ -72,7 +72,7 @@ Halved halve_crossed(const CountTask& task)
     return halved;
 }
 
-/// The segment onto which the side after a node of a part is mapped.
+/// The segment that contains the image of the side after a node of a part.
 std::size_t image_of(const Halved& halved, const MirrorPart& part, const Symmetry& image, Index p)
 {
     Index a = part.whole[index(p)];
@@ -84,7 +84,8 @@ std::size_t image_of(const Halved& halved, const MirrorPart& part, const Symmetr
 struct PartSegments {
     std::vector<int> own; ///< segment of the side from each node of the part to the next
     std::vector<BoundarySegment> all;
-    std::vector<Index> starts; ///< node of the whole region at which each segment starts; -1: an axis
+    /// Node of the whole region at which each segment starts; -1: the segment is on an axis.
+    std::vector<Index> starts;
 };
 
 PartSegments segments_of(const CountTask& task, const Halved& halved, const MirrorPart& part)
@@ -126,7 +127,8 @@ PartSegments segments_of(const CountTask& task, const Halved& halved, const Mirr
     return made;
 }
 
-/// The wanted sides of each segment, rounded; to an even number if the segment is its own mirror image.
+/// The wanted number of sides of each segment, rounded. If a segment is its own mirror image, rounded to an
+/// even number.
 std::vector<int> rounded(const std::vector<BoundarySegment>& segments, const std::vector<SegmentPair>& pairs)
 {
     std::vector<int> counts;
@@ -139,13 +141,13 @@ std::vector<int> rounded(const std::vector<BoundarySegment>& segments, const std
     return counts;
 }
 
-/// Counts for all images of one part; the cost is infinite if no grid fills it.
+/// Numbers of sides for all images of one part. The cost is infinite if no grid fills the part.
 Counts counts_by_part(const CountTask& task, const Halved& halved, const MirrorPart& part, bool few)
 {
     const PartSegments segments = segments_of(task, halved, part);
     std::optional<Counts> counts = counts_of_part(part.region, segments.own, segments.all, few, task.context);
     const std::vector<SegmentPair> pairs = mirrored_segments(part.region, segments.own);
-    // If the part itself is symmetric, only numbers that respect its symmetry are accepted from a grid.
+    // If the part itself is symmetric, numbers from a grid are accepted only if they respect this symmetry.
     if (counts && !few && part.has_centre && unlike(counts->sides, pairs) > 0) counts.reset();
     const std::vector<int> sides = counts ? counts->sides : rounded(segments.all, pairs);
     std::vector<int> sum(task.segments.size(), 0);
@@ -172,7 +174,7 @@ std::optional<Counts> mirror_counts(const CountTask& task)
     if (symmetries.empty()) return std::nullopt;
     SizeField asked = task.region.size;
     if (!asked) asked = [mean = mean_size(task)](const Vec2&) { return mean; };
-    // For few quads the size asked is tried first, because they leave no room to grade sizes.
+    // With few quads there is no room for grading, so the requested size is tried first.
     std::vector<SizeField> sizes{paving::sizes_with_boundary(task.region).usual};
     if (quads_asked(task) < kFewForGrading) sizes.insert(sizes.begin(), asked);
     return cheapest_of_parts(halved.region, symmetries, sizes, [&](const MirrorPart& part) {
@@ -182,7 +184,7 @@ std::optional<Counts> mirror_counts(const CountTask& task)
 
 double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunContext& context)
 {
-    // Given sides between corners are segments of their own, because no corner may move.
+    // Given sides between two corners form a segment of their own, because no corner may move.
     std::vector<int> segment(part.region.points.size());
     std::vector<BoundarySegment> segments;
     std::vector<std::size_t> of_axis(part.wanted.size());
@@ -208,7 +210,7 @@ double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunCo
     if (counts) {
         for (std::size_t a = 0; a < of_axis.size(); ++a) sides[a] = counts->sides[of_axis[a]];
     }
-    // Without a grid, quads need only an even number of sides.
+    // Without a grid, quads only require an even total number of sides.
     if (std::accumulate(sides.begin(), sides.end(), given) % 2 != 0) ++*std::ranges::max_element(sides);
     divide_axes(part, sides, size);
     return counts ? counts->cost : kInfinity;

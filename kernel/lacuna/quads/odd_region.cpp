@@ -20,17 +20,18 @@
 namespace lacuna::quads {
 namespace {
 
-/// Limit of sides tried.
+/// Maximum number of sides that are tried.
 constexpr std::size_t kSidesTried = 4;
-/// Number of quads of a row, counted from the boundary, that may become the triangle. It limits how far
-/// inside the triangle may lie.
+/// Number of quads of a row, counted from the boundary, that may become the triangle. It limits the distance
+/// of the triangle from the boundary.
 constexpr std::size_t kMostSteps = 8;
-/// Number of rings of neighbours around the closed row whose nodes are moved, and number of rounds
-/// (`kFewRounds` if the mesh is smoothed later). More of either improve the worst cell only slightly.
+/// Number of rings of neighbours around the closed row whose nodes are moved, and number of rounds of moves.
+/// `kFewRounds` applies if the mesh is smoothed later. More rings or rounds improve the worst cell only
+/// slightly.
 constexpr int kRings = 3;
 constexpr int kRounds = 30, kFewRounds = 3;
 
-/// Quality of a quad; for a triangle, relative to an equilateral one.
+/// Quality of a quad. The quality of a triangle is relative to an equilateral triangle.
 double quality_of(std::span<const Vec2> points, const Quad& cell)
 {
     if (!mesh::is_triangle(cell)) return scaled_jacobian(points, cell);
@@ -58,7 +59,7 @@ struct Closed {
     }
 };
 
-/// Moves nodes to improve the worst of the cells around each.
+/// Moves nodes one at a time, each so that the worst cell around it improves.
 class Smoother {
 public:
     Smoother(Closed& closed, std::size_t fixed)
@@ -110,7 +111,7 @@ public:
     }
 
 private:
-    /// Quality of the worst cell at a node; some value in -1…floor if it is no better than `floor`.
+    /// Quality of the worst cell at a node. If it does not exceed `floor`, some value from -1 to `floor`.
     [[nodiscard]] double worst_at(Index n, double floor) const
     {
         double worst = 1;
@@ -121,11 +122,11 @@ private:
         return worst;
     }
 
-    /// Move a node to the mean of its neighbours if that is better, then search from there for the place with
+    /// Move a node to the mean of its neighbours if this is better. From there, search for the position with
     /// the best worst cell.
     bool move(Index n)
     {
-        // First and last step as shares of the mean side, and the least gain; a smaller step gains little.
+        // First and last step as shares of the mean side, and the minimum gain. Smaller steps gain little.
         constexpr double kFirst = 0.2, kLast = 0.01, kGain = 1e-3;
         Vec2 mean = Vec2::Zero();
         double side = 0, count = 0;
@@ -165,26 +166,27 @@ private:
 
 /// A row that can be closed, in a mesh of the divided region.
 struct Row {
-    std::vector<Segment> closed; ///< sides, each collapsed to one node
-    std::vector<Index> gone;     ///< quads that vanish
+    std::vector<Segment> closed; ///< sides, each of which is collapsed to a node
+    std::vector<Index> gone;     ///< quads that disappear
     Index last;                  ///< the quad that becomes the triangle
 };
 
-/// The part of a mesh that closing rows from a node can change or depends on. Nodes and quads keep their
-/// order, so operations on the part give the same result as on the mesh.
+/// The part of a mesh that is changed by closing rows from a node, or that influences the result. Nodes and
+/// quads keep their order, so operations on the part give the same result as on the whole mesh.
 struct Window {
     PlanarQuads mesh;
-    std::vector<char> on_rim;        ///< nodes on the region's boundary
-    std::vector<Index> nodes, quads; ///< their numbers in the mesh
-    Index middle;                    ///< the added node; the nodes before it are the region's
+    std::vector<char> on_rim;        ///< for each node of the part, whether it is on the region's boundary
+    std::vector<Index> nodes, quads; ///< numbers of the part's nodes and quads in the mesh
+    Index middle;                    ///< the added node; all nodes before it are nodes of the region
 };
 
-/// @param divided  the region with nodes added to its boundary. Nodes after `middle` have left the boundary
-///                 of the mesh.
-/// @param middle   the added node; the nodes before it are the region's.
+/// @param divided  the region with nodes added to its boundary. Nodes after `middle` are no longer on the
+///         boundary of the mesh.
+/// @param middle   the added node; all nodes before it are nodes of the region.
 Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle)
 {
-    // Rings to take: the reach of the rows, the rings around them, and the cells of their nodes.
+    // Number of rings to include: the length of the rows, the rings around them, and the cells of their
+    // nodes.
     constexpr std::size_t kReach = kMostSteps + kRings + 2;
     const mesh::Incidence at = mesh::quads_at_nodes(mesh.quads, mesh.points.size());
     std::vector<Index> number(mesh.points.size(), -1);
@@ -227,8 +229,8 @@ Window window_at(const PlanarQuads& mesh, const PlanarRegion& divided, Index mid
     return window;
 }
 
-/// Every way of closing a row: from either boundary side that ends at the middle node, up to each of the
-/// first quads of the row.
+/// All ways to close a row. The row starts at one of the two boundary sides that end at the middle node, and
+/// is closed up to one of its first quads.
 std::vector<Row> rows_from(const Window& window)
 {
     const std::vector<Quad>& quads = window.mesh.quads;
@@ -246,7 +248,7 @@ std::vector<Row> rows_from(const Window& window)
         Index side = first;
         for (std::size_t step = 0; step < kMostSteps && side >= 0; ++step) {
             const Index a = end_of(side, 0), b = end_of(side, 1);
-            // Two boundary nodes must not become one, unless one is the added node.
+            // Two boundary nodes must not be merged, unless one of them is the added node.
             const bool both = window.on_rim[index(a)] != 0 && window.on_rim[index(b)] != 0;
             if (mesh::is_triangle(quads[index(side / 4)]) || (step > 0 && both)) break;
             if (!touched.insert(a).second || !touched.insert(b).second) break;
@@ -260,8 +262,8 @@ std::vector<Row> rows_from(const Window& window)
     return rows;
 }
 
-/// Close a row; empty if another cell would lose a corner too.
-/// @param middle  the added node; the nodes before it are the region's.
+/// Close a row. Empty if a cell beside the row would also lose a corner.
+/// @param middle  the added node; all nodes before it are nodes of the region.
 std::optional<Closed> close(const PlanarQuads& mesh, const std::vector<char>& on_rim, const Row& row,
                             Index middle, int rounds)
 {
@@ -320,8 +322,8 @@ Row in_mesh(Row row, const Window& window)
     return row;
 }
 
-/// The best way of closing a row of a mesh of the divided region; empty if there is none.
-/// @param than  the result must be better than this, if given.
+/// The best result of closing a row in a mesh of the divided region. Empty if no row can be closed.
+/// @param than  if given, only a result that is better than this is returned.
 std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& divided, Index middle,
                                  const std::optional<Closed>& than, int rounds, const RunContext& context)
 {
@@ -344,7 +346,8 @@ std::optional<Closed> close_best(const PlanarQuads& mesh, const PlanarRegion& di
     return close(mesh, on_rim, in_mesh(*row, window), middle, rounds);
 }
 
-/// The region with the given sides divided, in order; the nodes in their middles are its last points.
+/// The region with the given sides divided, in their order. The new nodes in the middle of these sides are
+/// its last points.
 PlanarRegion divide(const PlanarRegion& region, std::span<const RegionSide> sides)
 {
     PlanarRegion divided = region;
@@ -356,7 +359,7 @@ PlanarRegion divide(const PlanarRegion& region, std::span<const RegionSide> side
         added.emplace_back(side, static_cast<Index>(divided.points.size()));
         divided.points.push_back((a + b) / 2);
     }
-    // From the last place to the first, so that the remaining places stay valid.
+    // Insert nodes from the last position to the first, so that the remaining positions stay valid.
     std::ranges::sort(added, [](const auto& a, const auto& b) { return a.first.place > b.first.place; });
     for (const auto& [side, middle] : added) {
         std::vector<Index>& loop = divided.loops[side.loop];
@@ -435,7 +438,7 @@ PlanarQuads fill_divided_region(const PlanarRegion& region, std::span<const Regi
 {
     const PlanarRegion divided = divide(region, sides);
     PlanarQuads mesh = mesher(divided, context);
-    // The last added node first, so that those before it keep their numbers.
+    // Close rows at the last added node first, so that nodes added before it keep their numbers.
     for (std::size_t s = sides.size(); s-- > 0;) {
         const auto middle = static_cast<Index>(region.points.size() + s);
         std::optional<Closed> closed = close_best(mesh, divided, middle, std::nullopt, kFewRounds, context);

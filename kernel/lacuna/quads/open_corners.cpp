@@ -15,8 +15,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Four nodes inside a quad that is not convex, so that the inner quad and the four around it are convex.
-/// Empty if no point is known from which all its corners are visible.
+/// Four nodes inside a quad that is not convex. The quad that they form and the four quads around it are
+/// convex. Empty if no point is known from which all corners of the given quad are visible.
 std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer)
 {
     // All corners are visible from the diagonal through the reflex corner.
@@ -37,15 +37,15 @@ std::optional<std::array<Vec2, 4>> small_within(const std::array<Vec2, 4>& outer
         room = std::min(room, corner_sine(cross(side, centre - outer[k]), side.norm()));
     }
     if (!(room > 0)) return std::nullopt;
-    // Radius of the inner quad, as a share of the radius of the circle that touches the nearest side: a
-    // compromise between flat outer quads and a tiny inner one.
+    // Radius of the inner quad, as a share of the radius of the circle that touches the nearest side. The
+    // value is a compromise between flat outer quads and a tiny inner quad.
     constexpr double kOfRoom = 0.4;
     std::array<Vec2, 4> inner;
     for (std::size_t k = 0; k < 4; ++k) inner[k] = centre + kOfRoom * room * (outer[k] - centre).normalized();
     return inner;
 }
 
-/// Put a smaller quad inside a quad, and four around it. Their four nodes are added to the points.
+/// Put a smaller quad inside a quad, and four quads around it. The four new nodes are added to the points.
 std::array<Quad, 5> pillow(std::vector<Vec2>& points, const Quad& outer)
 {
     std::array<Vec2, 4> corner;
@@ -83,12 +83,12 @@ public:
 
     void run()
     {
-        constexpr int kMostTries = 4; // each change adds a quad at the node, and no angle needs more
+        constexpr int kMostTries = 4; // each try adds a quad at the node, and no angle needs more than four
         for (Index p = 0; index(p) < fixed_; ++p) {
             if (!net_.is_used(p)) continue;
             for (int tries = 0; tries < kMostTries && net_.valence(p) < needed(p); ++tries)
                 if (!swap_edge(p, 0)) pillow_widest(p);
-            // A wide node gets another quad if the quads around stay good.
+            // A wide node gets another quad if the quads around it stay good.
             if (net_.valence(p) < better_[index(p)]) swap_edge(p, kPoorQuad);
         }
         for (std::size_t q = 0; q < net_.quad_slots(); ++q) {
@@ -103,7 +103,8 @@ private:
     [[nodiscard]] int needed(Index p) const { return index(p) < fixed_ ? needed_[index(p)] : 3; }
     [[nodiscard]] double sine(const Quad& q) const { return scaled_jacobian(mesh_.points, q); }
 
-    /// Swap an edge opposite the node in one of its quads, so that the new edge starts at the node.
+    /// Choose an edge that is opposite to the node in one of its quads, and swap it so that the new edge
+    /// starts at the node.
     /// @param least  the smallest sine of each of the two new quads must exceed this
     bool swap_edge(Index p, double least)
     {
@@ -120,7 +121,8 @@ private:
                 if (other < 0) continue;
                 const Index c = net_.to(QuadNet::after(other)),
                             d = net_.to(QuadNet::after(QuadNet::after(other)));
-                // The outline of both quads is p, v1, v2, v3 with c, d inserted between a and b.
+                // Without the edge, both quads form one outline: p, v1, v2, v3 with c and d inserted between
+                // a and b.
                 if (c == p || d == p) continue;
                 const std::array<Quad, 2> swapped =
                     first ? std::array<Quad, 2>{Quad{p, v1, c, d}, Quad{p, d, v2, v3}}
@@ -156,7 +158,8 @@ private:
     PlanarQuads& mesh_; ///< its quads are replaced by those of `net_` at the end
     std::size_t fixed_;
     QuadNet net_;
-    std::vector<int> needed_, better_; ///< quads at a boundary node: the minimum, and a good number
+    /// For each boundary node: the minimum number of quads, and a better number.
+    std::vector<int> needed_, better_;
 };
 
 } // namespace

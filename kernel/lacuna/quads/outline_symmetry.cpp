@@ -37,12 +37,12 @@ public:
     std::vector<Symmetry> run() const
     {
         std::vector<Symmetry> found = all();
-        // Limit of rotations. Further ones would not improve the mesh.
+        // Maximum number of rotations. More rotations would not improve the mesh.
         constexpr std::size_t kMostTurns = 64;
         const auto turns = 1 + static_cast<std::size_t>(std::ranges::count_if(
                                    found, [](const Symmetry& s) { return !s.map.mirrors; }));
         if (turns <= kMostTurns) return found;
-        // Quarter turns, if there are any, are kept.
+        // Keep the quarter turns, if there are any.
         const std::size_t quarters = std::gcd(turns, std::size_t{4});
         std::size_t every = (turns + kMostTurns - 1) / kMostTurns;
         while (turns % every != 0 || turns / every % quarters != 0) ++every;
@@ -129,13 +129,13 @@ private:
 /// A mirror axis and the angle of its direction, 0…π.
 struct Axis {
     double angle = 0;
-    /// Twice the number of loops that the reflection maps onto themselves, plus one if the axis passes
-    /// through the first node.
+    /// Rank of the axis: twice the number of loops that the reflection maps onto themselves, plus one if the
+    /// axis passes through the first node.
     int worth = 0;
     std::size_t symmetry = 0;
 };
 
-/// Number of sides along a line that the size asks for.
+/// Number of sides that the size requires along a line.
 double sides_along(const Vec2& from, const Vec2& to, const SizeField& size)
 {
     constexpr int kSamples = 64;
@@ -144,7 +144,7 @@ double sides_along(const Vec2& from, const Vec2& to, const SizeField& size)
     return sum * (to - from).norm() / kSamples;
 }
 
-/// Cuts a region between two rays from its centre; rays half a turn apart form one line.
+/// Cuts a region between two rays from its centre. Two opposite rays form one line.
 class PartCutter {
 public:
     PartCutter(const PlanarRegion& region, const Vec2& centre, double from, double to, bool has_centre)
@@ -175,7 +175,7 @@ public:
 
 private:
     [[nodiscard]] Vec2 arm(Index p) const { return region_.points[index(p)] - centre_; }
-    /// Distance of a point from a ray, > 0 inside the part.
+    /// Distance of a point from a ray; positive on the side of the part.
     [[nodiscard]] double within(const Vec2& d, int ray) const
     {
         return ray == 0 ? cross(ray_[0], d) : cross(d, ray_[1]);
@@ -194,7 +194,7 @@ private:
         return 0;
     }
 
-    /// Collect the loops inside the part, and the pieces of loops that cross the rays.
+    /// Collect the loops inside the part, and the pieces of loops between their crossings with the rays.
     bool collect()
     {
         for (const std::vector<Index>& loop : region_.loops) {
@@ -204,7 +204,7 @@ private:
                 if (arm(loop[i]).norm() <= alike_) return false;
                 const Vec2 a = arm(loop[i]), b = arm(loop[(i + 1) % n]);
                 in[i] = is_inside((a + b) / 2) ? 1 : 0;
-                // If a side crosses a ray, its middle lies on one side of the ray and an end on the other.
+                // If a side crosses a ray, its middle and one of its ends are on different sides of the ray.
                 for (const Vec2& d : {a, b}) {
                     if (in[i] && !is_inside(d) && ray_of(d) == 0) return false;
                 }
@@ -212,7 +212,7 @@ private:
             const auto out = static_cast<std::size_t>(std::ranges::find(in, 0) - in.begin());
             if (out == n) {
                 whole_loops_.push_back(loop);
-                // A loop that touches a ray without crossing it cannot be cut there.
+                // A loop that only touches a ray cannot be cut there.
                 for (const Index p : loop)
                     if (ray_of(arm(p)) != 0) return false;
                 continue;
@@ -235,7 +235,7 @@ private:
 
     void push(Index whole) { part_.add(region_.points[index(whole)], whole, -1, ray_of(arm(whole))); }
 
-    /// Follow chains and axes around one loop.
+    /// Walk around one loop of the part, along chains and axes in turn.
     bool join_chains(const SizeField& size)
     {
         part_.region.loops.emplace_back();
@@ -245,11 +245,12 @@ private:
             const std::vector<Index> chain = *at;
             chains_.erase(at);
             for (const Index p : chain) push(p);
-            // Continue with the chain that starts where the ray meets the region's boundary again.
+            // Continue along the ray to the next place where it meets the region's boundary, and with the
+            // chain that starts there.
             Vec2 from = region_.points[index(chain.back())];
             char ray = ray_of(from - centre_);
             auto next = next_start(ray, (ray == 1 ? 1 : -1) * (from - centre_).norm(), start);
-            if (!next && ray == 2 && has_centre_) { // across the centre to the other ray
+            if (!next && ray == 2 && has_centre_) { // continue across the centre to the other ray
                 next = next_start(1, 0, start);
                 if (next && !is_half_) {
                     walk_axis(from, centre_, 2, size);
@@ -266,7 +267,8 @@ private:
         }
     }
 
-    /// The first start of a chain on a ray after a position: outward on the first ray, inward on the second.
+    /// The first start of a chain on a ray beyond a position. On the first ray the walk leads outward, on the
+    /// second ray inward.
     [[nodiscard]] std::optional<Index> next_start(char ray, double beyond, Index start) const
     {
         std::optional<Index> best;
@@ -283,7 +285,7 @@ private:
         return best;
     }
 
-    /// Add nodes along an axis from the last node added, excluding both ends.
+    /// Add nodes along an axis, starting from the node that was added last. The two ends are excluded.
     void walk_axis(const Vec2& from, const Vec2& to, char ray, const SizeField& size)
     {
         const auto axis = static_cast<int>(part_.wanted.size());
@@ -293,7 +295,7 @@ private:
         for (const Vec2& p : points_between(from, to, sides, size)) part_.add(p, -1, axis, ray);
     }
 
-    /// Put the outer loop first. @return false unless there is exactly one
+    /// Move the outer loop to the front. @return false if the number of outer loops is not one
     bool sort_loops()
     {
         std::size_t outer = 0, count = 0;
@@ -316,7 +318,7 @@ private:
     MirrorPart part_;
 };
 
-/// Whether the reflection maps a side onto itself, so that the axis crosses it.
+/// Whether a reflection maps a side onto itself, so that its axis crosses the side.
 bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
 {
     bool crosses = false;
@@ -326,10 +328,10 @@ bool crosses_side(const PlanarRegion& region, const Symmetry& mirror)
     return crosses;
 }
 
-/// Whether an axis divides a corner into halves that deviate too much from a multiple of a right angle.
+/// Whether an axis halves a corner and the halves deviate too much from a multiple of a right angle.
 bool halves_corner(const PlanarRegion& region, const Symmetry& mirror)
 {
-    // [right angles]; halves at a hole with eight sides deviate by 22.5°.
+    // Right angles. At a hole with eight sides, halves deviate by 22.5°.
     constexpr double kMostOff = 25.0 / 90;
     for (const std::vector<Index>& loop : region.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -369,12 +371,12 @@ bool lies_in(const PlanarRegion& region, const Vec2& p)
            }) == 1;
 }
 
-/// The angles at which the part may begin and end, the best ranked first.
+/// The angles at which the part may begin and end. The pair with the best rank comes first.
 std::vector<std::array<double, 2>> parts_between(const std::vector<Axis>& axes, bool has_centre)
 {
     constexpr double kPi = std::numbers::pi;
-    // Limit of images around a centre outside the region. With many narrow parts, irregular nodes would have
-    // few places.
+    // Maximum number of axes through a centre outside the region. If the parts were many and narrow, there
+    // would be little room for irregular nodes.
     constexpr std::size_t kMostAxes = 8;
     if (!has_centre && axes.size() > 1) {
         std::size_t every = (axes.size() + kMostAxes - 1) / kMostAxes;
@@ -418,7 +420,8 @@ std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vec
     const auto [from, to] = parts[choice];
     auto part = PartCutter(region, centre, from, to, has_centre).run(size);
     if (!part) return std::nullopt;
-    // The images: rotated by a multiple of twice the part's angle, or reflected and then rotated.
+    // The images of the part. Each is rotated by a multiple of twice the part's angle, or reflected and then
+    // rotated.
     const double angle = to - from;
     const auto count = static_cast<int>(std::lround(kFullTurn / angle));
     part->images.push_back({{centre, 1, 0, false}, {}});
@@ -449,7 +452,7 @@ void divide_axes(MirrorPart& part, const std::vector<int>& sides, const SizeFiel
     for (const std::vector<Index>& loop : part.region.loops) {
         made.region.loops.emplace_back();
         const std::size_t n = loop.size();
-        // Begin at the start of a piece, if there is one.
+        // Begin at the start of a piece of an axis, if there is one.
         std::size_t first = 0;
         while (first < n && part.axis[index(loop[first])] >= 0 &&
                part.axis[index(loop[first])] == part.axis[index(loop[(first + n - 1) % n])])
@@ -462,7 +465,7 @@ void divide_axes(MirrorPart& part, const std::vector<int>& sides, const SizeFiel
             if (axis >= 0) {
                 while (end < n && part.axis[index(loop[(first + end) % n])] == axis) ++end;
                 const Index last = loop[(first + end) % n];
-                // Nodes inside the piece lie on the ray of the end that is not the centre.
+                // Nodes inside the piece are on the same ray as the end that is not the centre.
                 const char ray = part.ray[index(here)] == 3 ? part.ray[index(last)] : part.ray[index(here)];
                 for (const Vec2& p :
                      points_between(part.region.points[index(here)], part.region.points[index(last)],
@@ -490,8 +493,8 @@ PlanarQuads unfold(const MirrorPart& part, const PlanarQuads& mesh, const Planar
                 here = image.to[index(part.whole[p])];
                 continue;
             }
-            // An image shares an axis with the image before or after it; the last one meets the first on the
-            // first ray.
+            // An image shares an axis with the image before it or after it. The last image shares the first
+            // ray with the first image.
             const int ray = rim ? part.ray[p] : 0;
             if (ray == 3 && j > 0) here = node[0][p];
             if (ray == 2 && j % 2 != 0) here = node[j - 1][p];

@@ -25,19 +25,19 @@ Chain part(const Chain& chain, std::size_t from, std::size_t to)
 }
 Chain rest(const Chain& chain, std::size_t from) { return part(chain, from, chain.size() - 1); }
 
-/// Bottom and top run from left to right, left and right from bottom to top.
+/// Four sides of a patch. Bottom and top run from left to right; left and right run from bottom to top.
 struct FourSides {
     Chain bottom, right, top, left;
 };
 
-/// The middle of a row of at least two edges; never one of its ends.
+/// The position in the middle of a row of at least two edges. It is never an end of the row.
 std::size_t middle_of(std::size_t edges) { return std::clamp<std::size_t>((edges + 1) / 2, 1, edges - 1); }
 
 class TemplateFiller {
 public:
     explicit TemplateFiller(std::span<const Vec2> loop) : loop_(loop.size())
     {
-        // A square patch has this many points; others usually have fewer.
+        // A square patch has this many points. Other patches usually have fewer.
         const std::size_t most = (loop_ / 4 + 1) * (loop_ / 4 + 1);
         points_.reserve(loop_ + most);
         points_.assign(loop.begin(), loop.end());
@@ -83,7 +83,7 @@ private:
         return static_cast<Index>(points_.size()) - 1;
     }
 
-    /// Grids around a node in the middle, or around a node on the cut.
+    /// Fill with one grid at each corner, around a node in the middle or a node on the cut.
     void star(const std::vector<Chain>& sides, bool ends_in_cut)
     {
         const std::size_t n = sides.size();
@@ -103,7 +103,7 @@ private:
                                  ? line(foot_of(i), middle, edges)
                                  : Chain{middle});
         }
-        if (on_cut) { // the cut forms both spokes that end there
+        if (on_cut) { // the cut consists of the two spokes that end there
             const auto at_middle = sides[n - 1].begin() + foot[n - 1];
             spokes[0] = reversed(Chain(at_middle, sides[n - 1].end()));
             spokes[n - 2] = Chain(sides[n - 1].begin(), at_middle + 1);
@@ -144,7 +144,7 @@ private:
         for (std::size_t q = first_quad; q < quads_.size(); ++q) std::swap(quads_[q][1], quads_[q][3]);
     }
 
-    /// Some columns turn off to the left and the others to the right, with a line between them.
+    /// Turn some columns to the left and the others to the right, with a line between both groups.
     void turn_both_ways(const FourSides& s, std::size_t to_left)
     {
         const std::size_t edges = s.left.size() - 1 - to_left;
@@ -160,8 +160,8 @@ private:
         fill_four({rest(s.bottom, bottom), s.right, rest(s.top, top), line});
     }
 
-    /// k columns enter at the bottom and turn off to the right, around one node of three quads and one of
-    /// five.
+    /// Turn k columns, which enter at the bottom, to the right. They turn around one node of three quads and
+    /// one node of five quads.
     ///
     ///    +------+-----------+
     ///    |      |           |     bottom = x + k + x1, top = x + x1
@@ -208,7 +208,8 @@ private:
         return points;
     }
 
-    /// The points of four sides, copied, because those of the mesh move in memory while it grows.
+    /// The points of four sides. They are copied, because the points of the mesh move in memory when the mesh
+    /// grows.
     struct PatchPoints {
         std::vector<Vec2> bottom, right, top, left;
         [[nodiscard]] geometry::CoonsPatch<Vec2> patch() const { return {bottom, right, top, left}; }
@@ -225,7 +226,7 @@ private:
         return points;
     }
 
-    /// Fill a grid between four chains. Bottom and top run in the same direction; left and right too.
+    /// Fill a grid between four chains. Bottom and top have the same direction, and so have left and right.
     void grid(const Chain& bottom, const Chain& right, const Chain& top, const Chain& left)
     {
         const std::size_t m = bottom.size() - 1, n = left.size() - 1;
@@ -256,7 +257,7 @@ private:
     std::vector<Quad> quads_;
 };
 
-/// The sides of the part of the loop from one position to another, split at the corners between them.
+/// The sides of a part of the loop between two positions, divided at the corners of the loop.
 std::vector<Chain> sides_between(std::size_t from, std::size_t to, std::size_t loop,
                                  std::span<const std::size_t> corners)
 {

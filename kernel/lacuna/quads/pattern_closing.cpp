@@ -16,9 +16,9 @@ std::array<int, 2> excess_of(const PatternLoop& loop)
     return excess;
 }
 
-/// A turn moved by one side, which brings a loop nearer to closing.
+/// A move of a turn by one side, after which the loop is closer to closing.
 struct TurnMove {
-    /// The side that changes its heading; the nodes of the turn before and after.
+    /// The side that changes its heading, and the nodes at which the turn is before and after the move.
     std::size_t side = 0, from = 0, to = 0;
     int heading = 0;           ///< new heading of the side
     std::array<int, 2> left{}; ///< excess after the move
@@ -31,7 +31,8 @@ double own_turn(const PatternLoop& loop, std::size_t i)
                  : loop.direction[0] + loop.turns - loop.direction[loop.size() - 1];
 }
 
-/// Whether the quads of a turn at a node would have angles of 54° to 126° there, a sine of 0.8.
+/// Whether the quads at a node would have angles of 54° to 126° if the loop turned there by `turn`. The sine
+/// of these angles is 0.8.
 bool may_turn(const PatternLoop& loop, std::size_t i, int turn)
 {
     constexpr double kOffSquare = 0.4; // allowed deviation of each angle, in right angles: 54° to 126°
@@ -39,9 +40,9 @@ bool may_turn(const PatternLoop& loop, std::size_t i, int turn)
     return std::abs((2 - own_turn(loop, i)) / (2 - turn) - 1) < kOffSquare;
 }
 
-/// @param hard  move turns of the boundary itself, if the angles at the old and the new node allow it;
-/// otherwise move the movable turns.
-/// @return empty if no move brings the loop nearer to closing
+/// @param hard  true: move turns of the boundary itself, if the angles at the old and the new node permit it;
+///         false: move the movable turns.
+/// @return empty if no move brings the loop closer to closing
 std::optional<TurnMove> cheapest_move(const PatternLoop& loop, const std::array<int, 2>& excess, bool hard)
 {
     const std::size_t n = loop.size();
@@ -52,7 +53,7 @@ std::optional<TurnMove> cheapest_move(const PatternLoop& loop, const std::array<
         if (turn == 0 || (loop.movable[i] != 0) == hard) continue;
         const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
         for (const bool forward : {true, false}) {
-            // The side that takes its neighbour's heading, and the node to which the turn moves.
+            // The side that gets the heading of its neighbour, and the node to which the turn moves.
             const std::size_t changed = forward ? i : before, next = forward ? after : before;
             const int there = loop.turn(next) + turn;
             if (hard ? !may_turn(loop, i, 0) || !may_turn(loop, next, there) : loop.turn(next) != 0) continue;
@@ -92,7 +93,7 @@ bool close_pattern_loop(PatternLoop& loop, int period)
 bool trade_column_for_row(PatternLoop& loop)
 {
     const std::size_t n = loop.size();
-    std::vector<std::size_t> ends; // nodes at which the loop turns from a row into a column
+    std::vector<std::size_t> ends; // nodes at which a row of the loop meets a column
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t before = (i + n - 1) % n;
         if (loop.turn(i) == 0 || loop.heading[before] % 2 != 0) continue;

@@ -30,7 +30,7 @@ std::optional<std::vector<int>> counts_for(const CountTask& task)
     return std::move(counts->sides);
 }
 
-/// Whether every other node of each loop can be left out while all corners stay.
+/// Whether every other node of each loop can be left out without leaving out a corner.
 bool can_be_halved(const CountTask& task, const std::vector<int>& counts)
 {
     for (const std::vector<Index>& loop : task.region.loops) {
@@ -50,7 +50,8 @@ bool can_be_halved(const CountTask& task, const std::vector<int>& counts)
     return true;
 }
 
-/// Twice the numbers of a region half as fine. @return empty if some are given or short
+/// Twice the numbers of sides of a region with twice the size. @return empty if some numbers are given or too
+/// small
 std::optional<std::vector<int>> even_counts(const CountTask& task)
 {
     std::vector<BoundarySegment> segments(task.segments.begin(), task.segments.end());

@@ -13,10 +13,11 @@
 namespace lacuna::quads {
 namespace {
 
-/// A turn is soft if the boundary's own turn differs from it by more than this [right angles]. At an end, one
-/// quad takes the whole angle: the limit is half way to a side, 135° or a sine of 0.7. At a corner three
-/// quads share the angle, at a reversal four: the limit is that of `least_irregular()`, for each quad, which
-/// then has 0.8 right angles. Higher limits give fewer irregular nodes and worse boundary quads.
+/// A turn is soft if it differs from the boundary's own turn by more than this [right angles]. At an end, one
+/// quad takes the whole angle. The limit there is halfway to a side: 135°, a sine of 0.7. At a corner three
+/// quads share the angle, and at a reversal four. The limit there is that of `least_irregular()` for each
+/// quad, which then has 0.8 right angles. Higher limits give fewer irregular nodes and worse quads at the
+/// boundary.
 constexpr double kSoftEnd = 0.5 + 1e-9, kSoftHalf = 0.49, kSoftCorner = 0.65 / 3;
 
 double square(double x) { return x * x; }
@@ -34,7 +35,7 @@ double frame_angle(const LoopFrame& frame, const Vec2& p)
     return std::atan2(out.y(), out.x()) + kRightAngle;
 }
 
-/// An angle in right angles, from -2 to 2.
+/// An angle in units of right angles, from -2 to 2.
 double in_quarters(double angle) { return std::remainder(angle, kFullTurn) / kRightAngle; }
 
 LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loop, const LoopFrame& frame)
@@ -60,7 +61,8 @@ LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loo
     return angles;
 }
 
-/// Whether a turn takes place some rows further inside, because the boundary's own turn differs too much.
+/// Whether a turn is soft: the grid makes it some rows further inside, because the boundary's own turn
+/// differs too much.
 bool is_soft(double own, int turn, TurnStyle style)
 {
     const double limit = turn < 0                        ? kSoftCorner * (2 - turn)
@@ -69,20 +71,21 @@ bool is_soft(double own, int turn, TurnStyle style)
     return turn != 0 && std::abs(own - turn) > limit;
 }
 
-/// Cost of a soft turn for `TurnStyle::few_soft`: how much deviation of angles an irregular node is worth. A
-/// side at a right angle to its heading costs 1. A choice, not measured.
+/// Cost of a soft turn for `TurnStyle::few_soft`: the deviation of angles that is accepted to avoid an
+/// irregular node. A side perpendicular to its heading costs 1. A choice, not measured.
 constexpr double kSoftTurn = 0.5;
 
-/// The headings of least cost, given that of the first side.
+/// Finds the headings with the least cost, for a given heading of the first side.
 class HeadingSearch {
 public:
-    /// @param weight  of the deviation of a side, relative to that of a node's angle.
+    /// @param weight  weight of the deviation of a side's direction, relative to the deviation of a node's
+    ///         angle.
     HeadingSearch(const LoopAngles& angles, double weight, TurnStyle style)
         : angles_(angles), weight_(weight), style_(style)
     {
     }
 
-    /// @return the cost; the headings are stored in `best`.
+    /// @return the cost of the best headings, which are stored in `best`.
     double run(int start, std::vector<int>& best)
     {
         const std::size_t n = angles_.turn.size();
@@ -124,7 +127,7 @@ public:
         return least;
     }
 
-    /// The headings tried for a side: those nearest to its direction.
+    /// A heading that is tried for a side. The headings nearest to the side's direction are tried.
     [[nodiscard]] int heading(std::size_t i, int slot) const
     {
         return static_cast<int>(std::lround(angles_.direction[i])) + slot - kWidth / 2;
@@ -167,8 +170,9 @@ Vec2 centre_of(const std::vector<Vec2>& points, const std::vector<Index>& loop)
 
 double main_angle(const PlanarRegion& region)
 {
-    // The boundary has no main direction if the sum is less than this share of all summed terms, as for a
-    // regular octagon with round corners. A higher value falls back on the centres of the loops more often.
+    // The boundary has no main direction if the absolute value of the sum is less than this share of the sum
+    // of all absolute values. An example is a regular octagon with round corners. With a higher value, the
+    // centres of the loops decide more often.
     constexpr double kClear = 0.1;
     std::complex<double> sum = 0;
     double whole = 0;
@@ -209,8 +213,9 @@ bool has_half_ends(const PlanarRegion& region)
 std::optional<PatternLoop> head_loop(std::span<const Vec2> points, const std::vector<Index>& loop,
                                      const LoopFrame& frame, TurnStyle style)
 {
-    // Weights of a side's direction relative to angles. For a grid around a hole the angles decide, because
-    // the sides of a slot run across any circle, so the weight is divided by the number of sides.
+    // Weight of a side's direction relative to a node's angle. For a grid around a hole the angles must
+    // decide, because the sides of a slot do not follow circles. The weight is therefore divided by the
+    // number of sides.
     constexpr double kStraight = 1, kRound = 2;
     const LoopAngles angles = angles_of(points, loop, frame);
     HeadingSearch search(angles, frame.polar ? kRound / static_cast<double>(loop.size()) : kStraight, style);
@@ -246,8 +251,9 @@ bool has_doubtful_turns(const PlanarRegion& region)
 
 bool is_ring_loop(std::span<const Vec2> points, const PatternLoop& loop)
 {
-    // Turn from which a corner counts as an end of the boundary, which no ring grid may pass straight [right
-    // angles]: angles up to 112°, where two quads would have a sine of 0.83.
+    // If the boundary turns by more than this at a node, the node is an end of the boundary, and a ring grid
+    // must not pass it straight [right angles]. These are angles of up to 112°; two quads there would have a
+    // sine of 0.83.
     constexpr double kEnd = 0.75;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         if (loop.movable[i]) return false;

@@ -12,7 +12,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// Rows along a loop that change its number of sides.
+/// Places rows along a loop that change its number of sides.
 class ChangingRows {
 public:
     ChangingRows(PatternLoop& loop, std::vector<Vec2>& points, std::vector<Quad>& quads,
@@ -21,12 +21,13 @@ public:
     {
     }
 
-    /// Place one row. @param corners  positions in the loop, ascending; updated to positions in the new loop.
+    /// Place one row. @param corners  positions in the loop, ascending. On return, the positions in the new
+    /// loop.
     bool lay(std::vector<std::size_t>& corners, bool grows)
     {
         const std::vector<Index> nodes = loop_.nodes;
         const std::size_t n = nodes.size();
-        // At a corner the row has one node beside three of the loop, or three beside one.
+        // At a corner, the row has one node beside three nodes of the loop, or three nodes beside one.
         constexpr std::size_t kApart = 3;
         for (std::size_t c = 0; c < corners.size(); ++c) {
             const std::size_t next = corners[(c + 1) % corners.size()] + (c + 1 == corners.size() ? n : 0);
@@ -34,7 +35,7 @@ public:
         }
         std::vector<char> turns(n, 0);
         for (const std::size_t c : corners) turns[c] = 1;
-        // The new nodes beside each node; equal unless the row grows there.
+        // For each node, the first and the last new node beside it. They differ only where the row grows.
         std::vector<Index> first(n), last(n);
         std::vector<Index> row;
         for (std::size_t i = 0; i < n; ++i) {
@@ -78,7 +79,7 @@ private:
         return static_cast<Index>(points_.size()) - 1;
     }
 
-    /// Space the loop's nodes evenly along it; one of them stays where it is.
+    /// Space the nodes of the loop evenly along it. One node stays in its position.
     void make_even(std::size_t staying)
     {
         const std::size_t n = loop_.nodes.size();
@@ -109,10 +110,11 @@ private:
 
 int RingWidths::steps(double height) const
 {
-    // A constant number of rows has the size asked if the ring's widths differ by less than the sizes may.
+    // With the same number of rows everywhere, the rows have the requested size if the ratio of the ring's
+    // widths is smaller than that of the accepted sizes.
     if (!(least > 0) || most < kLongestOfSize / kShortestOfSize * least) return 0;
-    // Half the difference that would make all rows equal, so that rows beside the steps are neither too high
-    // nor too low.
+    // Half the difference that would make all rows equally high. The rows beside the steps are then neither
+    // too high nor too low.
     return static_cast<int>(std::lround((most - least) / (2 * height)));
 }
 
@@ -179,7 +181,7 @@ bool change_sides(PatternLoop& loop, int by, int corners, std::vector<Vec2>& poi
     for (int c = 0; c < corners; ++c)
         at.push_back(n * static_cast<std::size_t>(c) / static_cast<std::size_t>(corners));
     for (int row = 0; row < (pairs + corners - 1) / corners; ++row) {
-        // The last row may have sides for only some of the corners.
+        // The remaining change may need turns at only some of the corners in the last row.
         at.resize(static_cast<std::size_t>(std::min(corners, pairs - row * corners)));
         if (!rows.lay(at, grows)) return false;
     }

@@ -7,7 +7,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// Renumber the loop to start at another of its nodes.
+/// Renumber the loop so that it starts at another of its nodes.
 void start_at(PatternLoop& loop, std::size_t first)
 {
     const auto rotate = [by = static_cast<std::ptrdiff_t>(first)](auto&... lists) {
@@ -43,8 +43,9 @@ public:
         for (int& rows : loop_.soft) rows = std::max(rows - 1, 0);
     }
 
-    /// Place a row along the whole loop, whose first node is its only end: one quad has that corner.
-    /// @return false if the loop turns at a node beside it.
+    /// Place a row along the whole loop, whose only end is its first node. One quad has its corner at this
+    /// end.
+    /// @return false if the loop turns at a node next to this end.
     bool lay_round_end()
     {
         const std::size_t n = loop_.size();
@@ -66,15 +67,15 @@ public:
         return true;
     }
 
-    /// Place a row from the first node, which is hard, to the next hard node `end`, which may be the first
-    /// again.
-    /// @return false if there is no side on which the row can end.
+    /// Place a row from the first node to the node `end`, which may be the first node again. At both nodes
+    /// the boundary itself turns.
+    /// @return false if there is no side on which the row can stop.
     bool lay_part(std::size_t end)
     {
         const std::size_t n = loop_.size();
         if (end == n && loop_.turn(0) == 1) return lay_round_end();
         const bool ends_at_start = loop_.turn(0) == 1, ends_at_end = loop_.turn(end % n) == 1;
-        const std::size_t left = n - end; // sides outside the part
+        const std::size_t left = n - end; // number of sides that are not in the part
         if (loop_.turn(0) > 1 || loop_.turn(end % n) > 1) return false;
         if (left > 0 && left < 1 + (ends_at_start ? 1U : 0U) + (ends_at_end ? 1U : 0U)) return false;
         if (ends_at_start && loop_.movable[n - 1] && loop_.turn(n - 1) > 0) return false;
@@ -98,7 +99,7 @@ public:
             const int down = loop_.heading[end - 1] - 1;
             next.push(inner[end], down, down, 0, 0);
         }
-        // A soft turn at which the row ends becomes hard: the loop turns at this node.
+        // If the row stops at a soft turn, the loop now turns at this node.
         const std::size_t first = end + (ends_at_end ? 1 : 0);
         for (std::size_t i = first; i < n - (ends_at_start ? 1 : 0); ++i)
             next.push(loop_.nodes[i], loop_.heading[i], loop_.direction[i], i == first ? 0 : loop_.soft[i],
@@ -108,7 +109,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kFewestRoundEnd = 5; ///< nodes, so that three remain
+    static constexpr std::size_t kFewestRoundEnd = 5; ///< number of nodes with which three nodes remain
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return point_of(points_, loop_.nodes, i); }
 
@@ -121,7 +122,7 @@ private:
     /// Add a node above node i of the loop.
     Index add_inner(std::size_t i) { return add(point_above(points_, loop_.nodes, i, height_)); }
 
-    /// Add a node square to a side at one of its ends.
+    /// Add a node perpendicular to a side, above one of its ends.
     Index add_square(std::size_t i, std::size_t side)
     {
         const Vec2 along = (at(side + 1) - at(side)).normalized();
@@ -138,13 +139,15 @@ private:
 
 int fitting_rows(const PatternLoop& loop)
 {
-    // Rows per side of a quarter turn: the square inside a disc is then about half as wide as the disc.
+    // Number of rows for each side of a quarter turn. The square inside a disc is then about half as wide as
+    // the disc.
     constexpr double kOfQuarter = 0.22;
     const std::size_t n = loop.size();
     int most = 1;
     for (std::size_t i = 0; i < n; ++i) {
         if (!loop.movable[i] || loop.turn(i) != 1) continue;
-        // Count the sides that run within half a right angle of the direction between the two headings.
+        // Count the sides whose direction differs by less than half a right angle from the direction halfway
+        // between the two headings.
         const double middle = i > 0 ? loop.heading[i] - 0.5 : loop.heading[0] - 0.5;
         int sides = 0;
         for (std::size_t k = 0; k < n; ++k) {
@@ -171,7 +174,7 @@ std::vector<int> rows_to_try(int fitting)
 
 void set_soft_rows(PatternLoop& loop, int rows)
 {
-    // Limit of rows where the loop is bent inward; more would run into the rows of other loops.
+    // Maximum number of rows where the loop is bent inward. More rows would run into the rows of other loops.
     constexpr int kMostInward = 3;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         if (loop.movable[i]) loop.soft[i] = loop.turn(i) < 0 ? std::min(rows, kMostInward) : rows;

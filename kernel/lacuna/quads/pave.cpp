@@ -16,7 +16,7 @@ namespace {
 
 using namespace paving;
 
-/// Place rows of the exact height, which are not moved, and pave the inside of them as a separate region.
+/// Place rows of the exact height, whose nodes do not move afterwards. Pave the rest as a separate region.
 Paved pave_inside_rows(const PlanarRegion& region, const PaveOptions& options, const RunContext& context)
 {
     PartialMesh partial{
@@ -126,7 +126,7 @@ Paved pave(const PlanarRegion& region, const PaveOptions& options, const RunCont
                     region.points.size(), position_text(best.where))
                 .remedy("use a smaller size"));
     }
-    // Between sides that nearly touch, or in spikes, all quads are flat.
+    // Between sides that nearly touch, and in spikes, all quads are flat.
     if (best.worst <= chooser.flat()) {
         log_line(context, formatted("the flattest quad, near {}, has a scaled Jacobian of {:.6f}: the "
                                     "boundary's sides there are long compared with the gap between them",

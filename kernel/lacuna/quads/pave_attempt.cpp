@@ -14,9 +14,9 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Number of rows to pave along a loop. The rows of a round outer loop end in four nodes of three quads. With
-/// one row for about sixty nodes, these lie at the corners of a square with as many nodes as the loop. Around
-/// a hole, each further row adds stretched quads.
+/// Number of rows to pave along a loop. The rows along a round outer loop lead to four nodes of three quads.
+/// With one row for about sixty nodes, these four nodes are the corners of a square that has as many nodes as
+/// the loop. Around a hole, each further row only adds stretched quads.
 int rows_for(const PartialMesh& partial, const Cycle& loop, bool outer)
 {
     if (!needs_row(partial, loop)) return 0;
@@ -31,7 +31,7 @@ bool is_conforming(const PlanarQuads& mesh)
     return std::ranges::find(opposite, mesh::kBadSide) == opposite.end();
 }
 
-/// Open folded quads by moving nodes, then by adding nodes (pillows).
+/// Open folded quads, first by moving nodes and then by adding nodes (pillows).
 void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContext& context)
 {
     const std::size_t fixed = setting.region.points.size();
@@ -46,7 +46,7 @@ void open_folds(Attempt& attempt, const AttemptSetting& setting, const RunContex
             judge(tried);
         }
         if (tried.worst <= setting.flat) {
-            // Only untangle here; the opened quads are smoothed with the rest later.
+            // Only untangle here, because the opened quads are smoothed with all others later.
             smooth_plane(tried.mesh.points, tried.mesh.quads, fixed,
                          {.size = setting.size, .sweeps = 0, .repairs = 0}, context);
             judge(tried);
@@ -67,7 +67,7 @@ void clean_and_smooth(Attempt& attempt, const AttemptSetting& setting, bool thor
     judge(attempt);
 }
 
-/// Pave rows from the loops, then cut and fill the rest.
+/// Pave rows along the loops, then cut and fill the rest.
 void pave_and_fill(Attempt& attempt, PartialMesh& partial, const PlanarRegion& region, RowStyle style,
                    const RunContext& context)
 {

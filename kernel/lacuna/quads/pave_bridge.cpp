@@ -14,14 +14,14 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Number of nearest loops to which lines from a loop are tried. In a plane a loop has six neighbours on
-/// average; more are tried because other loops may stand between.
+/// Number of nearest loops to which lines from a loop are tried. In a plane, a loop has six neighbours on
+/// average. More are tried because other loops may be in between.
 constexpr std::size_t kNearest = 16;
 
 /// Step between the nodes of a loop from which lines are tried.
 std::size_t stride_of(std::size_t n)
 {
-    constexpr std::size_t kMost = 48; // limit of the nodes of a loop that are tried
+    constexpr std::size_t kMost = 48; // maximum number of nodes of a loop that are tried
     return std::max<std::size_t>(1, n / kMost);
 }
 
@@ -58,12 +58,12 @@ public:
     }
 
 private:
-    /// A line between two loops; before a line is sought, the distance of their boxes, which is a lower bound
-    /// on the cost of every line between them.
+    /// A line between two loops. Until a line is searched for, `cost` is the distance of the loops' boxes.
+    /// This is a lower bound of the cost of every line between the two loops.
     struct Bridge {
         double cost = 0;
         std::size_t a = 0, b = 0;
-        Index from = -1, to = -1; ///< nodes; -1: no line was sought yet
+        Index from = -1, to = -1; ///< nodes; -1: no line was searched for yet
         std::size_t lines = 0;    ///< number of lines placed before this one was found
         bool operator>(const Bridge& other) const
         {
@@ -93,7 +93,7 @@ private:
         return sides_[a].box().exteriorDistance(sides_[b].box());
     }
 
-    /// Whether the line is still valid: no line placed since it was found touches it.
+    /// Whether a line is still valid: no line that was placed after its search touches it.
     [[nodiscard]] bool is_current(const Bridge& bridge) const
     {
         for (std::size_t k = bridge.lines; k < lines_.size(); ++k)
@@ -104,13 +104,15 @@ private:
         return true;
     }
 
-    /// A corner of a loop that a line divides: its position, its angle, and the angle up to the line.
+    /// A corner of a loop that a line divides: its position, its angle, and the part of the angle up to the
+    /// line.
     struct Corner {
         std::size_t at;
         double angle, part;
     };
 
-    /// The corner at a node of the present joined loop that the line divides; empty if there is none.
+    /// The corner of the present joined loop, at a node, that a line in direction `along` divides. Empty if
+    /// there is none.
     std::optional<Corner> corner_now(std::size_t loop, Index node, const Vec2& along)
     {
         const Cycle& cycle = cycles_[joined_.find(loop)];
@@ -125,7 +127,8 @@ private:
         return std::nullopt;
     }
 
-    /// The cost of an end, 0 if it divides the angle well; empty if the line leaves the loop outward.
+    /// The cost of one end of a line; 0 if the end divides the angle well. Empty if the line leads out of the
+    /// region.
     std::optional<double> end_cost_at(std::size_t loop, std::size_t i, const Vec2& along)
     {
         const Cycle& own = loops_[loop];
@@ -153,7 +156,8 @@ private:
         std::ranges::for_each(of_lines_, add);
         std::optional<Bridge> best;
         Cut place;
-        // Only lines cheaper than the cheapest so far are checked; none costs less than its length.
+        // A line is checked only if it may be cheaper than the cheapest line so far. No line costs less than
+        // its length.
         const auto consider = [&](std::size_t i, std::size_t j) {
             const Vec2 along = partial_.at(two[j]) - partial_.at(one[i]);
             const double length = along.norm();
@@ -170,7 +174,7 @@ private:
             place = {i, j};
         };
         const std::size_t n = one.size(), m = two.size(), step_n = stride_of(n), step_m = stride_of(m);
-        // The cost of one bridge, found among the shortest lines, bounds the lengths that are worth checking.
+        // First find one line among the shortest ones. Its cost limits the lengths that are worth checking.
         std::vector<std::tuple<double, std::size_t, std::size_t>> lines;
         for (std::size_t i = 0; i < n; i += step_n)
             for (std::size_t j = 0; j < m; j += step_m)
@@ -187,14 +191,14 @@ private:
         for (std::size_t i = 0; i < n; i += step_n)
             for (std::size_t j = 0; j < m; j += step_m)
                 if ((partial_.at(two[j]) - partial_.at(one[i])).norm() <= most) consider(i, j);
-        const Cut found = place; // then the nodes between those already tried
+        const Cut found = place; // then try the nodes between those that were tried
         for (std::size_t i = 0; i <= 2 * step_n; ++i)
             for (std::size_t j = 0; j <= 2 * step_m; ++j)
                 consider((found.from + n + i - step_n) % n, (found.to + m + j - step_m) % m);
         return best;
     }
 
-    /// @return  false if the line divides no corner of the present joined loops
+    /// Place a line. @return  false if it divides no corner of the present joined loops
     bool lay(const Bridge& bridge)
     {
         const Vec2 &p = partial_.at(bridge.from), &q = partial_.at(bridge.to);
@@ -210,7 +214,7 @@ private:
         return true;
     }
 
-    /// Lay the shortest line between the first loop and another, even if it crosses sides.
+    /// Place the shortest line between the first loop and another loop, even if the line crosses sides.
     void lay_blindly()
     {
         std::size_t to = 0;
@@ -237,7 +241,8 @@ private:
     void join_cycles(std::size_t a, std::size_t b, Cut cut)
     {
         a = joined_.find(a), b = joined_.find(b);
-        if (a > b) std::swap(a, b), std::swap(cut.from, cut.to); // the first loop stays the first
+        // The joined loop that contains the first loop stays at the first index.
+        if (a > b) std::swap(a, b), std::swap(cut.from, cut.to);
         const Cycle &one = cycles_[a], &two = cycles_[b];
         const Cycle line = nodes_along(partial_, one[cut.from], two[cut.to], cut.edges);
         if (cut.edges == 1) partial_.link(line.front(), line.back());
@@ -248,7 +253,8 @@ private:
 
     PartialMesh& partial_;
     const std::vector<Cycle>& loops_;
-    std::vector<Cycle> cycles_; ///< each joined loop, at its first loop's number; empty at the others
+    /// Each joined loop is stored at the index of one of its loops; the entries of its other loops are empty.
+    std::vector<Cycle> cycles_;
     geometry::UnionFind joined_;
     std::vector<std::vector<double>> angles_;
     std::vector<LoopSides> sides_;

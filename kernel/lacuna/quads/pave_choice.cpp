@@ -23,17 +23,17 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Up to this number of quads a region is paved in several ways. That takes at most 0.5 s for 3000 quads,
+/// A region with at most this many quads is paved in several ways. This takes at most 0.5 s for 3000 quads,
 /// measured on the named outlines.
 constexpr std::size_t kSmall = 4000;
-/// Limits of the total number of quads made with the rows of weights: about eight meshes of a region of
-/// kSmall. The limit is lower if the worst quad stays poor, because then the outline rather than the cuts is
-/// the cause.
+/// Maximum total number of quads that are made with the rows of weights. The first value is about eight
+/// meshes of a region with kSmall quads. The second, lower value applies if the worst quad stays poor,
+/// because the outline is then the cause and not the cuts.
 constexpr std::size_t kMostMade = 30'000, kMostMadePoor = 6000;
 
 /// The first seven rows that `choose_weights choose 1 240` prints (`benchmarks/pave/`): chosen greedily from
-/// 48 candidates to maximise the mean score of the best attempt over 220 generated outlines. Further rows
-/// gain less than 0.001 each.
+/// 48 candidates to maximise the mean score of the best attempt over 220 generated outlines. Each further row
+/// would gain less than 0.001.
 constexpr std::array<CutWeights, 7> kCutWeights{{
     {.corners = 0.5, .added = 0.75, .bent = 0.375, .least_patch = 0.5, .most_patch = 0.8},
     {.added = 0.5, .mismatch = 0.5, .bent = 0.375, .least_patch = 0.5, .most_patch = 0.85},
@@ -46,7 +46,7 @@ constexpr std::array<CutWeights, 7> kCutWeights{{
 
 /// Weights for few quads without rows along the boundary: the first rows that `choose_weights few 101 120`
 /// prints (`benchmarks/pave/`), chosen greedily from 64 candidates on 355 generated outlines of 60 to 400
-/// quads. The fourth row gains less than 0.01.
+/// quads. A fourth row would gain less than 0.01.
 constexpr std::array<CutWeights, 3> kFewWeights{{
     {.corners = 0.5, .added = 0.5, .mismatch = 2, .least_patch = 0.5, .most_patch = 0.85},
     {.added = 0.5, .length = 0.75, .mismatch = 1.35, .bent = 0.25},
@@ -59,11 +59,11 @@ constexpr std::array<CutWeights, 3> kFewWeights{{
      .most_patch = 0.7},
 }};
 
-/// Score at which no further weights are tried: so close to the maximum of 3.325 that little can be gained.
+/// Score at which no further weights are tried. The maximum is 3.325, so that little more can be gained.
 constexpr double kGoodEnough = 3.3;
-/// A mesh is kept without further trials if its worst quad (scaled Jacobian) and its shares of right sizes
-/// and right rows reach these bounds, and its irregular nodes number at most kNearLeast times the topological
-/// minimum plus kFewMore.
+/// A mesh is kept without further trials if it satisfies these bounds for the scaled Jacobian of its worst
+/// quad, and for the share of rows with the requested height. Its number of irregular nodes must also be at
+/// most kNearLeast times the topological minimum, plus kFewMore.
 constexpr double kFineWorst = 0.82, kFineRows = 0.9, kNearLeast = 1.25, kFewMore = 2;
 
 bool is_near_least(const PlaneQuality& quality, int least)
@@ -73,18 +73,18 @@ bool is_near_least(const PlaneQuality& quality, int least)
            quality.row_share() > kFineRows;
 }
 
-/// Below kFewQuads quads a region is paved only with `kFewWeights` and once with rows along the boundary,
-/// unless the result is poor. Only the kFinished attempts with the fewest initial irregular nodes are
-/// finished. On the outlines used for choosing these weights, this scores 0.01 less than all other rows of
-/// weights together, with a fifth fewer irregular nodes, in a quarter of the time; a third finished attempt
-/// would gain the 0.01.
+/// A region with fewer than kFewQuads quads is paved only with `kFewWeights` and once with rows along the
+/// boundary, unless the result is poor. Only the kFinished attempts with the fewest initial irregular nodes
+/// are finished. On the outlines used for choosing these weights, the score is 0.01 lower than with all other
+/// rows of weights together, but there are a fifth fewer irregular nodes and it takes a quarter of the time.
+/// With a third finished attempt, the score would be the same.
 constexpr std::size_t kFewQuads = 1500, kFinished = 2;
-/// The other attempts are finished too if the worst quad is below kFair and below kNearly times the best that
-/// the boundary's corners allow. Higher bounds spend more time for a better worst quad.
+/// The other attempts are finished too if the worst quad is below kFair and also below kNearly times the best
+/// value that the boundary's corners permit. With higher bounds, more time is spent for a better worst quad.
 constexpr double kFair = 0.75, kNearly = 0.97;
 
-/// The best possible scaled Jacobian of the worst boundary corner if each corner has as many quads as right
-/// angles fit in its angle.
+/// The scaled Jacobian of the worst boundary corner, if each corner is divided equally into the number of
+/// quads that suits its angle.
 double best_at_corners(const PlanarRegion& region)
 {
     double worst = 1;
@@ -93,7 +93,7 @@ double best_at_corners(const PlanarRegion& region)
     return worst;
 }
 
-/// An identifier of a mesh: a hash of points and quads in their order.
+/// An identifier of a mesh: a hash of its points and quads in their order.
 std::uint64_t name_of(const PlanarQuads& mesh)
 {
     std::uint64_t name = mesh.points.size();
@@ -126,10 +126,10 @@ Attempt grid_attempt(std::optional<PlanarQuads> mesh, const AttemptSetting& sett
     return attempt;
 }
 
-/// Lower bounds for accepting a mesh.
+/// Lower bounds that a mesh must reach to be accepted.
 struct Limits {
     double least, mean; ///< least and mean scaled Jacobian
-    double of_size;     ///< share of sides with the size asked
+    double of_size;     ///< share of sides with the requested size
 };
 
 bool reaches(const Limits& limits, const Attempt& attempt, const PlanarRegion& region)
@@ -140,18 +140,18 @@ bool reaches(const Limits& limits, const Attempt& attempt, const PlanarRegion& r
            quality.size_share() > limits.of_size;
 }
 
-/// Whether a grid is so good that no further attempt is needed: no other mesh has as few irregular nodes.
+/// Whether a grid is so good that no further attempt is needed. Other meshes have more irregular nodes.
 bool is_good_grid(const Attempt& attempt, const PlanarRegion& region, double of_size)
 {
-    // The worst quad leaves room for its deterioration in a sweep, and nearly all quads are square and of the
-    // size asked. Lower bounds save time and accept worse grids.
+    // The worst quad may still get worse in a sweep without being folded. Nearly all quads are square and
+    // have the requested size. Lower bounds would save time and accept worse grids.
     return reaches({0.72, 0.92, of_size}, attempt, region);
 }
 
-/// Whether images of a part are so good that no further attempt is needed. A symmetric mesh may have a few
-/// more irregular nodes than others.
+/// Whether the images of a part are so good that no further attempt is needed. Because it is symmetric, the
+/// mesh may have a few more irregular nodes than others.
 /// @param asked  the size that gives the number of quads.
-/// @param few    the quads are so few that the given sides determine their sizes.
+/// @param few    whether there are so few quads that the given sides determine their sizes.
 bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const SizeField& asked, bool few)
 {
     // Lower bounds for the least and mean scaled Jacobian and the share of edges of the requested size; not
@@ -159,16 +159,18 @@ bool is_good_part(const Attempt& attempt, const PlanarRegion& region, const Size
     constexpr Limits kGood{0.7, 0.9, 0.93}, kGoodFew{0.75, 0.87, 0};
     const Limits& limits = few ? kGoodFew : kGood;
     if (attempt.worst < limits.least || !find_fault(attempt.mesh, region).empty()) return false;
-    // Nodes where images meet, on an axis or at the centre, may have one quad too many from each image.
+    // At nodes where images meet, on an axis or at the centre, each image may add one quad too many.
     constexpr Index kMostQuads = 6;
     if (std::ranges::max(valences(attempt.mesh.quads, attempt.mesh.points.size())) > kMostQuads) return false;
     return reaches(limits, attempt, region) && has_quads_asked(attempt.mesh, asked);
 }
 
-/// Whether quads of a coarser mesh, cut in four, are so good that no further attempt is needed.
+/// Whether a mesh of a coarse region, with its quads cut in four, is so good that no further attempt is
+/// needed.
 bool is_good_cut(const Attempt& attempt, const PlanarRegion& region)
 {
-    constexpr Limits kGood{0.65, 0.97, 0.95}; // a stricter bound repeats the paving at full size more often
+    // With a stricter bound, the region would be paved again at full size more often.
+    constexpr Limits kGood{0.65, 0.97, 0.95};
     return attempt.worst >= kGood.least && find_fault(attempt.mesh, region).empty() &&
            reaches(kGood, attempt, region) && has_quads_asked(attempt.mesh, region.size);
 }
@@ -192,8 +194,8 @@ std::span<const CutWeights> cut_weight_rows() { return kCutWeights; }
 
 double flat_below(const PlanarRegion& region)
 {
-    // A corner of about 1°, or a share of the outline's sharpest corner. Higher values replace more flat
-    // quads by cavities with more irregular nodes.
+    // The sine of about 1°, or a share of the sine of the outline's sharpest corner. With higher values, more
+    // flat quads are replaced by cavities, which have more irregular nodes.
     constexpr double kFlat = 0.02, kShare = 0.3;
     double sharpest = 1;
     for (const double angle : boundary_angles(region))
@@ -265,12 +267,12 @@ bool AttemptChooser::is_good_enough() const { return best_score_ >= kGoodEnough 
 
 void AttemptChooser::try_grids()
 {
-    // Shares of edges that must have the size asked: nearly all if some grid achieves that, otherwise most.
-    // Rings whose loops differ strongly have fewer.
+    // Share of edges that must have the requested size: nearly all if some grid achieves this, otherwise
+    // most. Rings whose loops differ strongly reach a lower share.
     constexpr double kNearlyAll = 0.93, kMost = 0.85;
     std::vector<Attempt> grids{grid_attempt(submap(region_, context_), setting_)};
-    // A grid over a part of a symmetric region (`cut_` is false) with too many or too few quads is rejected;
-    // the part is then filled in another way.
+    // A grid over a part of a symmetric region (`cut_` is false) is rejected if it has too many or too few
+    // quads. The part is then filled in another way.
     const auto is_good = [&](const Attempt& grid, double of_size) {
         return is_good_grid(grid, judged_, of_size) && (cut_ || has_quads_asked(grid.mesh, judged_.size));
     };
@@ -281,12 +283,13 @@ void AttemptChooser::try_grids()
     }
     const std::optional<MirrorPart> part = cut_ && quads_within(region_) < kManyQuads ? part_of_region()
                                                                                       : std::nullopt;
-    // Grids of discs, or around a single central hole, have more symmetries of their own than images of a
-    // part.
+    // The grid of a disc, or around a single central hole, has more symmetries than the images of a part
+    // have.
     const bool whole_first = part && (part->has_centre ? region_.loops.size() == 1 && part->is_some
                                                        : region_.loops.size() == 2);
     if (part && !whole_first) {
-        // Below this number of quads one grid often fills a quarter and is equally symmetric.
+        // With fewer quads than this, one grid often fills a quarter of the region and gives the same
+        // symmetry.
         constexpr double kFewForGrid = 600;
         const bool blocks = part->has_centre && part->is_some && quads_within(region_) < kSmall;
         const bool blocks_first = blocks && quads_within(region_) >= kFewForGrid;
@@ -350,9 +353,9 @@ bool AttemptChooser::try_part(const MirrorPart& part, bool few, std::vector<Atte
 
 bool AttemptChooser::try_blocks()
 {
-    // Ratio of the number of block quads along a side to the number asked for. If the block's sides have as
-    // many quads as the boundary beyond them, rows run around the block. The best of 0.7 to 1.5 on flanges of
-    // 1,000 and 3,000 quads.
+    // Ratio between the number of the block's quads along a side and the number that the size requires. If
+    // the block's side has as many quads as the boundary opposite to it, rows run around the block. Of the
+    // values from 0.7 to 1.5, this was the best on flanges of 1,000 and 3,000 quads.
     constexpr double kFiner = 1.5;
     const std::vector<Symmetry> symmetries = outline_symmetries(region_);
     double best = -2;
@@ -438,7 +441,7 @@ void AttemptChooser::try_few_weights()
         Attempt attempt = begin(style, weights);
         if (attempt.worst < -1) return;
         const PlaneQuality quality = measure_plane(attempt.mesh, region_);
-        // Boundary nodes count twice, because cleaning improves fewer of them.
+        // Irregular boundary nodes count twice, because cleaning removes fewer of them.
         begun.push_back({quality.irregular + 2 * quality.boundary_irregular, std::move(attempt)});
     };
     for (const CutWeights& weights : kFewWeights) begin_one(RowStyle::no_rows, weights);
@@ -482,7 +485,8 @@ void AttemptChooser::try_all_weights()
 
 void AttemptChooser::try_triangles()
 {
-    // The last resort; also tried if the worst quad is poor and the region small, where it takes little time.
+    // Triangles are the last resort. They are also tried if the worst quad is poor and the region is small,
+    // where they take little time.
     if (best_.worst <= setting_.flat || (is_small() && best_.worst < kPoorQuad)) pave_in(RowStyle::triangles);
 }
 

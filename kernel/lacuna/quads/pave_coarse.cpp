@@ -16,15 +16,15 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Number of quads from which a coarse region is coarsened again: it bounds the time of paving the coarsest
+/// A coarse region with this many quads is coarsened again. This limits the time for paving the coarsest
 /// region.
 constexpr double kManyStill = 8000;
-/// Limit of sides that may be divided to make all runs even. Each leaves a triangle with a few irregular
-/// nodes.
+/// Maximum number of sides that may be divided to make all runs even. Each divided side leaves a triangle
+/// with a few irregular nodes.
 constexpr std::size_t kMostDivided = 8;
 
 /// The sides to divide so that every run from corner to corner, and every loop without corners, has an even
-/// number of sides: the longest side of each. Empty if there are too many.
+/// number of sides. The longest side of each odd run is taken. Empty if there are too many odd runs.
 std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& region)
 {
     std::vector<RegionSide> sides;
@@ -47,9 +47,9 @@ std::optional<std::vector<RegionSide>> sides_to_divide(const PlanarRegion& regio
     return sides;
 }
 
-/// Pave a coarse region in one way; if the result is poor, try all ways of `pave()`.
-/// @throw NotSweepable "surface.pave"  the quads are flat, as between sides that nearly touch. Shorter sides
-///        may be less flat, so the region is then paved at full size.
+/// Pave a coarse region with one set of weights. If the result is poor, use `pave()`, which tries several.
+/// @throw NotSweepable "surface.pave"  the quads are flat, as between sides that nearly touch. The caller
+///         then paves the region at full size, where sides are shorter and quads may be less flat.
 PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
     check(region);
@@ -62,13 +62,13 @@ PlanarQuads pave_once(const PlanarRegion& region, PaveReport& report, const RunC
     }
     if (attempt.worst <= setting.flat)
         throw NotSweepable("surface.pave", "quads fold near {}", position_text(attempt.where));
-    // Patterns are not tried: they stretch many quads to save irregular nodes, which cost little here.
+    // Patterns are not tried. They stretch many quads to avoid irregular nodes, which do little harm here.
     auto [mesh, other] = pave(region, {.grids = false}, context);
     report = std::move(other);
     return std::move(mesh);
 }
 
-/// Fill a coarse region with quads and few triangles. If it still has many quads, a coarser region is filled
+/// Fill a coarse region with quads and few triangles. If it has many quads, a still coarser region is filled
 /// and its cells are cut in four.
 PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const RunContext& context)
 {
@@ -86,7 +86,7 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
             const auto triangles = std::ranges::find_if(mesh.quads, mesh::is_triangle); // the last cell
             if (least_scaled_jacobian(mesh.points, {mesh.quads.begin(), triangles}) > kPoorQuad) return mesh;
         } catch (const NotSweepable&) {
-            // filled in another way below
+            // the region is filled in another way below
         }
         return std::nullopt;
     };
@@ -103,8 +103,8 @@ PlanarQuads fill_coarse(const PlanarRegion& region, PaveReport& report, const Ru
     return fill_odd_region(region, once, context);
 }
 
-/// The cells of a coarse region cut in four, not yet smoothed; empty if there is no coarse region, or no rows
-/// connect its whole sides.
+/// The cells of a coarse region, cut in four and not smoothed. Empty if there is no coarse region, or if its
+/// whole sides cannot be joined by rows.
 std::optional<Paved> fill_and_cut(const PlanarRegion& region, const RunContext& context)
 {
     Paved made;
@@ -129,7 +129,7 @@ std::optional<Paved> pave_in_four(const PlanarRegion& region, const SizeField& s
     try {
         found = fill_and_cut(region, context);
     } catch (const InvalidInput&) {
-        return std::nullopt; // without the nodes left out, the loops touch
+        return std::nullopt; // the loops touch if nodes are left out
     } catch (const NotSweepable&) {
         return std::nullopt;
     }

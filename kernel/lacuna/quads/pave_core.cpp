@@ -9,12 +9,12 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// The quality above which a part with this many nodes is filled without a cut. A cut costs a few irregular
-/// nodes whatever the size of the part; a poor patch makes all its quads poor.
+/// A part with this number of nodes is filled without a cut if its quality exceeds the result. A cut costs a
+/// few irregular nodes whatever the size of the part is, whereas in a poor patch all quads are poor.
 double good_patch(const CutWeights& weights, std::size_t nodes)
 {
-    // It rises by kSlope with each doubling of the outline above kFrom nodes. A steeper slope cuts large
-    // parts more often.
+    // Above kFrom nodes, the bound rises by kSlope with each doubling of the outline. With a steeper slope,
+    // large parts are cut more often.
     constexpr double kSlope = 0.2, kFrom = 32;
     return std::clamp(weights.least_patch + kSlope * std::log2(static_cast<double>(nodes) / kFrom),
                       weights.least_patch, weights.most_patch);

@@ -8,10 +8,11 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Smallest angle between a line and the outline, 15°: a sharper quad would be a sliver.
+/// Smallest angle between a line and the outline: 15°. A quad with a sharper angle would be a sliver.
 constexpr double kLeastAngle = kRightAngle / 6;
 
-/// Squared distance of an angle from the nearest multiple of a right angle, in half right angles.
+/// Square of the difference between an angle and the nearest multiple of a right angle, in units of half a
+/// right angle.
 double angle_cost(double angle)
 {
     const double off = (angle - quads_in(angle) * kRightAngle) / (kRightAngle / 2);
@@ -44,23 +45,25 @@ public:
                 if (auto line = line_between(places[s], places[t])) lines_.push_back(*line);
             }
         }
-        // Limit of a line's length relative to the outline that it cuts off. A longer line is seldom good, so
-        // it is tried only if there is no other.
+        // Maximum length of a line, relative to the length of the outline that it cuts off. Longer lines are
+        // seldom good and are tried only if there is no other line.
         constexpr double kShort = 0.85;
         auto cut = find_among(kShort);
         return cut ? cut : find_among(kInfinity);
     }
 
 private:
-    /// The cheapest line that crosses nothing. Only lines cheaper than the cheapest so far are checked.
+    /// The cheapest line that crosses nothing. A line is checked only if it may be cheaper than the cheapest
+    /// line so far.
     std::optional<Cut> find_among(double longest)
     {
-        // A line should keep this share of its edge length away from nodes that it passes, because nearer
-        // ones make quads of half the size. If all lines pass nodes closer than that, the cheapest of them is
-        // used.
+        // Minimum distance of a line from the nodes that it passes, as a share of its edge length. Nodes at a
+        // smaller distance would get quads of half the size. If all lines pass nodes at a smaller distance,
+        // the cheapest of them is used.
         constexpr double kAway = 0.5;
         std::optional<Choice> best, near_miss;
-        // The lines are taken in order of their cost without edges, so the search ends after few lines.
+        // Lines are taken in order of their cost without edges. This is a lower bound of their total cost, so
+        // the search ends after few lines.
         const auto later = [](const Line& a, const Line& b) { return a.cost > b.cost; };
         std::ranges::make_heap(lines_, later);
         for (auto end = lines_.end(); end != lines_.begin();) {
@@ -89,7 +92,7 @@ private:
     struct Line {
         std::size_t from = 0, to = 0;
         double reach = 0;                  ///< length relative to the outline that it cuts off
-        double cost = 0;                   ///< of the length and of the angles at its ends
+        double cost = 0;                   ///< cost of the length, and of the angles at both ends
         double part_from = 0, part_to = 0; ///< angles between the outline and the line
     };
 
@@ -101,7 +104,8 @@ private:
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    /// Whether a line stays away from all nodes that it passes, by this share of its edge length.
+    /// Whether the distance of a line from all nodes that it passes is at least this share of its edge
+    /// length.
     [[nodiscard]] bool keeps_away(const Choice& c, double away) const
     {
         const Vec2 &a = at(c.cut.from), &b = at(c.cut.to), along = b - a;
@@ -117,8 +121,10 @@ private:
 
     [[nodiscard]] std::vector<std::size_t> candidates()
     {
-        constexpr std::size_t kSpread = 32; ///< nodes tried evenly along the outline
-        /// Limit of tried nodes where the outline turns inward. Both limits bound the time.
+        /// Number of nodes that are tried at even steps along the outline.
+        constexpr std::size_t kSpread = 32;
+        /// Maximum number of further nodes that are tried where the outline turns inward. Both limits bound
+        /// the time.
         constexpr std::size_t kFeatures = 64;
         std::vector<std::size_t> bent;
         for (std::size_t i = 0; i < n_; ++i) {
@@ -134,7 +140,7 @@ private:
         return places;
     }
 
-    /// @return empty if the line would run too close to the outline
+    /// @return empty if the line would be too close to the outline
     [[nodiscard]] std::optional<Line> line_between(std::size_t i, std::size_t j) const
     {
         if (cycle_[i] == cycle_[j]) return std::nullopt;
@@ -152,20 +158,20 @@ private:
         return Line{i, j, reach, cost, part_i, part_j};
     }
 
-    /// @return empty if the line cannot have edges, or costs `most` or more with them
+    /// @return empty if the line cannot have edges, or if its cost with edges is `most` or more
     [[nodiscard]] std::optional<Choice> judge(const Line& line, double most) const
     {
         const auto& [i, j, reach, cost, part_i, part_j] = line;
         Choice choice{{i, j, 0}, cost};
         if (choice.cost >= most) return std::nullopt;
-        // The number of edges is proportional to the mean of 1 / size.
+        // The number of edges is the length times the mean of 1 / size.
         const double wanted = (at(j) - at(i)).norm() *
                               (pace_[i] + 1 / partial_.size((at(i) + at(j)) / 2) + pace_[j]) / 3;
         const std::size_t between = j - i, rest = n_ - between;
         auto edges = static_cast<std::size_t>(std::max(1L, std::lround(wanted)));
         edges = std::min(edges, n_);
         if ((edges + between) % 2 != 0) {
-            // The nearer of the two numbers of the right parity.
+            // Take the nearer of the two neighbouring numbers that have the right parity.
             edges += static_cast<double>(edges) > wanted && edges > 1 ? std::size_t(-1) : 1;
         }
         while (edges > 1 && edges >= std::min(between, rest)) edges -= 2;
@@ -182,25 +188,25 @@ private:
         return choice;
     }
 
-    /// Map an angle from -2π…4π to 0…2π.
+    /// Convert an angle between -2π and 4π to the range from 0 to 2π.
     static double whole_turn(double angle)
     {
         if (angle < 0) return angle + kFullTurn;
         return angle < kFullTurn ? angle : angle - kFullTurn;
     }
 
-    /// Weight of the angles at an end: lower for an inner node, because it moves later.
+    /// Weight of the angles at an end. It is lower at an inner node, because inner nodes move later.
     [[nodiscard]] double firmness(std::size_t i) const { return partial_.is_fixed(cycle_[i]) ? 1 : 0.6; }
 
-    /// Cost of unequal numbers of opposite sides in both parts.
+    /// Cost of unequal numbers of edges on opposite sides, in both parts.
     [[nodiscard]] double mismatch(const Cut& cut, double part_i, double part_j) const
     {
         return part_mismatch(cut.from, cut.to, cut.edges, part_i, angles_[cut.to] - part_j) +
                part_mismatch(cut.to, cut.from, cut.edges, part_j, angles_[cut.from] - part_i);
     }
 
-    /// Mismatch of the part between the line and the outline from `from` to `to`. Grids cost least, then
-    /// patches with one irregular node, then others.
+    /// Mismatch of the part between the line and the outline from `from` to `to`. Parts that a grid can fill
+    /// cost least, then patches with one irregular node, then all others.
     [[nodiscard]] double part_mismatch(std::size_t from, std::size_t to, std::size_t edges, double angle_from,
                                        double angle_to) const
     {
@@ -233,7 +239,8 @@ private:
         return spoke_feet(sides, false, feet) ? 0.1 : 0.4;
     }
 
-    /// Try the nodes next to the ends, in decreasing steps, unless all nodes were tried.
+    /// Try the nodes near the ends of a line, in decreasing steps. This is not needed if all nodes were
+    /// tried.
     [[nodiscard]] Choice refine(Choice best, double away) const
     {
         if (stride_ == 1) return best;
@@ -252,7 +259,8 @@ private:
                     consider(start.cut.from + i, start.cut.to + j);
             }
         }
-        // Numbers of edges agree only for particular nodes, so every node near either end is tried.
+        // The numbers of edges match only for particular nodes. Therefore every node near either end is
+        // tried.
         const Choice start = best;
         for (std::size_t k = 0; k <= 2 * stride_; ++k) {
             consider(start.cut.from + n_ + k - stride_, start.cut.to);
@@ -266,7 +274,7 @@ private:
     const std::vector<double>& angles_;
     LoopSides sides_;
     std::size_t n_;
-    std::vector<double> arc_;     ///< along the loop, up to each node
+    std::vector<double> arc_;     ///< for each node, the running length along the loop up to it
     std::vector<double> heading_; ///< direction of the side that leaves each node [radians]
     std::vector<double> pace_;    ///< 1 / size at each node
     std::vector<std::size_t> corners_;
@@ -285,7 +293,7 @@ double end_cost(double whole, double part, const CutWeights& weights)
 
 double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b)
 {
-    // The number of edges is proportional to the mean of 1 / size.
+    // The number of edges is the length times the mean of 1 / size.
     return 3 / (1 / partial.size(a) + 1 / partial.size((a + b) / 2) + 1 / partial.size(b));
 }
 

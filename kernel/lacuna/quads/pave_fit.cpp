@@ -16,16 +16,16 @@ struct Sampled {
     double edges = 0; ///< number of mesh edges of the whole side
 };
 
-/// Number of sample cells along a side of a patch, by which its quality is estimated.
+/// Number of sample cells along a side of a patch. They are used to estimate its quality.
 constexpr std::size_t kSamples = 6;
 
-/// The quality of a block of a patch: the least sine of its worst sample cell, reduced if cells miss the size
-/// asked.
+/// The quality of a block of a patch. It is the smallest sine in its worst sample cell, reduced if the cells
+/// do not have the requested size.
 double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& side)
 {
     const std::size_t n = side[0].points.size() - 1, m = side[1].points.size() - 1;
     const auto& [b, r, t, l] = side;
-    // Samples are evenly spaced by edge number, so each represents equally many quads.
+    // Samples are at even steps of the edge number, so that each cell stands for equally many quads.
     const std::vector<Vec2> grid = geometry::transfinite(b.points, r.points, t.points, l.points,
                                                          {.by_arc_length = false});
     double worst = 1, stray = 0, weight = 0;
@@ -45,7 +45,7 @@ double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& sid
             }
         }
     }
-    // Sizes that are off by a factor of two everywhere halve the quality.
+    // If all sizes deviate by a factor of two, the quality is halved.
     return worst > 0 ? worst / (1 + stray / weight) : worst;
 }
 
@@ -77,15 +77,15 @@ double judge_four(const PartialMesh& partial, const Cycle& cycle, const std::vec
                                       reversed(sample(partial, cycle, corners[2], edges[2], n)),
                                       reversed(sample(partial, cycle, corners[3], edges[3], m))};
     const double quality = judge_block(partial, side);
-    // Columns that turn off to a neighbouring side bend the grid. The larger their share, the lower the
-    // quality.
+    // Columns that turn towards a neighbouring side bend the grid. The larger their share is, the lower is
+    // the quality.
     const auto excess = [](std::size_t a, std::size_t c) {
         return static_cast<double>(std::max(a, c) - std::min(a, c)) / static_cast<double>(std::max(a, c));
     };
     return quality * (1 - std::max(excess(edges[0], edges[2]), excess(edges[1], edges[3])));
 }
 
-/// The quality of a patch of 3 or 5 sides: that of its worst block.
+/// The quality of a patch of 3 or 5 sides, which is the quality of its worst block.
 double judge_star(const PartialMesh& partial, const Cycle& cycle, const std::vector<std::size_t>& corners)
 {
     const SideCounts counts = side_counts(cycle.size(), corners);

@@ -15,9 +15,10 @@ GapFinder::GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops
     });
     low_ = box.min();
     diagonal_ = box.sizes().norm();
-    // Cells as wide as a mean side, but at most kMostCells across, which bounds the number of cells that a
-    // long side is in.
-    constexpr double kMostCells = 4096; // larger finds sides faster but needs more memory and time to fill
+    // Cells have the width of a mean side. There are at most kMostCells cells across, so that a long side is
+    // in a limited number of cells.
+    // More cells find sides faster, but need more memory and more time to fill.
+    constexpr double kMostCells = 4096;
     cell_ = std::max({sum / count, box.sizes().maxCoeff() / kMostCells, std::numeric_limits<double>::min()});
     for_sides_of(loops, [&](Index from, Index to) {
         const Vec2 a = (partial.at(from) - low_) / cell_, b = (partial.at(to) - low_) / cell_;
@@ -57,8 +58,9 @@ double GapFinder::ahead(Index before, Index node, Index after, const Vec2& direc
                 const double det = cross(direction, along);
                 if (det == 0) continue;
                 const double t = cross(from, along) / det, s = cross(from, direction) / det;
-                // Passing an end of a side within a fifth of its length counts as meeting it. A larger share
-                // makes rows lower near such ends, a smaller one may let rows meet.
+                // A ray that passes an end of a side within a fifth of the side's length counts as meeting
+                // the side. With a larger share, rows near such ends are lower. With a smaller share, rows
+                // may meet.
                 constexpr double kBeyond = 0.2;
                 if (t > 0 && s >= -kBeyond && s <= 1 + kBeyond) nearest = std::min(nearest, t);
             }

@@ -14,7 +14,7 @@ bool fill_patch(PartialMesh& partial, const Cycle& cycle, std::span<const std::s
     for (const Quad& quad : filling.quads) {
         for (std::size_t k = 0; k < 4; ++k) {
             const auto [a, b] = std::minmax(quad[k], quad[(k + 1) % 4]);
-            // A side across the patch between existing nodes.
+            // The side leads across the patch between two nodes that existed before.
             if (b < n && b - a > 1 && b - a < n - 1) partial.link(cycle[index(a)], cycle[index(b)]);
         }
     }
@@ -37,7 +37,7 @@ void fill_small(PartialMesh& partial, const Cycle& c)
         best_worst = worst;
         best = {one, two};
     }
-    // Three quads around a node in the middle, if two quads would be flat.
+    // Use three quads around a node in the middle, if two quads would be flat.
     Vec2 middle = Vec2::Zero();
     for (const Index p : c) middle += partial.at(p) / 6;
     const Index centre = partial.add(middle);

@@ -10,7 +10,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-constexpr int kMostQuads = 4; ///< at a node, which is then a reversal; no angle exceeds four right angles
+/// Maximum number of quads at a node, which is then a reversal; no angle exceeds four right angles.
+constexpr int kMostQuads = 4;
 
 Vec2 rotated(const Vec2& v, double angle)
 {
@@ -18,8 +19,8 @@ Vec2 rotated(const Vec2& v, double angle)
             v.x() * std::sin(angle) + v.y() * std::cos(angle)};
 }
 
-/// The height of the row at every node: at most a third of the distance to the other side. Except in exact
-/// rows, heights change gradually.
+/// The height of the row at every node. It is at most a third of the distance to the opposite side, except in
+/// exact rows. In other rows, heights change gradually.
 std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
                                 const std::vector<double>& angles, const GapFinder& gaps,
                                 const SizeField& height, RowKind kind)
@@ -33,8 +34,8 @@ std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
         heights[i] = std::min(wanted, gaps.ahead(before, cycle[i], after, inward, reach) / 3);
     }
     if (kind == RowKind::exact) return heights;
-    /// Largest ratio of heights at neighbouring nodes. A higher one follows gaps more closely, with less even
-    /// rows.
+    /// Largest ratio of heights at neighbouring nodes. With a higher ratio, the row follows gaps more closely
+    /// but is less even.
     constexpr double kChange = 1.3;
     for (int pass = 0; pass < 2; ++pass) {
         for (std::size_t k = 0; k < 2 * n; ++k) {
@@ -46,7 +47,7 @@ std::vector<double> row_heights(const PartialMesh& partial, const Cycle& cycle,
     return heights;
 }
 
-/// Places the row of one loop, and removes it if it is not good.
+/// Places the row of one loop. A row that is not good is removed.
 class RowTrial {
 public:
     RowTrial(PartialMesh& partial, const Cycle& cycle, RowKind kind)
@@ -54,7 +55,7 @@ public:
     {
     }
 
-    /// @return the inner side of the row; empty, with the mesh unchanged, if the row cannot be placed.
+    /// @return the inner side of the row. Empty if the row cannot be placed; the mesh is then unchanged.
     std::optional<Cycle> lay(const GapFinder& gaps, const SizeField& height)
     {
         const std::size_t points = partial_.points.size(), quads = partial_.quads.size();
@@ -77,8 +78,8 @@ private:
     [[nodiscard]] int kind(std::size_t i) const { return std::min(quads_in(angles_[i % n_]), kMostQuads); }
     [[nodiscard]] const Vec2& at(std::size_t i) const { return partial_.at(cycle_[i % n_]); }
 
-    /// Whether ends are at least three edges apart. Each end removes a node from the sides before and after
-    /// it, so a side of three edges keeps one.
+    /// Whether there are at least three edges between two ends. Each end takes a node from the sides before
+    /// and after it, so that a side of three edges keeps one edge.
     [[nodiscard]] bool ends_far_apart() const
     {
         constexpr std::size_t kApart = 3; // edges between two ends
@@ -92,9 +93,9 @@ private:
         return first == n_ || first == last || first + n_ - last >= kApart;
     }
 
-    /// Whether the row is high enough. A row that is squeezed below 0.6 of its height on a quarter of its
-    /// length is worse than none; stricter bounds drop more rows. An exact row may miss its height by a
-    /// hundredth, for rounding only.
+    /// Whether the row is high enough. A row that is lower than 0.6 of its height on a quarter of its length
+    /// is worse than no row. Stricter bounds drop more rows. An exact row may deviate from its height by a
+    /// hundredth, which allows for rounding.
     [[nodiscard]] bool high_enough(const SizeField& height) const
     {
         const double kSqueezed = kind_ == RowKind::exact ? 0.99 : 0.6,
@@ -104,7 +105,8 @@ private:
         return static_cast<double>(squeezed) <= kMost * static_cast<double>(n_);
     }
 
-    /// Place new nodes above every node, from the edge before it to the edge after it.
+    /// Place the new nodes of the row. Above each node, they are placed in order from the edge after it to
+    /// the edge before it.
     void place_nodes()
     {
         inner_.assign(n_, {});
@@ -113,8 +115,9 @@ private:
             if (quads == 1) continue;
             const Vec2 ahead = (at(i + 1) - at(i)).normalized();
             const double step = angles_[i] / quads;
-            // A spoke keeps the row's height above both edges where they bend slightly. The clamps here and
-            // below limit the spokes at sharp bends; lower clamps allow longer spokes.
+            // Where the edges bend slightly, the end of a spoke has the row's height above both edges. The
+            // clamps here and below limit the length of spokes at sharp bends. Lower clamps permit longer
+            // spokes.
             const double spoke = heights_[i] / std::clamp(std::sin(step), 0.7, 1.0);
             for (int k = quads - 1; k >= 1; --k) {
                 inner_[i].push_back(partial_.add(at(i) + rotated(ahead, k * step) * spoke));
@@ -188,7 +191,7 @@ int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>&
         for (std::size_t l = 0; l < loops.size(); ++l) next.push_back(inner[l] ? *inner[l] : loops[l]);
         const auto crossing = geometry::find_crossing(partial.points, next);
         if (!crossing) break;
-        // If rows run into each other, the shorter loop gets no row, and all rows are placed again.
+        // If two rows run into each other, the shorter loop gets no row, and all rows are placed again.
         std::size_t out = crossing->loop_a;
         if (!inner[out] || (inner[crossing->loop_b] && loops[crossing->loop_b].size() < loops[out].size()))
             out = crossing->loop_b;

@@ -26,7 +26,8 @@ std::vector<BoundarySide> sides_of(const PlanarRegion& region)
     return sides;
 }
 
-/// Bounds on the size, on a grid over the region, propagated from the boundary sides.
+/// Lower and upper bounds of the size. They are stored on a grid over the region and propagated from the
+/// boundary sides.
 class SizeBounds {
 public:
     explicit SizeBounds(const std::vector<BoundarySide>& sides)
@@ -35,8 +36,8 @@ public:
         for (const BoundarySide& side : sides) box.extend(side.middle);
         low_ = box.min();
         const Vec2 high = box.max();
-        // The cell width is half the shortest side, with at most kAcross cells along the longer side of the
-        // box. Finer cells follow the boundary better and take more time.
+        // The cell width is half the shortest side, but there are at most kAcross cells along the longer side
+        // of the box. Finer cells follow the boundary better but take more time.
         constexpr double kAcross = 128, kOfSide = 0.5;
         const double shortest = std::ranges::min_element(sides, [](const auto& a, const auto& b) {
                                     return a.length < b.length;
@@ -44,7 +45,7 @@ public:
         cell_ = std::max(
             {(high - low_).maxCoeff() / kAcross, kOfSide * shortest, std::numeric_limits<double>::min()});
         low_ -= Vec2::Constant(cell_);
-        // The grid has a border of cells without bounds.
+        // The grid has a margin of cells without bounds.
         nx_ = static_cast<int>((high.x() - low_.x()) / cell_) + 4;
         ny_ = static_cast<int>((high.y() - low_.y()) / cell_) + 4;
         low_ -= Vec2::Constant(cell_);
@@ -55,7 +56,7 @@ public:
             most_[cell] = std::min(most_[cell], side.length);
             least_[cell] = std::max(least_[cell], side.length);
         }
-        // Two rounds of two sweeps propagate the bounds everywhere except around sharp bends.
+        // Two rounds of two sweeps each propagate the bounds everywhere, except around sharp bends.
         const double rise = kGrading * cell_;
         for (int round = 0; round < 2; ++round) {
             for (int y = 1; y + 1 < ny_; ++y) relax(y, -1, rise);
@@ -63,8 +64,8 @@ public:
         }
     }
 
-    /// The size asked for, limited by the bounds of the four nearest cells; if the bounds contradict each
-    /// other, the upper one wins.
+    /// The requested size, limited by the bounds of the four nearest cells. If the bounds contradict each
+    /// other, the upper bound applies.
     [[nodiscard]] double limit(const Vec2& p, double asked) const
     {
         const double x = std::clamp((p.x() - low_.x()) / cell_ - 0.5, 1.0, nx_ - 2.001);
@@ -86,9 +87,9 @@ private:
         return static_cast<std::size_t>(y * nx_ + x);
     }
 
-    /// Make the bounds of a row's cells and of their neighbours consistent: first with the previous row, in
-    /// vector code, then along the row.
-    /// @param back  -1 or 1: the previous row is below or above, and the cells are visited from that side
+    /// Make the bounds of a row's cells consistent with those of their neighbours: first with the previous
+    /// row, by vector instructions, and then along the row.
+    /// @param back  -1: the previous row is below; 1: it is above. The rows are visited from that side
     void relax(int row, int back, double rise)
     {
         const double far = rise * std::numbers::sqrt2;
@@ -109,15 +110,15 @@ private:
     Vec2 low_;
     double cell_ = 1;
     int nx_ = 0, ny_ = 0;
-    std::vector<double> most_, least_; ///< for each cell
+    std::vector<double> most_, least_; ///< bounds of the size in each cell
 };
 
 } // namespace
 
 BoundarySizes sizes_with_boundary(const PlanarRegion& region)
 {
-    // Sides have about the length asked if the two differ by less than these factors. Higher factors grade
-    // the size less often, which leaves larger jumps of size at the boundary.
+    // Sides have about the requested length if both lengths differ by less than these factors. With higher
+    // factors, the size is graded less often, which leaves larger jumps of the size at the boundary.
     constexpr double kAlike = 1.6, kRingAlike = 1.75;
     const std::vector<BoundarySide> sides = sides_of(region);
     double sum = 0;

@@ -37,7 +37,8 @@ std::vector<Index> QuadNet::replace(std::span<const Index> removed, std::span<co
     const auto less = [](const Link& a, const Link& b) {
         return std::tie(a.from, a.to) < std::tie(b.from, b.to);
     };
-    std::vector<Link> outline; // outer sides next to the removed quads, in their direction
+    // All sides of the removed quads; `side` is the same side in the neighbouring quad.
+    std::vector<Link> outline;
     for (const Index q : removed) {
         for (const Index p : quad(q)) {
             out_[index(p)] = -1;

@@ -11,12 +11,13 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// Move a point to where its worst quad is better. @return whether it improved
-/// @param least_side  length that its sides must keep [length]
+/// Move a point to a position where the worst quad around it is better. @return whether there is such a
+/// position
+/// @param least_side  minimum length of the point's sides [length]
 bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p, double least_side)
 {
-    // Steps as shares of the mean distance to the neighbours. Smaller last steps and gains open a few more
-    // folds and take longer.
+    // Steps as shares of the mean distance to the neighbours. With smaller last steps and gains, a few more
+    // folds are opened, but it takes longer.
     constexpr double kFirst = 1.0 / 2, kLast = 1.0 / 17, kLeastGain = 1e-3;
     if (star.empty()) return false;
     const auto worst_at = [&](const Vec2& x) { return worst_quad(points, star, x); };
@@ -32,7 +33,7 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
     mean /= count;
     const double before = worst_at(x);
     double worst = before;
-    // Small steps cannot bring back a point far outside its neighbours.
+    // Small steps cannot bring back a point that is far outside its neighbours. Try their mean first.
     for (const Vec2& to : {mean, Vec2((mean + x) / 2)}) {
         const double found = worst_at(to);
         if (found <= worst || shortest_side(points, star, to) < least_side) continue;
@@ -51,7 +52,7 @@ bool raise(std::vector<Vec2>& points, std::span<const Spoke> star, std::size_t p
 
 void raise_flat_quads(PlanarQuads& mesh, std::size_t fixed)
 {
-    constexpr int kSweeps = 12; // limit; most meshes need fewer
+    constexpr int kSweeps = 12; // maximum; most meshes need fewer sweeps
     const auto is_flat = [&](const Quad& quad) { return scaled_jacobian(mesh.points, quad) <= kFlatQuad; };
     if (std::ranges::none_of(mesh.quads, is_flat)) return;
     const Stars stars(mesh.points.size(), mesh.quads);

@@ -16,19 +16,20 @@ struct PlanarRegion {
     /// Node cycles with the region on their left, the outer one first. Their total number of nodes is even.
     std::vector<std::vector<Index>> loops;
     std::function<double(const Vec2&)> size;         ///< target edge length in the plane; may be empty
-    std::function<double(const Vec2&)> row_height{}; ///< height of rows along the loops; empty: no rows
+    std::function<double(const Vec2&)> row_height{}; ///< height of the rows along the loops; empty: no rows
 };
 
 /// Check whether a region can be filled at all, before any work is done.
-/// @throw InvalidInput  "surface.pave_loops": no loop, one of fewer than three nodes, loops that cross, touch
-///                      or run the wrong way; "surface.pave_parity": an odd number of boundary sides.
+/// @throw InvalidInput  "surface.pave_loops": there is no loop, a loop has fewer than three nodes, or loops
+///         cross, touch or have the wrong direction; "surface.pave_parity": the number of boundary sides is
+///         odd.
 void check(const PlanarRegion& region);
 
 /// Quads over a planar region.
 struct PlanarQuads {
-    std::vector<Vec2> points; ///< the region's own first, then those added inside
+    std::vector<Vec2> points; ///< the region's points first, then points added inside
     std::vector<Quad> quads;  ///< counter-clockwise
-    std::string how{};        ///< how the mesh was made, for a note: "mapped", "paved"; may be empty
+    std::string how{}; ///< method by which the mesh was made, for a note: "mapped", "paved"; may be empty
 };
 
 /// A mesher that fills a planar region with quads alone and keeps its boundary nodes.

@@ -24,7 +24,7 @@ void add_divided(std::span<const Vec2> points, const Cycle& loop, std::size_t fr
 
 std::vector<Vec2> points_between(const Vec2& a, const Vec2& b, std::size_t sides, const SizeField& size)
 {
-    // The points lie at even steps of the sampled integral of 1 / size along the line.
+    // The points divide the integral of 1 / size along the line into equal parts. The integral is sampled.
     const std::size_t samples = std::max<std::size_t>(2 * sides, 16);
     std::vector<double> sum(samples + 1, 0);
     for (std::size_t k = 0; k < samples; ++k) {

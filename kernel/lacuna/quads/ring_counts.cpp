@@ -15,11 +15,11 @@
 namespace lacuna::quads {
 namespace {
 
-/// A narrower range for rings with further holes, because their rows bend around these holes, which uses a
-/// part of the tolerance.
+/// A narrower range for rings with further holes. Their rows bend around these holes, which uses up a part of
+/// the tolerance.
 constexpr CountRange kRingWithHoles{1 / 1.55, 1.55};
 
-/// The hole with the most nodes, the first of several; 0: there is none.
+/// The index of the hole with the most nodes; of several such holes, the first. 0: there is no hole.
 std::size_t longest_hole(const PlanarRegion& region)
 {
     std::size_t longest = 0;
@@ -29,8 +29,8 @@ std::size_t longest_hole(const PlanarRegion& region)
     return longest;
 }
 
-/// Number of a loop's sides whose length is outside the accepted range. Each costs as much as one missing
-/// side.
+/// Number of sides of a loop whose length is outside the accepted range. Each of these sides costs as much as
+/// one missing side.
 double out_of_size(const CountedLoop& loop)
 {
     int sum = 0;
@@ -41,7 +41,7 @@ double out_of_size(const CountedLoop& loop)
     return sum;
 }
 
-/// How often a loop repeats the same sequence of segments.
+/// The number of times that a loop repeats the same sequence of segments.
 int repeats(const CountTask& task, std::size_t l)
 {
     std::vector<double> wanted;
@@ -70,10 +70,11 @@ double wanted_along(const CountedLoop& loop)
     return std::abs(sum);
 }
 
-/// The two loops of a ring with the smallest total cost, where the cost of each is relative to its wanted
+/// The two loops of a ring with the smallest total cost. The cost of each loop is relative to its wanted
 /// number of sides.
-/// @param multiple  the outer loop's number of sides along the ring must be a multiple of this.
-/// @param more      candidates for the number of sides that the outer loop has more than the inner one.
+/// @param multiple  the number of sides of the outer loop along the ring is a multiple of this.
+/// @param more      candidates for the number of sides that the outer loop has in addition to those of the
+///         inner loop.
 std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
                                                   const std::array<CountedLoop, 2>& ends,
                                                   const std::array<int, 2>& along, int multiple,
@@ -82,8 +83,9 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
     std::optional<std::vector<CountedLoop>> best;
     double least = kInfinity;
     const int low = std::max(3, std::min(along[0], along[1])), high = std::max(along[0], along[1]);
-    // Weight of the deviation from the wanted number of sides along the ring. It does not apply to rows whose
-    // number of quads changes (`by` is not 0): these adapt. Chosen on gears of 400 and 3,000 quads.
+    // Weight of the deviation from the wanted number of sides along the ring. It does not apply if rows
+    // change their number of quads (`by` is not 0), because such rows adapt. Chosen on gears of 400 and 3,000
+    // quads.
     constexpr double kQuads = 3;
     const double mean = (wanted_along(ends[0]) + wanted_along(ends[1])) / 2;
     for (const int by : more) {
@@ -107,7 +109,7 @@ std::optional<std::vector<CountedLoop>> ring_ends(const CountTask& task,
     return best;
 }
 
-/// The loops of a region whose headings are measured around one of its holes (`LoopFrame::polar`).
+/// The loops of a region, with headings measured around one of its holes (`LoopFrame::polar`).
 struct RingLoops {
     std::array<CountedLoop, 2> ends; ///< the outer loop and the hole
     std::array<int, 2> along{};      ///< their numbers of sides along the ring, rounded
@@ -143,26 +145,26 @@ std::optional<RingLoops> ring_loops(const CountTask& task, std::size_t about)
     return ring;
 }
 
-/// Numbers of sides for a ring with a single hole, if no constant number of quads per row fits
-/// `kRingSegment`. Symmetric loops first get one side per corner, within a wider range; otherwise the rows
-/// change their number of quads.
-/// @param symmetric  how often segments repeat along both loops.
+/// Numbers of sides for a ring with a single hole, if no equal number of quads in all rows is within
+/// `kRingSegment`. For symmetric loops, one side per corner is tried first, within a wider range. Otherwise
+/// rows change their number of quads.
+/// @param symmetric  number of times that segments repeat along both loops.
 std::optional<std::vector<CountedLoop>> changing_ends(const CountTask& task, const RingLoops& ring,
                                                       int symmetric, int changing)
 {
     const auto& [ends, along, others] = ring;
     std::optional<std::vector<CountedLoop>> best;
     if (symmetric > 2) {
-        // If a loop has many corners, it gets one side per corner, and the other loop as many, for a
-        // symmetric mesh.
-        constexpr CountRange kMany{kRing.least, 4}; // up to four times as many sides as asked
+        // A loop with many corners gets one side per corner, and the other loop gets the same number. The
+        // mesh is then symmetric.
+        constexpr CountRange kMany{kRing.least, 4}; // up to four times as many sides as requested
         const auto corners = static_cast<int>(
             std::ranges::count_if(ends[0].runs, [](const CountedRun& run) { return run.quarter == 0; }));
         if (corners % symmetric == 0 && corners > 2 * symmetric - 1)
             best = ring_ends(task, ends, {corners, corners}, corners, std::array{0}, kMany);
     }
     if (best) return best;
-    // Rows change their number of quads symmetrically, at two nodes.
+    // Rows change their number of quads at two nodes, symmetrically.
     std::vector<int> more;
     for (int rows = 1; rows <= changing; ++rows) more.push_back(along[0] > along[1] ? 4 * rows : -4 * rows);
     best = ring_ends(task, ends, along, 2, more, kSegment);
@@ -186,8 +188,8 @@ std::optional<std::vector<int>> ring_counts(const CountTask& task)
     const RingWidths widths = ring_widths(region.points, region.loops[0], region.loops[about]);
     const double size = mean_size(task);
     const int steps = alone ? widths.steps(size) : 0;
-    // Prefer an even number of sides along the ring, so that the face across a loop can be meshed with quads
-    // only.
+    // Prefer an even number of sides along the ring, so that quads alone can fill a face on the other side of
+    // a loop.
     for (int last = 0; const int multiple : {std::lcm(symmetric, 2), 2, 1}) {
         if (!best && multiple != std::exchange(last, multiple))
             best = ring_ends(task, ring->ends, ring->along, multiple, std::array{2 * steps},

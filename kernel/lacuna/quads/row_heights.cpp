@@ -14,7 +14,7 @@ namespace {
 /// The first node inward from a boundary node, and its target position.
 struct Post {
     Index foot, top;
-    Vec2 inward; ///< unit length, half way between the two sides
+    Vec2 inward; ///< unit vector halfway between the directions perpendicular to the two sides
     double height;
 };
 
@@ -39,8 +39,8 @@ public:
 
     void run()
     {
-        constexpr int kRounds = 4; // limit of rounds; several are needed because nodes make room for their
-                                   // neighbours
+        // Maximum number of rounds; several are needed, because nodes make room for their neighbours.
+        constexpr int kRounds = 4;
         for (int round = 0; round < kRounds; ++round) {
             for (const Post& post : posts_) raise(post);
         }
@@ -49,7 +49,7 @@ public:
 private:
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
 
-    /// The other end of the edge shared by the two quads at a node.
+    /// The other end of the edge that two neighbouring quads at a node share.
     [[nodiscard]] static Index shared(const Spoke& a, const Spoke& b)
     {
         for (const Index p : {a.next, a.before}) {
@@ -62,11 +62,13 @@ private:
 
     void raise(const Post& post)
     {
-        // Larger tolerances move fewer nodes.
-        constexpr double kHeight = 0.2, kLean = 0.2; ///< deviations within this share of the height stay
+        // With larger tolerances, fewer nodes are moved.
+        /// Deviations up to this share of the height are not corrected.
+        constexpr double kHeight = 0.2, kLean = 0.2;
         const Vec2 start = at(post.top), arm = start - at(post.foot);
         const Vec2 along(post.inward.y(), -post.inward.x());
-        // A row already within the promised height may not make its neighbours worse.
+        // If the height of a row is already within the promised range, its correction must not make
+        // neighbours worse.
         const bool is_good = std::abs(arm.dot(post.inward) - post.height) <= kRowOffHeight * post.height;
         const double up = std::clamp(arm.dot(post.inward), (1 - kHeight) * post.height,
                                      (1 + kHeight) * post.height);

@@ -10,7 +10,7 @@
 namespace lacuna::quads {
 namespace {
 
-/// The image of each segment; a segment without sides is its own image. Empty if a segment has several
+/// For each segment, its image; a segment without sides is its own image. Empty if a segment has several
 /// images.
 std::optional<std::vector<std::size_t>> images_of(const PlanarRegion& region, std::span<const int> segment,
                                                   std::size_t count, const Symmetry& symmetry)
@@ -19,7 +19,7 @@ std::optional<std::vector<std::size_t>> images_of(const PlanarRegion& region, st
     std::vector<std::size_t> onto(count, kNoIndex), from(count, kNoIndex);
     for (const auto& loop : region.loops) {
         for (std::size_t i = 0, n = loop.size(); i < n; ++i) {
-            // A reflection maps the side's end to the start of the image.
+            // A reflection reverses the direction, so it maps the end of the side to the start of the image.
             const Index start = symmetry.map.mirrors ? loop[(i + 1) % n] : loop[i];
             const std::size_t own = of(loop[i]), image = of(symmetry.to[index(start)]);
             if ((onto[own] != kNoIndex && onto[own] != image) ||
@@ -35,7 +35,7 @@ std::optional<std::vector<std::size_t>> images_of(const PlanarRegion& region, st
     return onto;
 }
 
-/// The first nodes of loops that are one segment.
+/// The first node of each loop that consists of one segment.
 std::vector<Index> starts_of_whole_loops(const PlanarRegion& region, std::span<const int> segment)
 {
     std::vector<Index> starts;

@@ -15,18 +15,20 @@ namespace lacuna::quads {
 
 namespace {
 
-/// A move shorter than this share of the surrounding sides does not wake the neighbours. A higher value ends
-/// earlier, with less smooth meshes.
+/// If a point moves by less than this share of the sides around it, its neighbours are not moved again. With
+/// a higher value, smoothing ends earlier and meshes are less smooth.
 constexpr double kStill = 0.02;
-/// Over-relaxation of the steps, except in the first and the last sweep. It removes errors that span many
-/// quads in a tenth of the sweeps (measured: 1.5 and 1.7 need more, 1.9 overshoots between poor quads).
+/// Over-relaxation of the steps, except in the first and the last sweep. With it, a tenth of the sweeps is
+/// enough to remove errors that span many quads. Measured: with 1.5 and 1.7 more sweeps are needed, and 1.9
+/// overshoots between poor quads.
 constexpr double kOverstep = 1.85;
 
-/// Whether some side is far shorter than every side between two fixed points. The ends of such a needle
-/// nearly coincide, which the sines do not show.
+/// Whether some side is far shorter than every side between two fixed points. Both ends of such a side nearly
+/// coincide, although the sines may be good.
 bool has_needles(std::span<const Vec2> points, std::span<const Quad> quads, std::size_t fixed)
 {
-    constexpr double kOfShortest = 0.05; // share of the shortest fixed side below which a side is a needle
+    // A side that is shorter than this share of the shortest fixed side is a needle.
+    constexpr double kOfShortest = 0.05;
     double given = kInfinity, shortest = kInfinity;
     for (const Quad& quad : quads) {
         for (std::size_t k = 0; k < 4; ++k) {
@@ -38,8 +40,8 @@ bool has_needles(std::span<const Vec2> points, std::span<const Quad> quads, std:
     return given < kInfinity && shortest < kOfShortest * kOfShortest * given;
 }
 
-/// From kMany points on, points are swept in blocks of kBlock consecutive numbers, because in most meshes
-/// close numbers mean close points. Not measured.
+/// If there are at least kMany points, they are swept in blocks of kBlock consecutive numbers, because in
+/// most meshes points with close numbers are close to each other. Not measured.
 constexpr std::size_t kMany = 20'000, kBlock = 4096;
 
 class Smoother {
@@ -57,9 +59,9 @@ public:
         if (points.size() >= kMany) part_in_blocks();
     }
 
-    /// One step for every point that is awake. In large meshes the points inside blocks move first, with
-    /// blocks in parallel, then the points between blocks; so the result is the same for any number of
-    /// threads.
+    /// Move every point that is awake by one step. In large meshes, the points inside blocks move first, with
+    /// all blocks in parallel. The points between blocks move afterwards. The result is therefore the same
+    /// for any number of threads.
     /// @return number of points that moved by more than `kStill`.
     std::size_t sweep(double floor, double overstep, const RunContext& context)
     {
@@ -73,8 +75,8 @@ public:
                                sweep_range({fixed_, points_.size(), 0, floor, overstep}));
     }
 
-    /// Move the points of poor quads to where the least sine around them is largest. From the second call on,
-    /// only points near a point that moved are tried. @return whether any point moved
+    /// Move the points of poor quads to the positions at which the smallest sine around them is largest. From
+    /// the second call on, only points near a point that has moved are tried. @return whether any point moved
     bool raise(double floor, const RunContext& context)
     {
         if (restless_.empty()) {
@@ -114,14 +116,14 @@ public:
     }
 
 private:
-    /// Points to sweep: an interval of numbers and a filter.
+    /// The points of one sweep: an interval of numbers and a filter.
     struct Range {
         std::size_t first, last;
         char inside; ///< 1: points inside a block; 0: the others, or all points if there are no blocks
         double floor, overstep;
     };
 
-    /// Find the points whose neighbours are all fixed or in the point's own block.
+    /// Find the points whose neighbours are all fixed or in the same block.
     void part_in_blocks()
     {
         inside_.assign(points_.size(), 0);
@@ -137,7 +139,8 @@ private:
         }
     }
 
-    /// Compiled for the widest vectors of the machine; results are the same bit for bit.
+    /// As `sweep_points()`, compiled for the widest vectors of the machine. The results are bit-identical on
+    /// all machines.
     std::size_t sweep_range(const Range& range)
     {
         return with_avx2([&]() LACUNA_INLINE_BODY { return sweep_points(range); });
@@ -161,13 +164,15 @@ private:
             const Vec2 step(-(here.yy * here.slope.x() - here.xy * here.slope.y()) / det,
                             -(here.xx * here.slope.y() - here.xy * here.slope.x()) / det);
             const double side = here.sides / static_cast<double>(2 * star.size());
-            constexpr int kTries = 4; // step lengths tried, each shorter than the previous one. Not measured
+            // Number of step lengths that are tried, each shorter than the previous one. Not measured.
+            constexpr int kTries = 4;
             double length = overstep;
             for (int tries = 0; tries < kTries; ++tries, length = (length > 1 ? 1 : length / 2)) {
                 const Vec2 to = points_[p] + length * step;
                 const double least = floor * floor;
                 double energy = lanes.energy(to, areas_.weight, least);
-                // If the worst sine is below the floor already, it may stay below but not fall further.
+                // If the worst sine is already below the floor, it may stay there but must not decrease
+                // further.
                 if (energy > here.value && least > 0) {
                     const double sine = least_sine(points_, star, points_[p]);
                     if (sine < floor) energy = lanes.energy(to, areas_.weight, sine * sine);
@@ -184,7 +189,7 @@ private:
         return moved;
     }
 
-    /// Mark a point and its neighbours that are not fixed.
+    /// Mark a point and those of its neighbours that are not fixed.
     void wake(std::size_t p, std::vector<char>& marks) const
     {
         marks[p] = 1;
@@ -194,15 +199,16 @@ private:
         }
     }
 
-    /// Move a point to where the smallest sine around it is largest. @return  whether this sine increased
+    /// Move a point to the position where the smallest sine around it is largest. @return  whether this sine
+    /// increased
     bool raise_at(std::size_t p)
     {
-        // First and last step as shares of the shortest side, and the least gain of sine. Not measured.
+        // First and last step as shares of the shortest side, and the minimum gain of the sine. Not measured.
         constexpr double kFirst = 1.0 / 4, kLast = 1.0 / 300, kLeastGain = 1e-3;
         const auto star = stars_[p];
         if (star.empty()) return false;
-        // The sine alone would let points collapse onto each other, so sides keep a share of the mean length,
-        // or their present length if that is shorter.
+        // The sine alone would let points collapse onto each other. Sides therefore keep a share of their
+        // mean length, or their present length if it is shorter.
         const double reach = shortest_side(points_, star, points_[p]);
         double sum = 0;
         for (const Spoke& spoke : star) sum += (points_[index(spoke.next)] - points_[p]).norm();
@@ -224,7 +230,7 @@ private:
     const SmoothPlaneOptions& options_;
     Stars stars_;
     std::vector<char> awake_;    ///< points to sweep
-    std::vector<char> restless_; ///< points to raise if their quads are poor
+    std::vector<char> restless_; ///< points to raise if quads around them are poor
     /// For each point, whether it is inside its block; empty if there are no blocks.
     std::vector<char> inside_;
     std::vector<double> least_side_; ///< for each point, the shortest side that raising must keep [length]
@@ -244,7 +250,7 @@ void smooth_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::s
     }
     Smoother smoother(points, quads, fixed, options);
     smoother.ask_sizes(context);
-    // Points that nearly coincide can only separate if sines may fall meanwhile.
+    // Points that nearly coincide can separate only if sines may decrease in the meantime.
     const double floor = has_needles(points, quads, fixed) ? 0 : std::max(0.0, least);
     for (int i = 0; i < options.sweeps; ++i) {
         check_cancelled(context);

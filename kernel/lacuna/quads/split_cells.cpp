@@ -14,8 +14,8 @@ namespace lacuna::quads {
 namespace {
 
 /// The inner edges that stay whole: the T-join of `split_cells()`. Breadth-first trees grow from all odd
-/// cells at once; the cells of a tree form a group. Where two trees meet, their groups are linked, the
-/// shortest link first. In the resulting tree of groups, every branch with an odd number of odd cells is
+/// cells at once; the cells of a tree form a group. Where two trees meet, their groups are linked, starting
+/// with the shortest link. In the resulting tree of groups, every branch with an odd number of odd cells is
 /// joined to its parent by whole edges.
 class WholeEdges {
 public:
@@ -30,7 +30,7 @@ public:
         join();
     }
 
-    /// Side i of cell c has the number 4c + i. Boundary sides are always whole.
+    /// Whether a side stays whole. Side i of cell c has the number 4c + i. Boundary sides always stay whole.
     [[nodiscard]] bool is_whole(Index side) const
     {
         return opposite_[index(side)] < 0 || whole_[index(side)] != 0;
@@ -89,7 +89,7 @@ private:
         std::ranges::sort(meetings, [](const Meeting& a, const Meeting& b) {
             return std::tie(a.steps, a.one, a.two) < std::tie(b.steps, b.one, b.two);
         });
-        // The minimum spanning tree over the groups (Kruskal).
+        // Build the minimum spanning tree of the groups (Kruskal).
         geometry::UnionFind groups(root_.size());
         std::vector<std::vector<Meeting>> tree(root_.size());
         for (const Meeting& m : meetings) {
@@ -104,10 +104,10 @@ private:
         }
     }
 
-    /// From the leaves of a tree of groups to its root: join each odd branch to its parent.
+    /// Visit a tree of groups from its leaves to its root, and join each odd branch to its parent.
     void send_up(Index top, const std::vector<std::vector<Meeting>>& tree, std::vector<bool>& seen)
     {
-        // The odd cell of each group, from the root group on, with the link to its parent group.
+        // For each group, its odd cell and the link to its parent group, starting with the root group.
         std::vector<std::pair<Index, Meeting>> order{{top, {0, -1, -1}}};
         std::unordered_map<Index, int> odd{{top, 1}};
         seen[index(top)] = true;
@@ -135,7 +135,7 @@ private:
         for (; from_[index(c)] >= 0; c = from_[index(c)]) toggle(c, from_[index(c)]);
     }
 
-    /// Make the edge between two cells whole, or halved if it is whole.
+    /// Make an edge between two cells whole if it is halved, and halved if it is whole.
     void toggle(Index one, Index two)
     {
         around(one, [&](Index side, Index other) {
@@ -144,10 +144,10 @@ private:
     }
 
     std::vector<Index> opposite_;
-    /// The odd cell from which each cell was reached, and the cell before it.
+    /// For each cell: the odd cell from which it was reached, and the cell before it on this path.
     std::vector<Index> root_, from_;
     std::vector<int> steps_;
-    std::vector<char> whole_; ///< for each side
+    std::vector<char> whole_; ///< for each side, whether it stays whole
 };
 
 class Splitter {
@@ -173,7 +173,7 @@ private:
         return static_cast<Index>(made_.points.size()) - 1;
     }
 
-    /// The node at the middle of a side, shared with the neighbouring cell.
+    /// The node in the middle of a side. Both cells at the side share it.
     Index middle(Index side, Index a, Index b)
     {
         Index& own = middle_[index(side)];
@@ -215,9 +215,9 @@ private:
             made_.cells.push_back({corner[k], half[k], centre, half[(k + n - 1) % n]});
     }
 
-    /// A triangle with two whole sides. With the middle of the third side it is a quad with a straight
-    /// corner. A smaller quad, on rays from the incircle's centre, is placed inside, and four quads around
-    /// it.
+    /// Split a triangle with two whole sides. With the node in the middle of the third side, it is a quad
+    /// with a straight corner. A smaller quad is placed inside, with its corners on rays from the incircle's
+    /// centre, and four quads around it.
     void split_triangle(const std::array<Index, 4>& corner, const std::array<Index, 4>& half)
     {
         std::size_t k = 0;
@@ -236,8 +236,9 @@ private:
             made_.cells.push_back({outer[i], outer[(i + 1) % 4], inner[(i + 1) % 4], inner[i]});
     }
 
-    /// A quad with two whole sides: two quads if these are opposite, otherwise three quads around a point on
-    /// the diagonal from the corner between the halved sides to the corner between the whole ones.
+    /// Split a quad with two whole sides. If these are opposite, there are two quads. Otherwise there are
+    /// three quads around a point on a diagonal, which runs from the corner between the halved sides to the
+    /// corner between the whole sides.
     void split_quad(const std::array<Index, 4>& corner, const std::array<Index, 4>& half)
     {
         std::size_t k = 0;
@@ -249,10 +250,11 @@ private:
             return;
         }
         if (half[(k + 1) % 4] < 0) k = (k + 3) % 4;
-        // Sides k and k + 1 are halved: d is the corner between them, b the opposite one.
+        // Sides k and k + 1 are halved; d is the corner between them, and b is the opposite corner.
         const Index c = corner[k], d = corner[(k + 1) % 4], a = corner[(k + 2) % 4], b = corner[(k + 3) % 4];
         const Index m = half[k], n = half[(k + 1) % 4];
-        // Where the line through both middles crosses the diagonal, as a share of the length from b to d.
+        // The point where the line through both middles crosses the diagonal, as a share of the length from b
+        // to d.
         const Vec2 line = at(n) - at(m), diagonal = at(d) - at(b);
         const double most = cross(at(m) - at(b), line) / cross(diagonal, line);
         const Index x = add(at(b) + most / 1.5 * diagonal);
@@ -264,7 +266,7 @@ private:
     const MixedMesh& mesh_;
     WholeEdges whole_;
     MixedMesh made_;
-    std::vector<Index> middle_; ///< for each side; -1: not made yet
+    std::vector<Index> middle_; ///< for each side, its middle node; -1: not made yet
 };
 
 } // namespace

@@ -28,7 +28,7 @@ struct RowSide {
 
 class RowSquarer {
 public:
-    /// @param sizes  whether to improve the lengths of sides as well.
+    /// @param sizes  whether to improve the lengths of sides too.
     RowSquarer(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries,
                bool sizes)
         : mesh_(mesh),
@@ -45,7 +45,7 @@ public:
         floor_ = std::max(kGood, least_scaled_jacobian(mesh.points, mesh.quads));
     }
 
-    /// Move each node once. @return the largest move, relative to the mean length of the node's sides
+    /// Move each node once. @return the largest move, as a share of the mean length of the node's sides
     double round()
     {
         double most = 0;
@@ -60,19 +60,19 @@ public:
     }
 
 private:
-    // kGood: the scaled Jacobian below which a neighbouring quad may not fall. kOffRight (the sine of an
-    // angle) and kOffHeight: the deviations that the search aims for, stricter than kRowOffRight and
-    // kRowOffHeight. kShape: the weight of the quads' own energy. kGivenUp: the cost at which a row counts
-    // half. kShorter and kLonger: the lengths of sides aimed for, relative to the size asked. Chosen from a
-    // few values each: these give most good rows on 70 outlines of the held family (benchmarks/pave/) without
-    // worse quads between sharp corners.
+    // kGood: minimum scaled Jacobian of neighbouring quads. kOffRight (the sine of an angle) and kOffHeight:
+    // the deviations that the search aims at; they are stricter than kRowOffRight and kRowOffHeight. kShape:
+    // weight of the quads' own energy. kGivenUp: the cost at which the weight of a row is half. kShorter and
+    // kLonger: the range of side lengths that the search aims at, relative to the requested size. Each was
+    // chosen from a few values: these give the most good rows on 70 outlines of the held family
+    // (benchmarks/pave/) without worse quads between sharp corners.
     static constexpr double kGood = 0.7;
     static constexpr double kOffRight = 0.3, kOffHeight = 0.24, kShape = 0.002, kGivenUp = 0.5;
     static constexpr double kShorter = kShortestOfSize + 0.02, kLonger = kLongestOfSize - 0.05;
 
     [[nodiscard]] const Vec2& at(Index p) const { return mesh_.points[index(p)]; }
 
-    /// Call for a node and for each of its images.
+    /// Call `use` for a node and for each of its images.
     template <class Use>
     void for_images(Index p, const Use& use) const
     {
@@ -80,8 +80,8 @@ private:
         for (const Symmetry& symmetry : symmetries_) use(symmetry.to[index(p)]);
     }
 
-    /// Find the directions in which the current node may move, and the symmetries that map it to a node
-    /// around it.
+    /// Find the directions in which the current node may move, and the symmetries that map it to one of its
+    /// neighbours.
     void set_images(Index p, std::span<const Spoke> star)
     {
         near_.clear();
@@ -109,7 +109,7 @@ private:
         ways_ = is_centre ? std::span<const Vec2>() : std::span<const Vec2>(axis_);
     }
 
-    /// Move the current node and its images around it.
+    /// Move the current node, and those of its images that are its neighbours.
     void place(Index p, const Vec2& x)
     {
         mesh_.points[index(p)] = x;
@@ -142,7 +142,8 @@ private:
             row.along = (at(row.b) - at(row.a)) / length;
             row.height = length;
             if (region.size) {
-                // Where given sides have another length than asked, their length determines the row height.
+                // Where given sides do not have the requested length, their length determines the height of
+                // the row.
                 const double asked = region.size((at(row.a) + at(row.b)) / 2);
                 row.height = std::clamp(asked, length / kLongestOfSize, length / kShortestOfSize);
             }
@@ -156,8 +157,8 @@ private:
         }
     }
 
-    /// For each corner, the square of the amount by which the sine of its deviation exceeds the limit. The
-    /// sine of a deviation by more than a right angle counts as 1.
+    /// For each corner: the sine of the deviation from its ideal angle, minus the limit, squared. If the
+    /// deviation exceeds a right angle, its sine counts as 1.
     LACUNA_INLINE void beyond_right(const RowSide& row, Lanes& beyond) const
     {
         const Vec2 &a = at(row.a), &b = at(row.b), &c = at(row.c), &d = at(row.d);
@@ -185,12 +186,12 @@ private:
             if (off > kOffHeight) cost += (off - kOffHeight) * (off - kOffHeight);
         }
         if (cost == 0) return 0;
-        // The cost is bounded, so that no good row is sacrificed to improve a row that stays bad.
+        // The cost is bounded. Otherwise a good row might be sacrificed to improve a row that stays bad.
         return cost * kGivenUp / (cost + kGivenUp);
     }
 
-    /// Whether a node did not move in its last search and nothing around it has moved since: a new search
-    /// would find the same.
+    /// Whether a node did not move in its last search, and nothing around it has moved since then. A new
+    /// search would then have the same result.
     [[nodiscard]] bool is_settled(Index p) const
     {
         const std::size_t when = searched_[index(p)];
@@ -215,8 +216,8 @@ private:
     }
 
     /// The nodes of row quads that exceed their limits, the nodes of all quads around these, and the ends of
-    /// sides that are too short or too long. Of nodes that are images of each other, only the first is
-    /// included.
+    /// sides that are too short or too long. If several nodes are images of each other, only the first of
+    /// them is included.
     [[nodiscard]] std::vector<Index> nodes_to_move() const
     {
         std::vector<char> moves(mesh_.points.size(), 0);
@@ -243,8 +244,9 @@ private:
         return nodes;
     }
 
-    /// Cost of the quads around the current node if it is below a bound; otherwise some number not below the
-    /// bound. Compiled for the widest vectors of the machine; results are the same bit for bit.
+    /// Cost of the quads around the current node, if it is below a bound. Otherwise a number that is not
+    /// below the bound. Compiled for the widest vectors of the machine; the results are bit-identical on all
+    /// machines.
     [[nodiscard]] double cost_above(Index p, double bound) const
     {
         return with_avx2([&]() LACUNA_INLINE_BODY { return sum_up(p, bound); });
@@ -261,7 +263,7 @@ private:
         return cost;
     }
 
-    /// @return length of the move, relative to the mean length of the node's sides.
+    /// @return length of the move, as a share of the mean length of the node's sides.
     double move(Index p)
     {
         // First and last step, as shares of the mean side. Not measured.
@@ -296,25 +298,26 @@ private:
 
     PlanarQuads& mesh_;
     std::span<const Symmetry> symmetries_;
-    /// Symmetries that map the current node to a node around it, see `set_images()`.
+    /// Symmetries that map the current node to one of its neighbours, see `set_images()`.
     std::vector<const Symmetry*> near_;
-    std::vector<Vec2> kept_;     ///< positions of these images before the search
+    std::vector<Vec2> kept_;     ///< positions of these neighbours before the search
     std::span<const Vec2> ways_; ///< directions in which the current node may move
     std::array<Vec2, 2> axis_;
     std::size_t fixed_;
     Stars stars_;
     StarLanes lanes_; ///< the star of the current node
     std::vector<RowSide> rows_;
-    std::vector<std::vector<Index>> of_node_; ///< the rows of each node above the boundary
-    std::vector<double> asked_;               ///< size at each node, if sizes count
+    std::vector<std::vector<Index>> of_node_; ///< for each node above the boundary, its rows
+    std::vector<double> asked_;               ///< requested size at each node, if sizes count
     std::size_t searches_ = 0;
-    /// Number of the last search in which each node moved, or stayed.
+    /// Searches are numbered. For each node: the number of its last search that moved it, and of its last
+    /// search.
     std::vector<std::size_t> moved_, searched_;
     double floor_ = kGood;
 };
 
-/// Value of a mesh for comparison. The part of a share above the promised one counts a quarter, so that it
-/// does not outweigh poor quads.
+/// Value of a mesh for comparison. The part of a share that exceeds the promised share counts a quarter, so
+/// that it does not outweigh poor quads.
 double worth_of(const PlaneQuality& quality)
 {
     constexpr double kBeyond = 0.25;
@@ -325,14 +328,14 @@ double worth_of(const PlaneQuality& quality)
 }
 
 /// Move nodes as long as this increases the value of the mesh.
-/// @param quality  of the mesh, before and after.
+/// @param quality  quality of the mesh; updated.
 void improve(PlanarQuads& mesh, const PlanarRegion& region, std::span<const Symmetry> symmetries, bool sizes,
              PlaneQuality& quality)
 {
     // Accepted loss of mean scaled Jacobian for better rows.
     constexpr double kLess = 0.01;
-    constexpr int kRounds = 12, kIdle = 3; // limit of rounds, and of rounds without gain
-    constexpr double kStill = 0.03;        // share of a side: smaller moves count as none
+    constexpr int kRounds = 12, kIdle = 3; // maximum number of rounds, and of consecutive rounds without gain
+    constexpr double kStill = 0.03;        // share of a side: smaller moves do not count as moves
     const PlaneQuality before = quality;
     const double rounding = symmetries.empty() ? 0 : kFileAccuracy;
     const auto keeps = [](double was, double is) { return is >= kPromisedShare || was < kPromisedShare; };

@@ -13,11 +13,12 @@
 namespace lacuna::quads {
 namespace {
 
-/// Additional cost of numbers of sides that miss the wanted number of quads by more than a quarter. It
-/// exceeds any cost of sides within their range.
+/// Additional cost if the number of quads differs from the wanted number by more than a quarter. It exceeds
+/// the cost of any numbers of sides within their range.
 constexpr double kOffAsked = 1e6;
 
-/// The segments between the corners of a patch; empty if a side bends or is not one segment.
+/// The segments that are the sides of a patch, between its corners. Empty if a side bends or consists of
+/// several segments.
 std::vector<std::size_t> sides_of_patch(const CountTask& task)
 {
     if (task.region.loops.size() != 1) return {};
@@ -32,8 +33,8 @@ std::vector<std::size_t> sides_of_patch(const CountTask& task)
     return sides;
 }
 
-/// The wanted foot of each grid: its number of edges along the side that starts at its corner. Side i has
-/// foot[i] + foot[i + 2] edges.
+/// For each grid, its wanted foot: the number of its edges along the side that starts at its corner. Side i
+/// has foot[i] + foot[i + 2] edges.
 std::vector<double> wanted_feet(const CountTask& task, const std::vector<std::size_t>& sides)
 {
     const std::size_t n = sides.size();
@@ -45,7 +46,8 @@ std::vector<double> wanted_feet(const CountTask& task, const std::vector<std::si
     return feet;
 }
 
-/// The best numbers whose feet are near several multiples of the wanted ones; empty if none are allowed.
+/// The best numbers of sides whose feet are near several multiples of the wanted feet. Empty if none are
+/// permitted.
 std::optional<Counts> best_near(const CountTask& task, const std::vector<std::size_t>& sides,
                                 const std::vector<double>& feet, const CountRange& range)
 {
@@ -92,7 +94,8 @@ std::optional<Counts> best_near(const CountTask& task, const std::vector<std::si
 
 std::optional<std::vector<int>> star_counts(const CountTask& task)
 {
-    constexpr double kBalanced = 0.5; // least width of a grid relative to the widest. Not measured
+    // Minimum ratio between the smallest and the largest width of a grid. Not measured.
+    constexpr double kBalanced = 0.5;
     const std::vector<std::size_t> sides = sides_of_patch(task);
     if (sides.size() != 3 && sides.size() != 5) return std::nullopt;
     const std::vector<double> feet = wanted_feet(task, sides);

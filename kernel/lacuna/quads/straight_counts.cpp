@@ -18,8 +18,8 @@
 namespace lacuna::quads {
 namespace {
 
-/// Below this number of quads, a grid is made for several solutions and the best is used. For more quads that
-/// takes too long.
+/// If there are fewer quads than this, a grid is made for several solutions and the best one is used. With
+/// more quads this takes too long.
 constexpr double kFewForTrial = 200;
 
 bool may_be_tried(const CountTask& task, const StraightOptions& options)
@@ -56,7 +56,8 @@ struct LoopGrid {
     GridLoop grid;
     std::size_t laid = 0; ///< number of quads in the rows between the loop and the grid
 
-    /// Number of quads that the loop contributes: those inside the outer loop; for a hole, minus those in it.
+    /// Number of quads that the loop contributes: the quads inside the outer loop, or minus the quads that a
+    /// hole removes.
     [[nodiscard]] double quads() const
     {
         double twice = 0;
@@ -91,7 +92,8 @@ std::optional<LoopGrid> loop_grid(const CountTask& task, std::size_t l, const Co
     return made;
 }
 
-/// Whether holes lie apart in the outer loop's grid, each at its interpolated position.
+/// Whether the holes have room in the outer loop's grid, each at its interpolated position and apart from the
+/// others.
 bool have_place(const std::vector<LoopGrid>& grids)
 {
     std::vector<GridLoop> loops;
@@ -129,7 +131,8 @@ bool are_close(const CountTask& task)
 }
 
 /// Give a hole an even number of columns if its centre lies on a line of the outer loop's grid, and an odd
-/// number if it lies between two lines; likewise for rows. So a hole in the middle of a plate stays there.
+/// number if it lies between two lines. The same applies to rows. A hole in the middle of a plate then stays
+/// in the middle.
 void centre_holes(const CountTask& task, std::vector<CountedLoop>& loops, const LoopGrid& outer)
 {
     for (std::size_t l = 1; l < loops.size(); ++l) {
@@ -144,7 +147,8 @@ void centre_holes(const CountTask& task, std::vector<CountedLoop>& loops, const 
     }
 }
 
-/// Loops that close, for a number of rows before soft turns and a factor on the wanted sides.
+/// Loops that close in the grid, for one number of rows in front of soft turns and one factor on the wanted
+/// numbers of sides.
 struct ClosedLoops {
     std::vector<CountedLoop> loops;
     std::vector<LoopGrid> grids; ///< grids of the loops that have one
@@ -179,7 +183,7 @@ void add_grids(const CountTask& task, const HeadedLoops& headed, int rows, Close
     }
 }
 
-/// The sides of all runs, which identify equal numbers of sides.
+/// The numbers of sides of all runs, by which equal solutions are recognised.
 std::vector<int> run_counts(const ClosedLoops& closed)
 {
     std::vector<int> counts;
@@ -189,30 +193,31 @@ std::vector<int> run_counts(const ClosedLoops& closed)
     return counts;
 }
 
-/// Solutions for one style of ends, for several numbers of rows in front of soft turns and several factors on
-/// the wanted sides.
-/// @return  the solutions with their costs; for a part, only solutions that may still be the cheapest.
+/// Solutions for one style of ends. Several numbers of rows in front of soft turns and several factors on the
+/// wanted sides are tried.
+/// @return  the solutions with their costs. For a part, only solutions that may be the cheapest one.
 std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOptions& options, TurnStyle style)
 {
-    // Weights of the deviations of the number of quads from the requested one, and of the number of rows from
-    // `fitting_rows()`. Chosen on 40 outlines of the family that `--held` draws (benchmarks/pave/).
+    // Weights of two deviations: of the number of quads from the requested number, and of the number of rows
+    // from `fitting_rows()`. Chosen on 40 outlines of the family that `--held` draws (benchmarks/pave/).
     constexpr double kQuads = 0.25, kRows = 1;
-    constexpr double kUnlike = 10; // cost of unequal mirrored segments: nearly excludes them. Not measured
-    // kOff: cost of a number of quads outside the promised range, and of holes without a place in the grid.
-    // kNearAsked: relative deviation from the requested number of quads at which the search ends. kMany:
-    // requested quads from which the places of holes in a whole region are not checked. Not measured.
+    // Cost of mirrored segments with unequal numbers; it nearly excludes them. Not measured.
+    constexpr double kUnlike = 10;
+    // kOff: cost if the number of quads is outside the promised range, or if holes have no room in the grid.
+    // kNearAsked: the search ends at this relative deviation from the requested number of quads. kMany: from
+    // this number of requested quads on, the room for holes in a whole region is not checked. Not measured.
     constexpr double kOff = 2, kNearAsked = 0.1, kMany = 2000;
     // Factors on the wanted sides; not measured.
     constexpr std::array<double, 7> kShares{1, 0.9, 0.8, 1.1, 0.65, 1.25, 1.5};
-    constexpr std::size_t kNear = 4; // of these factors, those tried within the promised range
+    constexpr std::size_t kNear = 4; // the first of these factors, which are tried within the promised range
     const double asked = quads_asked(task);
     const auto headed = head_loops(task.region, style);
     if (!headed || (options.few && are_close(task))) return {};
     const std::vector<SegmentPair> pairs = mirrored_segments(task.region, task.segment);
     std::vector<Counts> all;
     double least = kInfinity; // the lowest cost so far
-    // Only a part has axes that can take up the difference that more rows make, and without soft turns the
-    // number of rows has no effect.
+    // More rows are tried only for a part with soft turns. Only a part has axes that can take up the
+    // additional sides, and without soft turns the number of rows has no effect.
     const std::vector<int> all_rows = options.is_part && headed->turns ? rows_to_try(headed->fitting)
                                                                        : std::vector<int>{1};
     const bool wide = options.range.most > kSegment.most;
@@ -224,7 +229,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             if (!closed) continue;
             if (!known.insert(run_counts(*closed)).second) continue;
             Counts counts{counts_of(task, closed->loops), closed->cost};
-            // A symmetric region must be filled symmetrically.
+            // A symmetric region needs symmetric numbers.
             if (!options.is_part && !are_alike(counts.sides, pairs)) continue;
             double of_part = 0;
             if (options.is_part) {
@@ -240,8 +245,8 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
             counts.cost += kQuads * (quads - asked) * (quads - asked) / asked + of_part;
             const bool fits = std::abs(quads - asked) <= kNearAsked * asked;
             if (std::abs(quads - asked) > kQuadsOff * asked) counts.cost += kOff;
-            // Check that holes have a place in the grid: with few lines they may not; with many the check is
-            // slow.
+            // Check that the grid has room for the holes. If it has few lines it may not have room; if it has
+            // many lines the check is slow.
             const bool looks = options.is_part ? options.few : asked < kMany;
             const bool has_place = !looks || (has_grids && have_place(closed->grids));
             if (!has_place) counts.cost += kOff;
@@ -251,7 +256,7 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
                 if (closed->loops.size() > 1 && !closed->grids.empty()) {
                     centre_holes(task, closed->loops, closed->grids.front());
                     all.back().sides = counts_of(task, closed->loops);
-                    // `best_filled()` chooses between the numbers with and without centred holes.
+                    // `best_filled()` chooses between the numbers before and after centring the holes.
                     if (may_be_tried(task, options)) all.push_back(std::move(counts));
                 }
             }
@@ -263,13 +268,14 @@ std::vector<Counts> counts_looked_at(const CountTask& task, const StraightOption
 
 bool is_cheaper(const Counts& a, const Counts& b) { return a.cost < b.cost; }
 
-/// Score of the best grid that `fill_patterns()` makes with these numbers of sides: its `paving::score_of()`,
-/// minus a penalty for a number of quads other than asked. Nodes are spaced evenly along the region's own
-/// sides, so round segments become slightly flatter. Empty if no grid can be made.
+/// Score of the best grid that `fill_patterns()` makes with these numbers of sides. It is the grid's
+/// `paving::score_of()`, minus a penalty for a number of quads that differs from the requested one. Nodes are
+/// spaced evenly along the region's own sides, so round segments become slightly flatter. Empty if no grid
+/// can be made.
 std::optional<double> score_of_counts(const CountTask& task, std::span<const int> counts)
 {
-    // Penalty for the number of quads: kWorth at a deviation of a quarter from the number asked, and
-    // quadratic in the deviation. Mean scaled Jacobians usually differ by less than kWorth.
+    // Penalty for the number of quads. It is kWorth if the number differs by a quarter from the requested
+    // one, and quadratic in this difference. Mean scaled Jacobians usually differ by less than kWorth.
     constexpr double kWorth = 0.2;
     const double asked = quads_asked(task);
     PlanarRegion made;
@@ -292,12 +298,11 @@ std::optional<double> score_of_counts(const CountTask& task, std::span<const int
     return best;
 }
 
-/// The solution whose grid has the best measured quality. Solutions are tried from the cheapest on until one
-/// is good. Empty if no grid is valid or there is only one solution.
+/// The solution whose grid has the best measured quality. Solutions are tried in order of their cost until a
+/// grid is good. Empty if no grid is valid, or if there is only one solution.
 std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all)
 {
-    // A score at which the search ends, and the maximum number of grids made, to limit the time. Not
-    // measured.
+    // Score at which the search ends, and maximum number of grids, to limit the time. Not measured.
     constexpr double kGood = 3.1;
     constexpr std::size_t kMost = 4;
     std::ranges::stable_sort(all, is_cheaper);
@@ -319,7 +324,7 @@ std::optional<Counts> best_filled(const CountTask& task, std::vector<Counts> all
 
 std::optional<Counts> straight_counts(const CountTask& task, const StraightOptions& options)
 {
-    // The costs of solutions with soft ends are divided by this; chosen like kQuads.
+    // The cost of solutions with soft ends is divided by this, which was chosen like kQuads.
     constexpr double kSoft = 2;
     std::vector<Counts> all = counts_looked_at(task, options, TurnStyle::soft);
     const auto add = [&](TurnStyle style) {

@@ -30,7 +30,7 @@ std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<
         const int quads = grid_quads(corner_angle(points, loop, i));
         if (quads == 0) return std::nullopt;
         sum += 2 - quads;
-        // The first side runs along the first axis, whatever the angle at its start.
+        // The first side runs along the first axis, whatever the angle at its start is.
         if (i > 0) heading += 2 - quads;
         grid.positions.push_back(position);
         advance(position, heading);
@@ -98,9 +98,10 @@ SubmapGrid::SubmapGrid(const std::vector<GridLoop>& loops, int period) : period_
             }
         }
     }
-    constexpr std::int64_t kMost = 1 << 24; // lines across; a wider grid comes from a misplaced hole
+    // Maximum number of lines; only a misplaced hole makes the grid wider.
+    constexpr std::int64_t kMost = 1 << 24;
     for (std::size_t k = 0; k < 2; ++k) {
-        if (std::int64_t{high[k]} - low_[k] > kMost) return; // no cells, so no loop fits
+        if (std::int64_t{high[k]} - low_[k] > kMost) return; // without cells, no loop fits
     }
     if (period_ > 0) low_[0] = 0;
     width_ = period_ > 0 ? period_ : high[0] - low_[0] + 1;
@@ -132,14 +133,14 @@ std::optional<std::size_t> SubmapGrid::cell_at(int x, int y, std::size_t k) cons
 
 bool SubmapGrid::find_cells(const std::vector<GridLoop>& loops)
 {
-    // The winding number of each cell: the sum over its column of the changes at the sides that run along it.
+    // The winding number of a cell is the sum of the changes at the horizontal sides in its column.
     std::vector<int> change(in_.size(), 0);
     for (const GridLoop& loop : loops) {
         for (std::size_t i = 0, n = loop.positions.size(); i < n; ++i) {
             const GridPosition &a = loop.positions[i], &b = loop.positions[(i + 1) % n];
             if (a[1] != b[1]) continue;
             // The region lies to the left of a side. On a loop around a periodic grid, the last step leads
-            // from the highest coordinate to 0, or from 0 to the highest.
+            // from the highest coordinate to 0, or from 0 to the highest coordinate.
             const bool forward = slot(b) == index(a[0] - low_[0] + 1, a[1] - low_[1]);
             if (forward)
                 ++change[slot(a)];
@@ -169,8 +170,8 @@ bool SubmapGrid::give_corners(const GridLoop& loop, std::size_t i)
         if (to[1] != at[1]) return to[1] > at[1] ? 1 : 3;
         return slot(to) == index(at[0] - low_[0] + 1, at[1] - low_[1]) ? 0 : 2;
     };
-    // The region lies between the side that leaves the node and the side that arrives; all around if both are
-    // the same.
+    // The region at a node lies between the side that leaves it and the side that arrives at it. If both have
+    // the same direction, the region lies all around the node.
     const std::size_t out = direction(next), back = direction(last);
     const std::size_t quads = back == out ? 4 : (back + 4 - out) % 4;
     for (std::size_t q = 0; q < quads; ++q) {
@@ -237,8 +238,8 @@ void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
 {
     std::vector<double> weight(points.size(), 0);
     std::vector<Vec2> sum(points.size(), Vec2::Zero());
-    // A node belongs to cells ahead of it on the line and to cells behind it; across a slit these have
-    // different nodes.
+    // A node belongs to the cells ahead of it on the line, and to the cells behind it. At a slit, the cells
+    // ahead and behind have different nodes.
     const auto along = [&](int lines, int length, const auto& node, const Sides& far, const Sides& near) {
         const auto ahead = [&](int l, int i) { return node(l, i, far); };
         const auto behind = [&](int l, int i) { return node(l, i, near); };
@@ -260,7 +261,7 @@ void SubmapGrid::place_inner(std::vector<Vec2>& points, Index fixed) const
             }
         }
     };
-    // In a periodic grid a row would end at the seam, so only columns are used.
+    // In a periodic grid, rows are interrupted at the seam, so only columns are used.
     if (period_ == 0) {
         along(height_, width_, [&](int y, int x, const Sides& side) { return node_at(x, y, side); }, {0, 3},
               {1, 2});

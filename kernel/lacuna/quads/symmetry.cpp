@@ -27,7 +27,7 @@ public:
             if (opposite_[side] >= 0) continue;
             const std::size_t start = index(mesh_.quads[side / 4][side % 4]);
             if (opposite_[side] != mesh::kRimSide || start >= rim_.size())
-                return found; // not a mesh of the region
+                return found; // the quads are not a mesh of the region
             rim_[start] = static_cast<Index>(side);
         }
         if (std::ranges::find(rim_, -1) != rim_.end()) return found;
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    /// A side and its image.
+    /// A side and the side onto which it is mapped.
     struct SidePair {
         Index own, image;
     };
@@ -71,10 +71,11 @@ private:
         return true;
     }
 
-    /// The side `by` sides further around the same quad.
+    /// The side of the same quad that follows `by` sides after a side.
     static Index beyond(Index side, Index by) { return (side & ~3) + ((side + by) & 3); }
 
-    /// Map the corners of the quad of a side. @return  false if a corner already has another image
+    /// Map the corners of the quad that has a given side. @return  false if a corner already has another
+    /// image
     bool maps_corners(Symmetry& symmetry, const SidePair& side) const
     {
         for (Index i = 0; i < 4; ++i) {
@@ -90,8 +91,8 @@ private:
 
     const PlanarQuads& mesh_;
     const PlanarRegion& region_;
-    std::vector<Index> opposite_; ///< for each side, numbered 4 × quad + place
-    std::vector<Index> rim_;      ///< the boundary side that starts at each boundary node
+    std::vector<Index> opposite_; ///< for each side, its twin; side k of quad q has the number 4 q + k
+    std::vector<Index> rim_;      ///< for each boundary node, the boundary side that starts there
 };
 
 } // namespace
@@ -117,9 +118,10 @@ std::size_t symmetrise(PlanarQuads& mesh, std::size_t fixed, std::span<const Sym
             sum += symmetry.map.back(mesh.points[index(symmetry.to[p])]);
         made.points[p] = share * sum;
     }
-    // After complete smoothing, nodes are close to the means of their images, so moving them there costs no
-    // quality. It may if smoothing stopped early; then the mesh is left unchanged.
-    constexpr double kWorse = 0.01; // loss of least scaled Jacobian that is accepted; not measured
+    // After complete smoothing, nodes are close to the means of their images, and moving them to these means
+    // costs no quality. If smoothing stopped early, the moves may cost quality. The mesh is then left
+    // unchanged.
+    constexpr double kWorse = 0.01; // accepted decrease of the smallest scaled Jacobian; not measured
     const double before = least_scaled_jacobian(mesh.points, mesh.quads);
     if (least_scaled_jacobian(made.points, made.quads) < before - kWorse) return 1;
     mesh = std::move(made);

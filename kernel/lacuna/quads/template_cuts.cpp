@@ -11,12 +11,12 @@ namespace lacuna::quads {
 
 namespace {
 
-/// A cut that meets the outline at a larger deviation from a right angle is excluded: 0 is square to the
-/// outline, 1 along it.
+/// Maximum slant of a cut at the outline: 0 is perpendicular to the outline, 1 is along it. Cuts with a
+/// larger slant are excluded.
 constexpr double kMostSlant = 0.7;
 
-/// Twice the foot that `spoke_feet()` finds for side i: the sum of the edges of sides i, i + 2, i + 4 …, with
-/// alternating signs.
+/// Twice the foot that `spoke_feet()` finds for side i: the sum of the numbers of edges of sides i, i + 2, i
+/// + 4 …, with alternating signs.
 int twice_foot(const SideCounts& counts, std::size_t i)
 {
     const std::size_t n = counts.count;
@@ -49,21 +49,21 @@ public:
         }
     }
 
-    /// Add the cuts between two positions that have an accepted number of edges.
+    /// Add the cuts between two positions, for each accepted number of edges.
     template <class Fits>
     void add(std::size_t from, std::size_t to, const Fits& fits, std::vector<TemplateCut>& found) const
     {
         const Vec2 across = loop_[to] - loop_[from];
         const double length = across.norm(), fitting = length / spacing_;
         if (!(length > 0)) return;
-        // Deviation from a right angle at which the cut meets a side, 0 to 1.
+        // Slant of the cut at one of its ends, from 0 (perpendicular to the outline) to 1.
         const auto slant_at = [&](std::size_t i) {
             return std::abs(along_[i].side.dot(across / length)) / along_[i].length;
         };
         const double slant = (slant_at(from) + slant_at(to)) / 2;
         if (slant > kMostSlant) return;
         int low = std::max(1, static_cast<int>(fitting * kShortestOfSize));
-        if ((to + loop_.size() - from + index(low)) % 2 != 0) ++low; // parts have even outlines
+        if ((to + loop_.size() - from + index(low)) % 2 != 0) ++low; // both parts need even numbers of edges
         const int high = std::min(static_cast<int>(loop_.size()),
                                   static_cast<int>(fitting * kLongestOfSize) + 1);
         for (int k = low; k <= high; k += 2) {
@@ -77,11 +77,11 @@ private:
         double length;
     };
     std::span<const Vec2> loop_;
-    std::vector<Along> along_; ///< direction from the previous position to the next one
+    std::vector<Along> along_; ///< for each position: vector from the previous position to the next one
     double spacing_ = 0;
 };
 
-/// Whether a patch of four sides can be filled with at most one pair of irregular nodes.
+/// Whether a patch of four sides can be filled with two irregular nodes or none.
 bool needs_one_pair(const SideCounts& counts)
 {
     const auto& side = counts.side;
@@ -121,7 +121,7 @@ bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMos
 bool can_fill(const SideCounts& counts)
 {
     if (counts.count != 4) return needs_no_cut(counts);
-    // The numbers of columns that turn each way must leave a row and a column beside each irregular node.
+    // The columns that turn in each direction must leave a row and a column beside each irregular node.
     const int more = std::abs(counts.side[0] - counts.side[2]),
               less = std::abs(counts.side[1] - counts.side[3]);
     const int across = std::min(counts.side[0], counts.side[2]),
@@ -142,21 +142,24 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
     const SideCounts counts = side_counts(loop.size(), corners);
     if (needs_no_cut(counts)) found.push_back({});
     if (!found.empty()) return found;
-    constexpr int kTried = 16; // positions tried along a side of three or five, to limit the time
+    // Maximum number of positions tried along a side of three or five, to limit the time.
+    constexpr int kTried = 16;
     const CutRanker ranker(loop);
-    // With an even number of sides, one or three corners lie between the two sides that the cut joins. With
-    // two, the parts of a patch of four sides would only be strips.
+    // Number of sides from one side that the cut joins to the other. For an even number of sides, the cut has
+    // one or three corners on either side. With two corners on either side, the parts of a patch of four
+    // sides would only be strips.
     const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
-    // With opposite sides, each pair would occur twice.
+    // If the cut joins opposite sides, each pair would occur twice.
     const std::size_t pairs = 2 * between == n ? n / 2 : n;
     const auto steps = [&](int edges) { return n % 2 != 0 ? 1 + edges / kTried : 1; };
     for (std::size_t side = 0; side < pairs; ++side) {
         const std::size_t other = (side + between) % n;
-        // The part from the cut's start to its end has between + 2 sides, the other one n - between + 2.
+        // The part from the start of the cut to its end has between + 2 sides, and the other part has n -
+        // between + 2 sides.
         SideCounts first{{}, between + 2}, second{{}, n - between + 2};
         for (std::size_t i = 1; i < between; ++i) first.side[i] = counts.side[(side + i) % n];
         for (std::size_t i = 1; i < n - between; ++i) second.side[i] = counts.side[(other + i) % n];
-        // A part of four sides may have a pair of irregular nodes, any other part one node.
+        // A part of four sides may have two irregular nodes, any other part one irregular node.
         const auto fits = [&](int edges) {
             std::array<int, kMostSides> feet{};
             first.side[between + 1] = second.side[n - between + 1] = edges;
@@ -175,7 +178,7 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
             }
         }
     }
-    // There are half as many pairs of opposite sides, so half as many cuts are kept.
+    // There are half as many pairs of opposite sides, so that half as many cuts are kept.
     keep_best(found, pairs < n ? (most + 1) / 2 : most);
     return found;
 }

@@ -18,7 +18,7 @@ namespace lacuna::quads {
 
 namespace {
 
-/// Triangles over a region, as a mixed mesh: the loops' nodes first, loop after loop.
+/// Triangles over a region, as a mixed mesh. The nodes of the loops come first, one loop after the other.
 MixedMesh triangles_over(const PlanarRegion& region, double by_size)
 {
     const PlanarRegion own = region_within(region.points, region.loops).region;
@@ -32,7 +32,7 @@ MixedMesh triangles_over(const PlanarRegion& region, double by_size)
     return mesh;
 }
 
-/// The triangles with the best pairs of neighbours merged into quads.
+/// The cells after the best pairs of adjacent triangles are merged into quads.
 std::vector<Quad> merged_pairs(const MixedMesh& mesh)
 {
     struct Pair {
@@ -75,7 +75,7 @@ std::vector<Quad> merged_pairs(const MixedMesh& mesh)
 
 PlanarQuads quads_of_triangles(const PlanarRegion& region)
 {
-    // Two equilateral triangles have less area than a square on their side, and splitting halves most edges.
+    // Two equilateral triangles have less area than a square on their side. Splitting then halves most edges.
     const double kBySize = 2 * std::sqrt(2 / std::sqrt(3.0));
     MixedMesh mesh;
     try {

@@ -18,34 +18,35 @@ namespace {
 
 /// Weight of the area term relative to the shape term, from Garanzha et al.
 constexpr double kAreaShare = 1.0 / 128;
-/// Smallest ε. A lower value approaches a true barrier but is worse conditioned.
+/// Smallest ε. With a lower value, the energy is closer to a true barrier but worse conditioned.
 constexpr double kLeastEpsilon = 1e-3;
-/// Number of steps that L-BFGS remembers, and number of steps per round of constant ε. Not measured.
+/// Number of steps that L-BFGS stores, and number of steps in a round of constant ε. Not measured.
 constexpr std::size_t kMemory = 8;
 constexpr int kSteps = 100;
-/// Limits of the number of rounds, and of rounds without gain before the search stops. Not measured; they
-/// bound the time for folds that cannot be opened.
+/// Maximum number of rounds, and of consecutive rounds without gain. They limit the time for folds that
+/// cannot be opened. Not measured.
 constexpr int kRounds = 30, kIdleRounds = 3;
-/// Least relative gain of the energy in a step, and of the least determinant in a round; below, the search
-/// stops. Not measured.
+/// The search stops if the relative decrease of the energy in a step, or the relative increase of the
+/// smallest determinant in a round, is below this. Not measured.
 constexpr double kLeastGain = 1e-5, kLeastRise = 1e-4;
-/// Rings of quads that move with the folded ones: in the first attempt and, if that fails, in the second.
+/// Number of rings of quads around the folded quads that move with them: in the first attempt and, if it
+/// fails, in the second.
 constexpr std::array<int, 2> kRings{3, 10};
 
-/// A quad and the length relative to which its corners are measured.
+/// A quad, and the length that its corners are relative to.
 struct ReferenceQuad {
     Quad corners;
     double inverse; ///< 1 / reference length
 };
 
-/// The folded quads, the rings around them and the points inside.
+/// The folded quads with the rings around them, and the points that may move.
 struct FoldedPart {
     std::vector<ReferenceQuad> cells;
     std::vector<Index> moving;   ///< points that move
-    std::vector<Index> variable; ///< for each point, its number in `moving`; -1: it stays
+    std::vector<Index> variable; ///< for each point, its index in `moving`; -1: it does not move
 };
 
-/// Least determinant of the corners of a quad that can change; those of three fixed points are left out.
+/// Smallest determinant of those corners of a quad that can change. A corner of three fixed points cannot.
 double least_movable(std::span<const Vec2> points, const Quad& quad, std::size_t fixed)
 {
     double least = kInfinity;
@@ -59,7 +60,7 @@ double least_movable(std::span<const Vec2> points, const Quad& quad, std::size_t
     return least;
 }
 
-/// The quads that are folded and `rings` rings around them.
+/// The folded quads, and `rings` rings of quads around them.
 FoldedPart part_around_folds(std::span<const Vec2> points, std::span<const Quad> quads, std::size_t fixed,
                              int rings)
 {
@@ -105,13 +106,14 @@ public:
 
     double epsilon = 1;
 
-    /// Compiled for the widest vectors of the machine; results are the same bit for bit.
+    /// The energy and its gradient. Compiled for the widest vectors of the machine; the results are
+    /// bit-identical on all machines.
     double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
         return with_avx2([&]() LACUNA_INLINE_BODY { return sum_up(x, gradient); });
     }
 
-    /// Least determinant over all corners that move, relative to the squared reference lengths.
+    /// Smallest determinant over all corners that can change, relative to the squared reference lengths.
     [[nodiscard]] double least_determinant(const Eigen::VectorXd& x) const
     {
         double least = kInfinity;
@@ -137,7 +139,7 @@ private:
         return v >= 0 ? Vec2(x.segment<2>(2 * v)) : points_[index(p)];
     }
 
-    /// The corners of a cell are evaluated side by side, one per lane.
+    /// The four corners of a cell are evaluated together, one per vector lane.
     LACUNA_INLINE double sum_up(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const
     {
         gradient.setZero(x.size());

@@ -18,7 +18,8 @@ using namespace topology;
 
 namespace {
 
-/// Sample points of an edge for comparing edges of a face: enough to tell an arc from its chord. Heuristic.
+/// Number of intervals between sample points of an edge, by which edges of a face are compared: enough to
+/// distinguish an arc from its chord. Heuristic.
 constexpr std::size_t kPerEdge = 4;
 /// Faces with more edges are not compared, because the cost is quadratic in the number of edges. Heuristic.
 constexpr std::size_t kMostEdges = 512;
@@ -48,7 +49,7 @@ std::vector<std::vector<EdgeId>> alike_edges(const Model& model, FaceId face)
             edges.push_back(use.edge);
         }
     }
-    // A seam has the face on both sides, so it has no mirror image.
+    // A seam has the face on both sides, so symmetries are not searched on a face with a seam.
     if (region.loops.empty() || std::set<EdgeId>(edges.begin(), edges.end()).size() < edges.size()) return {};
     sort_outer_first(region.points, region.loops);
     const std::vector<std::size_t> least = quads::segments_alike(region, segment);
@@ -79,7 +80,7 @@ void ask_alike(Seeds& seeds, const Model& model, FaceId face, AlikeEdges& alike)
         for (const EdgeId edge : set)
             same = same && std::abs(seeds.pieces.at(edge).front().sides - mean) <= kAlikeSizes * mean;
         if (!same) continue;
-        // Counts that differ by rounding alone must round to the same integer.
+        // Wanted numbers that differ only by rounding errors must round to the same integer.
         for (const EdgeId edge : set) {
             SeedPiece& piece = seeds.pieces.at(edge).front();
             piece.sides = mean;

@@ -22,13 +22,13 @@ namespace {
 /// this share of the rim. Heuristic.
 constexpr double kFarRound = 0.125;
 
-/// Inner loops of two faces are matched if their vertices are closer than this, in radii of the loop.
-/// Heuristic.
+/// Inner loops of two faces are matched if their vertices are closer to each other than this share of the
+/// loop's radius. Heuristic.
 constexpr double kNearInside = 0.5;
 
-/// An item of a face's loop: an inner edge, or a run of rim edges between two inner edges.
+/// An item of a face's loop: an inner edge, or a sequence of rim edges between two inner edges.
 struct Item {
-    EdgeUse use; ///< for rim items only: the first edge use of the run
+    EdgeUse use; ///< for a rim item: the first edge use of the sequence
     bool rim = false;
     VertexId from;
 };
@@ -140,7 +140,7 @@ private:
                     else if (walk.empty() || !walk.back().rim || ends_.contains(use_from(model_, use)))
                         walk.push_back({use, true, use_from(model_, use)});
                 }
-                // A run that continues across the start of the loop is one item.
+                // A sequence that continues across the start of the loop is one item.
                 if (walk.size() > 1 && walk.front().rim && walk.back().rim &&
                     !ends_.contains(walk.front().from)) {
                     walk.front() = walk.back();
@@ -162,7 +162,7 @@ private:
         return true;
     }
 
-    /// Match the loops on both sides of a pair of vertices. They are found by the use of the rim that leaves
+    /// Match the loops on both sides of a pair of vertices. A loop is found by the rim's edge use that leaves
     /// the vertex: forward on the source, backward on the target.
     bool match_at(const RimPair& pair)
     {
@@ -190,8 +190,8 @@ private:
         return !whole || match({low->second, 0}, {high->second, 0});
     }
 
-    /// Match one inner loop of faces that are already matched, by its position after the affine fit of the
-    /// rims.
+    /// Match one inner loop of two faces that are already matched, by the position of the loop after the
+    /// affine fit of the rims.
     /// @return  whether a loop was matched; empty if an inner loop has no counterpart.
     std::optional<bool> match_inside()
     {
@@ -218,8 +218,8 @@ private:
         return false;
     }
 
-    /// Distance between the vertices of two loops, in radii of the loop, if item `j` of the target
-    /// corresponds to the first item of the source.
+    /// Distance between the vertices of two loops, as a multiple of the loop's radius, if item `j` of the
+    /// target's loop corresponds to the first item of the source's loop.
     double offset(const Walk& a, const Walk& b, std::size_t j)
     {
         if (!fit_) fit_rims();
@@ -264,7 +264,7 @@ private:
         up_ = high_area.stableNormalized();
     }
 
-    /// Match two loops item by item. The loop of the target runs backwards.
+    /// Match two loops item by item. The target's loop is traversed backwards.
     bool match(std::pair<std::size_t, std::size_t> low, std::pair<std::size_t, std::size_t> high)
     {
         const Walk &a = walks_[low.first], &b = walks_[high.first];
@@ -291,10 +291,10 @@ private:
     std::set<VertexId> ends_;
     AlikeEnds result_;
     std::vector<Walk> walks_;
-    std::vector<FaceId> face_; ///< face that each walk belongs to
+    std::vector<FaceId> face_; ///< for each walk, its face
     std::map<EdgeUse, std::pair<std::size_t, std::size_t>> at_use_;
     std::map<std::pair<VertexId, FaceId>, std::pair<std::size_t, std::size_t>> place_;
-    std::map<EdgeId, std::size_t> at_rim_; ///< walk of each edge of a rim without inner edges
+    std::map<EdgeId, std::size_t> at_rim_; ///< for each edge of a rim without inner edges, its walk
     std::vector<std::pair<EdgeUse, EdgeUse>> front_;
     std::size_t next_ = 0;       ///< index in `front_` of the next pair to visit
     std::set<std::size_t> done_; ///< walks that are matched

@@ -55,7 +55,7 @@ public:
                 reached.insert({low, high});
             }
         }
-        // If all walls share one table, a wall that touches no rim takes its rows from the wall below it.
+        // If all walls share one table, a wall that touches no rim continues the rows of the wall below it.
         const std::vector<FaceId> walls = volume_.faces(Role::wall);
         for (const auto& [wall, table] : tables_.of) {
             const auto has_table = [&, table = table](FaceId other) { return tables_.at(other) == table; };
@@ -88,8 +88,8 @@ private:
         }
     }
 
-    /// Record that the rows along `with` end on `on`, which follows `with` in the loop (`behind`) or precedes
-    /// it.
+    /// Record that the rows along `with` end on the edge `on`. This edge follows `with` in the loop
+    /// (`behind`), or precedes it.
     void add_end(FaceId face, EdgeUse with, EdgeUse on, bool behind)
     {
         const RimRows::Part* part = rows_.part_at(with.edge, with.reversed != behind ? 1.0 : 0.0);
@@ -233,7 +233,7 @@ const RimRows::Part* RimRows::part_at(EdgeId edge, double fraction) const
 {
     const auto found = parts.find(edge);
     if (found == parts.end()) return nullptr;
-    // Parts meet only up to rounding, so the nearest part is taken.
+    // Rounding can leave small gaps between parts, so the nearest part is taken.
     return &*std::ranges::min_element(found->second, {}, [&](const Part& part) {
         return std::max(part.from - fraction, fraction - part.to);
     });

@@ -60,8 +60,8 @@ std::vector<Circle> circles(const Model& model, const EndsMap& map, bool target,
     return found;
 }
 
-/// Dissimilarity of two closed edges: the distance of their centres or the difference of their radii,
-/// whichever is larger, divided by the larger radius.
+/// Dissimilarity of two closed edges: the sum of the distance of their centres and the difference of their
+/// radii, divided by the larger radius.
 double unlike(const Circle& a, const Circle& b)
 {
     return ((a.centre - b.centre).norm() + std::abs(a.radius() - b.radius())) /
@@ -82,8 +82,8 @@ std::vector<double> directions(const Circle& circle, std::size_t steps)
     return result;
 }
 
-/// Pair two closed edges, and find the position on the target's edge for the start of the source's edge with
-/// the least rotation.
+/// Pair two closed edges. Find the position on the target's edge that corresponds to the start of the
+/// source's edge by the smallest rotation.
 ClosedPair turned(const Circle& low, const Circle& high)
 {
     constexpr std::size_t kSteps = 360; ///< one degree is accurate enough for the start of an edge
@@ -108,8 +108,8 @@ ClosedPair turned(const Circle& low, const Circle& high)
 std::vector<ClosedPair> alike_closed_edges(const Model& model, const EndsMap& map,
                                            std::span<const EdgeId> source, std::span<const EdgeId> target)
 {
-    // Circles are paired if their centres are less than half of the larger radius apart: they still overlap
-    // by more than half. Heuristic.
+    // Circles are paired if their dissimilarity is below this; they then still overlap by more than half.
+    // Heuristic.
     constexpr double kAlike = 0.5;
     const std::vector<Circle> low = circles(model, map, false, source);
     const std::vector<Circle> high = circles(model, map, true, target);

@@ -15,7 +15,7 @@ namespace lacuna::surface {
 
 namespace {
 
-/// Corresponding points of source and target, with the rim length that each represents.
+/// Corresponding points of source and target, and the length of the rim that the pair represents.
 struct RimPlaces {
     Vec3 source, target;
     double weight;
@@ -39,8 +39,8 @@ std::vector<RimPlaces> pairs_of(std::span<const LinkingSurface> links)
     return pairs;
 }
 
-/// The rotation that maps the pairs' source points to their target points. It first turns one area vector
-/// onto the other, then by the best angle about that vector.
+/// The rotation that maps the pairs' source points onto their target points. It first rotates the source's
+/// area vector onto the target's, and then by the best angle about this vector.
 std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPlaces>& pairs, const Vec3& source_area,
                                            const Vec3& target_area)
 {
@@ -65,8 +65,8 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPlaces>& pairs, 
         along += pair.weight * a.dot(b);
         across += pair.weight * normal.dot(a.cross(b));
     }
-    // Concentric loops do not determine a rotation. Loops count as concentric if their centres are closer
-    // than a thousandth of the section's size.
+    // Concentric loops do not determine a rotation. Loops count as concentric if their centres are closer to
+    // each other than a thousandth of the section's size.
     const double size2 = std::min(source_area.norm(), target_area.norm());
     if (std::hypot(along, across) < 1e-6 * weight * size2) return std::nullopt;
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;

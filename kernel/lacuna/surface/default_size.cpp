@@ -17,7 +17,7 @@ using namespace topology;
 namespace {
 
 /// The default size is at least the diagonal of the rims' box divided by this number, even if the facets are
-/// finer. Heuristic: a square gets 14 sides per edge, and a circle 44 in all.
+/// finer. Heuristic: a square then gets 14 sides per edge, and a circle 44 sides in total.
 constexpr double kMostAlong = 20;
 
 } // namespace

@@ -22,8 +22,8 @@ bool odd(const Model& model, const Seeds& seeds, FaceId face)
     return sides_of(model, seeds, face) % 2 != 0;
 }
 
-/// Quads cannot fill a rim with an odd number of sides. If all its sides are given, divide the longest side
-/// that no kept quad uses, and add a note.
+/// Quads cannot fill a rim with an odd number of sides. If all sides of such a rim are given, divide the
+/// longest side that no kept quad uses, and add a note.
 std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids, Seeds& seeds)
 {
     std::set<FaceId> triangles;

@@ -21,8 +21,8 @@ namespace {
 /// hexahedra (mean 0.94 against 0.88, worst 0.67 against 0.58). Heuristic.
 constexpr double kFairMean = 0.7, kFairEven = 0.6;
 
-/// Whether the size requires similar numbers of quads on opposite sides of the face. If not, a grid would
-/// give one side as many as the other needs.
+/// Whether the size requires similar numbers of quads on opposite sides of the face. Otherwise a grid would
+/// force the larger number on both sides.
 bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
 {
     // As `alike()`, for numbers of quads instead of lengths. If neither side has more than four quads, any
@@ -34,8 +34,8 @@ bool counts_alike(const Seeds& seeds, const std::vector<SidePair>& pairs)
     });
 }
 
-/// Whether a face gets a grid: because the grid is nearly as good as paving, because the style or numbers of
-/// quads across narrow places demand it, or because the face cannot be flattened.
+/// Whether a face gets a grid. There are three reasons: the grid is nearly as good as paving; the style or
+/// the numbers of quads across narrow places demand it; or the face cannot be flattened.
 bool is_fairly_mapped(const SeedTask& task, FaceId face, const MappedFace& mapped)
 {
     if (task.style != QuadStyle::automatic || task.sizing.gap > 0) return true;
@@ -48,8 +48,8 @@ void choose(const SeedTask& task, FaceId face, FaceGrids& grids, Seeds& seeds)
 {
     if (task.style == QuadStyle::free || seeds.kept.contains(face)) return;
     const auto corners = four_corners(task.model, face);
-    // On a submapped face, the number of columns through a narrow place follows from other sides, so `gap`
-    // cannot be met.
+    // On a submapped face, the number of columns through a narrow place depends on other sides, so such a
+    // face cannot meet `gap`.
     if (!corners && task.sizing.gap > 0 && !task.sizing.counts_across && task.style == QuadStyle::automatic)
         return;
     const std::vector<SidePair> opposite = corners ? side_pairs(task.model, face, *corners)

@@ -65,8 +65,8 @@ std::vector<PointCurvature> facet_curvature(const Model& model, FaceId face, dou
             to.bends += part;
         }
     }
-    // If the facets at one vertex are slivers, they are too few to measure curvature, so the neighbours'
-    // facets are included.
+    // The facets at one vertex may be slivers that are too few to measure curvature. The facets at
+    // neighbouring vertices are therefore included.
     std::vector<Around> wide = at;
     for (const auto& [side, triangle] : first) {
         const std::size_t a = place(static_cast<Index>(side >> 32));
@@ -82,7 +82,7 @@ std::vector<PointCurvature> facet_curvature(const Model& model, FaceId face, dou
         point.area = at[p].area;
         if (!(wide[p].area > 0)) continue;
         const Vec3 bends = geometry::symmetric_eigenvalues(wide[p].bends / wide[p].area).cwiseAbs();
-        if (!(bends.maxCoeff() * model.diagonal > 1e-6)) continue; // too flat to matter for any size
+        if (!(bends.maxCoeff() * model.diagonal > 1e-6)) continue; // too flat to affect any size
         point.most = bends.maxCoeff();
         point.sum = bends.sum();
         if (f.surface == nullptr) point.least_size = wide[p].shortest / 2;

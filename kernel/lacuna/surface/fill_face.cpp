@@ -27,7 +27,7 @@ namespace {
 
 using Loops = std::vector<std::vector<Index>>;
 
-/// A planar face in its plane.
+/// A planar face, mapped to its own plane.
 class PlaneFace {
 public:
     PlaneFace(const geometry::Plane& plane, std::span<const RimNode> rim) : plane_(plane)
@@ -64,9 +64,9 @@ private:
 };
 
 /// Flattening stops when the energy decreases by less than this share. A coarse solution is enough, because
-/// the size is corrected for the remaining stretch. Two faces with holes took 150 ms with 1e-6, 100 ms with
-/// 1e-4 and 50 ms with 1e-3; the minimum scaled Jacobian of four curved sources at four sizes changed by at
-/// most 0.02.
+/// the size is corrected for the remaining distortion. Two faces with holes took 150 ms with 1e-6, 100 ms
+/// with 1e-4 and 50 ms with 1e-3; the minimum scaled Jacobian of four curved sources at four sizes changed by
+/// at most 0.02.
 constexpr double kSettled = 1e-3;
 
 Message not_flat(const Model& model, FaceId face, const char* why)
@@ -151,7 +151,8 @@ public:
     }
 
 private:
-    /// The position in the plane of a point on an edge. @param at  as `FineFacets::OnEdge::at`
+    /// The position in the plane of a point on an edge. @param at  position on the edge, as in
+    /// `FineFacets::OnEdge::at`
     [[nodiscard]] Vec2 place_on(EdgeId edge, double at) const
     {
         const std::vector<FineFacets::OnEdge>& chain = fine_.edges.at(edge);
@@ -169,8 +170,8 @@ private:
         return flat_.position[static_cast<std::size_t>(found - flat_.used.begin())];
     }
 
-    /// Local scale between plane and face at each point: the square root of the ratio of the surrounding
-    /// areas.
+    /// Compute the local scale between plane and face at each point: the square root of the ratio of the
+    /// areas of the facets around the point.
     void measure_stretch()
     {
         std::vector<double> plane(flat_.used.size(), 0.0), space(flat_.used.size(), 0.0);
@@ -195,8 +196,8 @@ private:
     std::vector<double> stretch_;
 };
 
-/// Move the nearest node onto each tip of the face, so that no quad cuts the tip off. If quads would become
-/// poor by this, the node stays.
+/// Move the nearest node onto each tip of the face, so that no quad cuts the tip off. The node stays if the
+/// move would make quads poor.
 void meet_tips(quads::PlanarQuads& filling, std::size_t rim, const std::vector<Vec2>& tips)
 {
     constexpr double kSpoiled = 0.2; // minimum sine of a corner; heuristic

@@ -70,7 +70,7 @@ public:
     {
     }
 
-    /// @return  false if no side needs bisection or a facet would fold; in these cases nothing is changed.
+    /// @return  false if no side needs bisection, or if a facet would fold. In both cases nothing is changed.
     bool round()
     {
         collect();
@@ -131,7 +131,8 @@ private:
         }
     }
 
-    /// Project all midpoints onto the exact edges and surface in one call; earlier results are reused.
+    /// Project all midpoints onto the exact edges and the exact surface, in one call for each. Earlier
+    /// results are reused.
     void find_middles()
     {
         for (const auto& [edge, chain] : fine_.edges) {
@@ -249,9 +250,9 @@ private:
     const SizeField& size_;
     double off_;
     std::vector<FacetSide> sides_;
-    /// For each facet, its sides by the corners where they start.
+    /// For each facet, the indices of its sides; side k starts at corner k.
     std::vector<std::array<std::size_t, 3>> side_of_;
-    std::unordered_map<std::uint64_t, std::size_t> number_; ///< for each side
+    std::unordered_map<std::uint64_t, std::size_t> number_; ///< index of each side, by its end points
     std::unordered_map<std::uint64_t, Vec3> settled_;       ///< midpoints of sides that need no bisection
 };
 

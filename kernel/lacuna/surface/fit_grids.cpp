@@ -15,7 +15,7 @@ using namespace topology;
 
 namespace {
 
-/// The source faces, those with the most loops first.
+/// The faces of the source, sorted by number of loops, most loops first.
 std::vector<FaceId> most_loops_first(const SeedTask& task)
 {
     std::vector<FaceId> faces = task.faces;
@@ -24,7 +24,8 @@ std::vector<FaceId> most_loops_first(const SeedTask& task)
     return faces;
 }
 
-/// Whether other faces constrain the number of sides of an edge.
+/// Whether the number of sides of an edge is settled: it is already that of a grid, or a mapped or submapped
+/// face uses the edge.
 bool is_settled(const SeedTask& task, const FaceGrids& grids, const std::set<EdgeId>& settled, EdgeId edge)
 {
     const std::set<FaceId>& users = task.users.at(edge);

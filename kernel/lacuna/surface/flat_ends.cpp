@@ -93,7 +93,7 @@ private:
         }
     }
 
-    /// Replace a node by another one.
+    /// Replace a node by another node.
     void unite(std::size_t node, std::size_t with)
     {
         for (FlatEdge& edge : flat_.target) {
@@ -121,7 +121,7 @@ private:
         return best;
     }
 
-    /// Whether a node is only the start vertex that a closed edge needs.
+    /// Whether a node is only there because a closed edge needs a start vertex.
     static bool closes_edge(const std::vector<FlatEdge>& edges, std::size_t node)
     {
         std::size_t ends = 0;

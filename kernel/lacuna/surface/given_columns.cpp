@@ -105,7 +105,7 @@ private:
         std::vector<FaceId> faces;
         FaceId wall;
     };
-    using Ring = std::map<std::size_t, Column>; ///< by number of the rim's node
+    using Ring = std::map<std::size_t, Column>; ///< columns by the index of their rim node
 
     void find_sides()
     {
@@ -132,8 +132,8 @@ private:
         return strips;
     }
 
-    /// Walk from a side of a rim across opposite sides of quads up to the last quad. Empty if the first quad
-    /// has been walked already.
+    /// Walk from a side of a rim across opposite sides of quads to the last quad. Empty if an earlier walk
+    /// has visited the first quad.
     Strip walk(Index a, Index b)
     {
         Strip strip{{a}, {b}, {}, {}, false, 0};
@@ -168,7 +168,7 @@ private:
     }
 
     /// The columns between strips. Two neighbouring strips must have the same nodes on their common column,
-    /// as far as both extend.
+    /// up to the end of the shorter strip.
     Ring joined(std::span<const Strip> strips, std::size_t rim) const
     {
         Ring ring;
@@ -199,8 +199,8 @@ private:
         if (points.size() > there.size()) there = points;
     }
 
-    /// Check that all strips have the same number of rows. Different numbers within a wall mean that its
-    /// quads are not in rows. Different numbers between walls mean that they were meshed separately.
+    /// Check that all strips have the same number of rows. Strips of one wall with different numbers mean
+    /// that its quads are not in rows. Walls with different numbers were meshed separately.
     void check_rows(std::span<const Strip> strips)
     {
         std::map<FaceId, std::size_t> rows_of;
@@ -266,7 +266,8 @@ private:
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> beside_; ///< quads on each side
     std::unordered_map<Index, double> target_at_;
     std::set<std::uint64_t> target_sides_;
-    std::set<std::uint64_t> no_end_;     ///< sides where no stub may end: the source's rim and side lines
+    /// Sides at which no stub may end: those of the source's rim and of side lines.
+    std::set<std::uint64_t> no_end_;
     std::optional<std::size_t> crossed_; ///< a quad that two strips cross
     int rows_ = 0;
 };
@@ -290,7 +291,7 @@ int line_rows(const Model& model, const LinkingLine& line, const std::set<EdgeId
     return rows;
 }
 
-/// The number of sides of all kept side lines; 0 if they differ or there are none.
+/// The number of sides that all kept side lines have. 0 if their numbers differ, or if no side line is kept.
 int common_line_rows(const Model& model, std::span<const LinkingSurface> links, const std::set<EdgeId>& kept)
 {
     int rows = 0;
@@ -313,7 +314,7 @@ bool has_column(const GivenColumns& columns, const LinkingSurface& link, double 
     });
 }
 
-/// Add a side line as a column.
+/// Add a side line as a column without quads.
 void add_column(const Model& model, const LinkingLine& line, GivenColumns& columns, int rows)
 {
     const auto after = std::ranges::upper_bound(columns.whole, line.source_at, {}, &GivenColumn::source_at);
@@ -321,7 +322,7 @@ void add_column(const Model& model, const LinkingLine& line, GivenColumns& colum
     columns.whole.insert(after, {line.source_at, line.target_at, use_points(model, line.line.uses), {}});
 }
 
-/// The stub that starts at a running length of its chain; null: none.
+/// The stub that starts at a running length of its rim's chain; null if there is none.
 const GivenStub* stub_at(const GivenColumns& columns, bool from_target, double at, double length)
 {
     for (const GivenStub& stub : columns.stubs) {
@@ -341,12 +342,13 @@ int tallest_stub(std::span<const GivenColumns> columns)
     return static_cast<int>(rows);
 }
 
-/// The stubs in one column, from either rim, and the gap between them.
+/// The two stubs in one column, one from each rim, and the gap between them.
 struct StubColumn {
     const GivenStub *low, *high; ///< either may be null
     Vec3 open_from, open_to;
-    std::size_t shared = 0; ///< number of rows that both contain, if the stubs belong to walls side by side
-    bool is_open = true;    ///< there is a gap between the stubs
+    /// Number of rows that are part of both stubs; this occurs if the stubs belong to walls side by side.
+    std::size_t shared = 0;
+    bool is_open = true; ///< there is a gap between the stubs
 
     [[nodiscard]] std::size_t rows() const
     {
@@ -355,7 +357,7 @@ struct StubColumn {
     }
 };
 
-/// Find out whether the two stubs share nodes, and how many.
+/// Find out whether the two stubs of a column share nodes, and how many rows they share.
 void meet(StubColumn& column)
 {
     if (column.low == nullptr || column.high == nullptr) return;
@@ -369,7 +371,7 @@ void meet(StubColumn& column)
     column.is_open = false;
 }
 
-/// The running length on the target's chain that corresponds to one on the source's chain, or the reverse.
+/// The running length on the other rim's chain that corresponds to a running length on one rim's chain.
 double opposite(const LinkingSurface& link, double at, bool from_target)
 {
     const double end = from_target ? link.target.length() : link.source.length();

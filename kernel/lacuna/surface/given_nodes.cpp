@@ -17,15 +17,15 @@ using namespace topology;
 
 namespace {
 
-/// Rims with different numbers of nodes are compared node by node up to this many pairs, which take 32 MB and
-/// 0.1 s.
+/// Maximum number of pairs of nodes that are compared to match two rims with different numbers of nodes. This
+/// many pairs take 32 MB and 0.1 s.
 constexpr std::size_t kMostPairs = 4'000'000;
 
 /// A break between segments: corresponding positions on both rims.
 struct Break {
-    /// Running lengths; the one on the target may exceed the length of its chain.
+    /// Running lengths on both chains. The target's may exceed the length of its chain.
     double source = 0, target = 0;
-    bool given = false; ///< whether the interval up to the next break is one side of a given quad
+    bool given = false; ///< whether the interval to the next break is one side of a given quad
 };
 
 /// Divides the segments of one linking surface at given nodes.
@@ -79,7 +79,7 @@ public:
     }
 
 private:
-    /// On a ring without side lines, move the start to a node of the target.
+    /// On a ring without side lines, move its start on the target to a node of the target.
     void align_start(std::vector<Break>& breaks) const
     {
         const double length = link_.target.length();
@@ -103,9 +103,9 @@ private:
         for (Break& b : breaks) b.target -= turns * length;
     }
 
-    /// Position on the target that corresponds to the start of the ring, interpolated between the two columns
-    /// next to it. If both rims have the same number of nodes between these columns, nodes are counted
-    /// instead.
+    /// Position on the target that corresponds to the start of the ring. It is interpolated between the two
+    /// columns next to the start. If both rims have the same number of nodes between these columns, it is
+    /// found by counting nodes instead.
     [[nodiscard]] double start_between_columns() const
     {
         const double s_length = link_.source.length(), t_length = link_.target.length();
@@ -126,7 +126,7 @@ private:
         return before.target + share * (after.target - before.target);
     }
 
-    /// A running length of the target chain, with whole turns added until it exceeds `from`.
+    /// A running length of the target chain, increased by whole turns until it is at least `from`.
     [[nodiscard]] double past(double at, double from) const
     {
         const double length = link_.target.length();
@@ -134,8 +134,8 @@ private:
         return at;
     }
 
-    /// Breaks with one added at every column. Where given quads extend from rim to rim, all other breaks are
-    /// removed.
+    /// The breaks, with one added at every column. Where given quads extend from rim to rim, breaks that are
+    /// not at columns are removed.
     [[nodiscard]] std::vector<Break> with_columns(const std::vector<Break>& breaks) const
     {
         if (columns_.rows == 0) return breaks;
@@ -160,7 +160,7 @@ private:
         return merged;
     }
 
-    /// Whether a break lies inside a side that belongs to a quad of a stub.
+    /// Whether a break lies inside a side of a stub's quad.
     [[nodiscard]] bool is_in_stub(const Break& at) const
     {
         for (std::size_t i = 0; i < columns_.stubs.size(); ++i) {
@@ -182,8 +182,8 @@ private:
         return false;
     }
 
-    /// Between two side lines, or around the ring: if both ends have the same number of given nodes, pair
-    /// them in order.
+    /// Pair the given nodes of both ends in order between two side lines, or around the ring, if both ends
+    /// have the same number of them.
     [[nodiscard]] std::vector<Break> with_pairs_between_lines(const std::vector<Break>& breaks) const
     {
         std::vector<double> hard;
@@ -208,8 +208,8 @@ private:
         return result;
     }
 
-    /// Pairs of the nodes of both ends in [from, to), in order; empty if their numbers differ or not all
-    /// edges are kept.
+    /// Pairs of the nodes of both ends in [from, to), in order. Empty if the two numbers of nodes differ, or
+    /// if not all edges are kept.
     [[nodiscard]] std::vector<Break> pairs(const Break& from, const Break& to) const
     {
         if (!covered(link_.source, from.source, to.source) || !covered(link_.target, from.target, to.target))
@@ -222,13 +222,13 @@ private:
         return result;
     }
 
-    /// Whether a chain consists of kept edges only between two running lengths.
+    /// Whether all edges of a chain between two running lengths are kept.
     [[nodiscard]] bool covered(const Chain& chain, double from, double to) const
     {
         return !meets(chain, from, to, [&](EdgeId edge) { return !kept_.contains(edge); });
     }
 
-    /// Whether a chain contains an edge for which `wanted` holds between two running lengths.
+    /// Whether a chain has, between two running lengths, an edge for which `wanted` holds.
     template <class Wanted>
     [[nodiscard]] static bool meets(const Chain& chain, double from, double to, const Wanted& wanted)
     {
@@ -278,7 +278,7 @@ private:
         if (!source_kept) s.clear();
         if (!target_kept) t.clear();
         if (s.empty() && t.empty()) return;
-        // Rims of kept quads cannot take additional nodes; rims of kept triangles can.
+        // No nodes can be added to rims of kept quads. To rims of kept triangles they can.
         std::vector<double>* left_out = nullptr;
         const auto of_quads = [&](EdgeId edge) { return of_quads_.contains(edge); };
         if (source_kept && meets(link_.source, from.source, to.source, of_quads)) left_out = &t;

@@ -15,7 +15,7 @@ using namespace topology;
 
 namespace {
 
-/// Quads by their sides; a side has at most two.
+/// Finds quads by their sides. A side has at most two quads.
 class QuadsBySide {
 public:
     explicit QuadsBySide(std::span<const Quad> quads) : quads_(quads)
@@ -31,7 +31,7 @@ public:
         }
     }
 
-    /// The other quad on a side, besides `other`; -1 if there is none.
+    /// The quad on a side that is not `other`; -1 if there is none.
     [[nodiscard]] Index beside(Index a, Index b, Index other) const
     {
         const auto found = beside_.find(edge_key(a, b));
@@ -85,10 +85,11 @@ std::optional<EndQuads> quads_of(const OpenVolume& volume, Role end, std::string
     return std::nullopt;
 }
 
-/// Match the quads of two meshes as graphs, walking from some sides.
-/// @param image  for each node of `from`, its node of `to`. Before the call it is set for the nodes of
-///         `sides`, after it for all nodes.
-/// @return  the counterpart of each quad; empty if the graphs differ or some quads are not reached.
+/// Match the quads of two meshes as graphs, starting from known sides.
+/// @param image  for each node of `from`, the corresponding node of `to`. The caller sets it for the nodes of
+///         `sides`, and the function sets it for all other nodes.
+/// @return  for each quad of `from`, the corresponding quad of `to`. Empty if the graphs differ, or if some
+///         quads are not reached.
 std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, std::span<const Quad> all_to,
                                                std::vector<Index>& image, std::span<const Segment> sides)
 {
@@ -128,8 +129,8 @@ std::optional<std::vector<Index>> paired_quads(std::span<const Quad> all_from, s
     return twin;
 }
 
-/// A node of the source's chain and the corresponding node of the target's, at a column or a side line; -1 if
-/// there are none.
+/// A node of the source's chain and the corresponding node of the target's chain, at a column or a side line.
+/// Both are -1 if there is no such pair.
 std::pair<Index, Index> first_pair(const Model& model, const LinkingSurface& link,
                                    const GivenColumns& columns)
 {
@@ -177,8 +178,8 @@ GivenTarget given_target(const OpenVolume& volume, std::span<const LinkingSurfac
 std::vector<LinkingSurface> align_alike_ends(const OpenVolume& volume, std::span<const GivenColumns> columns,
                                              std::vector<LinkingSurface> links, bool wedges)
 {
-    // Columns and side lines determine the rotation of a loop. A round loop that has neither is rotated like
-    // the loops that do.
+    // Columns and side lines determine the rotation of a loop. A round loop that has neither is rotated
+    // together with a loop that does.
     std::vector<std::size_t> unsure;
     const LinkingSurface* sure = nullptr;
     for (std::size_t b = 0; b < links.size(); ++b) {

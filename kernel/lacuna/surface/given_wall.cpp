@@ -39,7 +39,7 @@ public:
             const std::size_t before = ways.empty() ? 0 : ways.back().node;
             if (!add_way(stub.at, stub.from_target, stub.points, stub.faces, ways)) refuse_stub(stub);
             // Between two adjacent given columns there may be one additional node, which was added to a rim
-            // with an odd number of sides. More nodes mean that the opposite rim has another mesh.
+            // with an odd number of sides. If there are more nodes, the opposite rim has another mesh.
             if (beside && (ways.back().node + count_ - before) % count_ > 2) refuse_stub(stub);
         }
         take_ways(up, false);
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    /// Given nodes that lead from one node of the rim into the wall.
+    /// Given nodes that lead from a node of the rim into the wall.
     struct GivenWay {
         std::size_t node;
         const std::vector<Index>* points;
@@ -93,8 +93,8 @@ private:
             }
             const std::size_t end = next.node > way.node ? next.node : next.node + count_;
             for (std::size_t i = way.node; i < end && !way.faces->empty(); ++i) {
-                // A node between the columns was added to a rim with an odd number of sides; it splits the
-                // given quads.
+                // A node between two given columns was added to a rim with an odd number of sides. It splits
+                // the given quads there.
                 const double share = static_cast<double>(i - way.node) / static_cast<double>(end - way.node);
                 for (std::size_t k = 0; k < way.faces->size(); ++k) {
                     const std::size_t low = std::min(layer(k), layer(k + 1));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// imprint_target() first pairs the rims: every inner edge of the target that ends on the rim gets a vertex on
-// the source's rim. Then it maps both ends into one plane, intersects their inner edges there, and rebuilds
-// the source faces from the regions between these edges.
+// imprint_target() works in four steps. It pairs the rims: every inner edge of the target that ends on the
+// rim gets a vertex on the source's rim. It maps both ends into one plane. There it intersects their inner
+// edges. Finally it rebuilds the source faces from the regions between these edges.
 #include <lacuna/surface/shared/imprint.h>
 
 #include <lacuna/core/error.h>
@@ -30,12 +30,12 @@ using namespace topology;
 
 namespace {
 
-/// Edges that shrink by more than this factor from one end to the other are not imprinted, because quads
-/// within one end would have to become smaller by as much. A tube three radii deep inside an end stays below
-/// the limit; a tube 16 radii deep would need a ring of 49,000 sides. Heuristic.
+/// Edges that shrink by more than this factor from one end to the other are not imprinted, because quads on
+/// that other end would have to be smaller by the same factor. A tube three radii deep inside an end stays
+/// below the limit. A tube 16 radii deep would need a ring of 49,000 sides. Heuristic.
 constexpr double kMostShrunk = 20;
 
-/// A chain in the plane, and the edges of source and target that it represents.
+/// A chain in the plane: the edge of the source that it represents, and its image on the target.
 struct Border {
     EdgeId source; ///< edge of the new model
     std::optional<EdgeImage> image;
@@ -79,7 +79,7 @@ private:
     Model& model() { return result_.volume->model; }
     ModelBuilder& builder() { return *builder_; }
 
-    /// If both ends are split in the same way, map edges to edges; the plane is not needed then.
+    /// If both ends are split in the same way, map edges to edges. The common plane is then not needed.
     bool match_alike()
     {
         std::optional<AlikeEnds> alike = alike_ends(*result_.volume, given_links_);
@@ -96,8 +96,8 @@ private:
         return true;
     }
 
-    /// Refuse an edge whose image on the other end is far shorter. This happens if the edge lies deep inside
-    /// its own end, such as the floor of a long tube.
+    /// Refuse an edge whose image on the other end is far shorter than the edge. This happens if the edge
+    /// lies deep inside its own end, such as the floor of a long tube.
     void check_sizes() const
     {
         for (const auto& [edge, image] : result_.images) {
@@ -128,8 +128,8 @@ private:
         }
     }
 
-    /// Pair closed edges that enclose about the same region. Then map both ends again with the pairs
-    /// coincident.
+    /// Pair closed edges that enclose about the same region. Then map both ends again so that each
+    /// pair coincides.
     void pair_closed()
     {
         const std::vector<EdgeId> low = inner_edges(base_, Role::source);
@@ -164,8 +164,8 @@ private:
             const EdgeId edge = flat_.source[piece.edge].edge;
             part[k] = edge;
             if (k == 0 || low[k - 1].edge != piece.edge) continue;
-            // Pieces are split off from the last to the first, so the remaining edge always ends where the
-            // current piece ends.
+            // Pieces are split off from the last to the first. The edge that remains therefore always ends
+            // where the current piece ends.
             const EdgeSplit made = split_at(model(), edge, piece.from_at / piece.to_at, inner_.front());
             part[k] = made.behind;
             flat_.vertex[piece.from] = made.vertex;
@@ -240,7 +240,7 @@ private:
         return at.barycentric[0] * uv[0] + at.barycentric[1] * uv[1] + at.barycentric[2] * uv[2];
     }
 
-    /// If needed, shift parameters by the period of a seam, so that they are on the same side of the seam as
+    /// Shift parameters by the period of a seam if needed, so that they are on the same side of the seam as
     /// `near`.
     Vec2 unwrapped(FaceId face, Vec2 uv, const Vec2& near)
     {
@@ -268,7 +268,7 @@ private:
         return found->second = box.sizes();
     }
 
-    /// A typical facet length of a face, in the plane.
+    /// The mean length of a facet of a face.
     double facet_side(FaceId face) const
     {
         return std::sqrt(face_area(base_.model, face) /
@@ -311,7 +311,7 @@ private:
         return edge;
     }
 
-    /// For each edge use, the face of a role to its left.
+    /// For each edge use of the faces of one role, the face to its left.
     std::map<EdgeUse, FaceId> faces_on_left(Role role)
     {
         std::map<EdgeUse, FaceId> left;
@@ -321,7 +321,7 @@ private:
         return left;
     }
 
-    /// Collect the chains that divide the plane: the inner edges, and the rim, which bounds it.
+    /// Collect the chains that divide the plane: the inner edges, and the rim as its border.
     void set_borders()
     {
         source_left_ = faces_on_left(Role::source);
@@ -349,7 +349,7 @@ private:
         }
     }
 
-    /// The target face that lies beside the rim opposite to a position of the source's rim.
+    /// The target face at the target's rim, opposite to a position of the source's rim.
     FaceId target_over(const LinkingSurface& link, double source_at)
     {
         for (const RimSegment& segment : link.segments) {
@@ -362,7 +362,7 @@ private:
         return {};
     }
 
-    /// The target face to the left of a border; invalid for a border that exists only on the source.
+    /// The target face to the left of a border. Invalid if the border exists only on the source.
     FaceId target_on_left(const PlaneUse& use)
     {
         const Border& border = borders_[use.chain];
@@ -396,7 +396,7 @@ private:
                 }
             }
         }
-        // A region that is bounded only by edges of the source belongs to the same target face as its
+        // If a region is bounded only by edges of the source, it belongs to the same target face as its
         // neighbours.
         for (bool changed = true; changed;) {
             changed = false;
@@ -444,7 +444,7 @@ private:
         known = found;
     }
 
-    /// Triangulate a region of the source face `of`; the triangles become those of face `face`.
+    /// Triangulate a region of the source face `of`, and give the triangles to the face `face`.
     void make_facets(const PlaneRegion& region, FaceId of, FaceId face)
     {
         std::vector<std::vector<Index>> loops;
@@ -513,14 +513,14 @@ private:
     std::vector<RimPair> pairs_;
     Imprint result_;
     std::optional<ModelBuilder> builder_; ///< builder of `result_.volume->model` while rims are split
-    OpenVolume base_;                     ///< the volume with split rims, but with whole faces
+    OpenVolume base_;                     ///< the volume after its rims are split, before its faces are split
     std::optional<EndsMap> map_;
     std::vector<ClosedPair> closed_;
     FlatEnds flat_;
     std::vector<FlatPiece> pieces_;   ///< pieces that exist only on the target
-    std::vector<Vec2> place_;         ///< for each model point
+    std::vector<Vec2> place_;         ///< plane position of each model point
     std::vector<Border> borders_;     ///< pieces of the source, of the target and of the rim
-    std::vector<PlaneChain> chains_;  ///< for each border
+    std::vector<PlaneChain> chains_;  ///< chain of each border
     std::map<EdgeId, FaceId> new_on_; ///< for each new edge, the source face that it lies on
     std::map<FaceId, Vec2> seam_jump_;
     std::set<FaceId> split_; ///< source faces with new edges

@@ -85,7 +85,7 @@ void EndsMap::lay_target(std::span<const LinkingSurface> links, std::span<const 
     const Eigen::MatrixXd places = geometry::solve_harmonic(problem);
     target_.reserve(model.points.size());
     for (Eigen::Index i = 0; i < places.rows(); ++i) target_.emplace_back(places(i, 0), places(i, 1));
-    // Facets without area in space have none in the plane either, and do not count as inverted.
+    // A facet that has no area in space has no area in the plane either, and does not count as inverted.
     double extent = 0;
     for (const auto& [point, place] : fixed)
         extent = std::max(extent, (place - fixed.begin()->second).squaredNorm());

@@ -21,7 +21,7 @@ using namespace topology;
 namespace {
 
 /// Whether a vertex of the source's rim already corresponds to a corner of the target's rim, or to the end of
-/// a side line there.
+/// a side line.
 bool is_taken(const Model& model, const LinkingSurface& link, double source_at)
 {
     const double slack = kSamePlace * link.source.length();

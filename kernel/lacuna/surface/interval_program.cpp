@@ -15,16 +15,16 @@ namespace lacuna::surface {
 
 namespace {
 
-/// Cost of being one side below a floor: larger than any term of the objective. Heuristic.
+/// Cost per side that a sum is below its floor: larger than any term of the objective. Heuristic.
 constexpr double kBelowFloor = 1e6;
-/// Pairs of vectors are tried up to this number of free variables, which is that of a board of 32 × 32 faces.
-/// A larger value gives better numbers but takes longer. Heuristic.
+/// Maximum number of free variables for which pairs of vectors are tried; a board of 32 × 32 faces has as
+/// many. A larger value gives better numbers but takes longer. Heuristic.
 constexpr std::size_t kByTwos = 64;
-/// Additional cost of sides whose length is outside the accepted range: for each wanted side, multiplied by
-/// the relative excess. Heuristic.
+/// Additional cost of sides whose length is outside the accepted range. It is multiplied by the wanted number
+/// of sides and by the relative excess. Heuristic.
 constexpr double kOutOfSize = 2;
-/// Maximum coefficient; an equation that would get a larger one is left out. Interval assignment does not
-/// produce larger ones. The bound keeps products within the integer range.
+/// Maximum coefficient. An equation that would get a larger one is left out; interval assignment does not
+/// produce such equations. The bound keeps products within the integer range.
 constexpr std::int64_t kMostCoefficient = 1 << 20;
 
 double wish_cost(double n, double wanted, double weight)
@@ -62,7 +62,8 @@ public:
         for (const Row& by : rows_) eliminate(row, by);
         std::erase_if(row.of, [](const auto& part) { return part.second == 0; });
         if (row.of.empty() || row.right % common_factor(row) != 0) return;
-        // With a pivot of one, the other coefficients stay integral. Take the first smallest coefficient.
+        // A pivot of one keeps the other coefficients integral, so take the smallest coefficient, and of
+        // equal ones the first.
         const auto pivot = std::ranges::min_element(row.of, {},
                                                     [](const auto& part) { return std::abs(part.second); });
         row.pivot = pivot->first;
@@ -72,7 +73,7 @@ public:
         rows_.push_back(std::move(row));
     }
 
-    /// Add a term of the objective; with weight zero, it is a floor instead.
+    /// Add a term of the objective. A term with weight zero is a floor.
     void add_term(const std::vector<std::size_t>& variables, double wanted, double weight)
     {
         Term term{{}, 0, wanted, weight};
@@ -86,7 +87,7 @@ public:
         terms_.push_back(std::move(term));
     }
 
-    /// Descend from the rounded wishes, and write the values of the set's variables.
+    /// Descend from the rounded wishes, and store the resulting values of the set's variables.
     /// @return  false if there is no integer start or coefficients leave the range, or if the result violates
     ///          a floor or the lower bound of a variable
     bool solve(std::vector<int>& counts)
@@ -141,8 +142,8 @@ private:
         row.right /= by;
     }
 
-    /// Eliminate the pivot of row `by` from another row. That row is emptied if its coefficients leave the
-    /// range.
+    /// Eliminate the pivot of row `by` from row `row`. If coefficients of `row` leave the range, it becomes
+    /// empty.
     static void eliminate(Row& row, const Row& by)
     {
         const auto found = row.of.find(by.pivot);
@@ -177,8 +178,8 @@ private:
         return std::max<std::int64_t>(variable(v).least, weight > 0 ? std::llround(wanted / weight) : 1);
     }
 
-    /// The right-hand side of a row minus the terms of its free variables. This equals the coefficient of the
-    /// pivot times its value.
+    /// The right-hand side of a row minus the terms of its free variables. It is equal to the value of the
+    /// pivot times the pivot's coefficient.
     [[nodiscard]] std::int64_t rest_of(const Row& row) const
     {
         std::int64_t sum = row.right;
@@ -189,6 +190,7 @@ private:
     [[nodiscard]] bool is_whole(const Row& row) const { return rest_of(row) % row.of.at(row.pivot) == 0; }
 
     /// Increase a free variable of a row until the pivots of this row and of all earlier rows are integers.
+    /// @return  whether this was possible
     bool make_whole(std::size_t r)
     {
         return is_whole(rows_[r]) || std::ranges::any_of(rows_[r].of, [&](const auto& part) {
@@ -205,8 +207,8 @@ private:
                });
     }
 
-    /// Set the free variables to their wishes, adjusted so that the dependent variables are integers. Compute
-    /// the dependent variables.
+    /// Set the free variables to their wishes, adjusted so that the other variables become integers. Then
+    /// compute the other variables.
     bool start()
     {
         for (std::size_t v = 0; v < own_.size(); ++v) count_.push_back(is_pivot(v) ? 0 : rounded_wish(v));
@@ -248,7 +250,7 @@ private:
         return true;
     }
 
-    /// Sums and differences of vectors that share a variable.
+    /// Add the sums and differences of each two vectors that share a variable.
     void add_pairs()
     {
         const std::size_t alone = vectors_.size();
@@ -284,7 +286,7 @@ private:
         return kBelowFloor * static_cast<double>(std::max<std::int64_t>(0, variable(v).least - count));
     }
 
-    /// Change of the objective along a vector.
+    /// Change of the objective if the variables move along a vector `times` times.
     double change(const std::vector<std::pair<std::size_t, std::int64_t>>& vector, std::int64_t times)
     {
         touched_.clear();
@@ -340,7 +342,7 @@ private:
     std::vector<Row> rows_;
     std::vector<Term> terms_;
     std::vector<std::vector<std::pair<std::size_t, int>>> terms_of_;
-    std::vector<std::vector<std::size_t>> rows_of_; ///< numbers of the rows of each variable
+    std::vector<std::vector<std::size_t>> rows_of_; ///< for each variable, the indices of its rows
     std::vector<std::vector<std::pair<std::size_t, std::int64_t>>> vectors_;
     std::vector<std::int64_t> count_, sums_;
     std::vector<std::pair<std::size_t, std::int64_t>> touched_;

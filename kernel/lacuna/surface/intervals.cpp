@@ -149,7 +149,8 @@ private:
         for (SidesAsked::Part& part : asked.parts) part.reversed = !part.reversed;
     }
 
-    /// Add the selected segments of a rim in walking order, starting after a gap between them.
+    /// Add the selected segments of a rim in walking order. The walk starts after a segment that is not
+    /// selected.
     template <class IsMeant>
     static void add_segments(const LinkingSurface& link, SidesAsked& asked, const IsMeant& is_meant)
     {

@@ -11,8 +11,8 @@ namespace lacuna::surface {
 
 double triangle_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal)
 {
-    /// Minimum cosine of the angle between a triangle and the face normal at its corners, for 60°. Curvature
-    /// alone cannot cause a larger angle, because the face turns by at most 30° along a side.
+    /// Minimum cosine of the angle between a triangle's normal and the face normal at its corners: 60°.
+    /// Curvature alone causes smaller angles, because the face turns by at most 30° along a side.
     constexpr double kAligned = 0.5;
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
     const Vec3 across = ab.cross(-ca);
@@ -148,7 +148,7 @@ Index LinkedTriangles::split(Index s, Node node, const std::array<Vec3, 2>& norm
 void LinkedTriangles::collapse(Index s)
 {
     const Index g = twin(s), u = from(s), v = to(s);
-    const double place = sides[index(g)].s; // position of v on the line of s
+    const double place = sides[index(g)].s; // position of v on the line that contains s
     const std::array<Vec3, 2> normal{sides[index(next(s))].normal, sides[index(g)].normal};
     std::size_t beyond = 0; // the fan starts left of s and crosses the line of s once
     std::vector<Index> fan;

@@ -31,8 +31,8 @@ using namespace topology;
 
 namespace {
 
-/// Shortest path along sides of facets from the start of the source chain to the target rim. It touches the
-/// rims only at its ends.
+/// Shortest path along sides of facets from the start of the source chain to the target rim. Only the ends of
+/// the path touch the rims.
 std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangle>& facets,
                                    const LinkingSurface& link, const RunContext& context)
 {
@@ -48,8 +48,8 @@ std::vector<Index> shortest_way_up(const Model& model, const std::vector<Triangl
                            .remedy("repair or remesh the face"));
 }
 
-/// The coordinate s with natural boundary conditions on the target rim, which shows how the walls themselves
-/// run. One row for each model point.
+/// The coordinate s with natural boundary conditions on the target rim. It shows how the walls themselves
+/// rotate from the source to the target. One row for each model point.
 Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangle>& facets,
                                    const LinkingSurface& link, const std::vector<Index>& cut,
                                    const RunContext& context)
@@ -69,7 +69,7 @@ Eigen::MatrixXd natural_coordinate(const Model& model, const std::vector<Triangl
     return geometry::solve_harmonic(problem, context);
 }
 
-/// Columns at which sections are sampled: one per degree.
+/// Number of columns at which sections are sampled: one per degree.
 constexpr std::size_t kColumnsRound = 360;
 
 Vec3 on_facets(const Model& model, const WallPosition& place)
@@ -85,7 +85,7 @@ double value_at(const std::vector<double>& values, double at)
     return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
 
-/// Whether an edge between two void faces was created by closing.
+/// Whether an edge between two void faces was created when the volume was closed.
 bool is_void(const Model& model, EdgeId edge)
 {
     return model[edge].origin == Origin::made_void &&
@@ -119,8 +119,8 @@ std::pair<double, double> unguided_target(const OpenVolume& volume, const Linkin
     const std::vector<Triangle> facets = topology::facets_of(model, link.walls);
     const std::vector<Index> cut = shortest_way_up(model, facets, link, context);
     const Eigen::MatrixXd s = natural_coordinate(model, facets, link, cut, context);
-    // The mean, on the circle, of the difference between the free coordinate s and the position on the target
-    // as a share of its length.
+    // At each point of the target rim, take the difference between its running length, as a share of the
+    // rim, and the free coordinate s. The differences are averaged as angles on a circle.
     const double length = link.target.length();
     Vec2 sum = Vec2::Zero();
     for (const ChainNode& p : chain_nodes(model, link.target)) {
@@ -195,8 +195,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     strip_ = geometry::solve_harmonic(problem, context);
     check_cancelled(context);
 
-    // Scale the strip to its proportions in space. Otherwise the facet closest to a position just off the
-    // strip might be a wrong one.
+    // Scale the strip to its proportions in space. Otherwise a wrong facet might be the closest one to a
+    // position just outside the strip.
     width_ = (link.source.length() + link.target.length()) / 2;
     double area = 0;
     for (const FaceId wall : link.walls) area += face_area(model, wall);
@@ -212,7 +212,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
             least = std::min(least, corners[t][i].x());
             most = std::max(most, corners[t][i].x());
         }
-        // Add a copy of the triangle for every whole turn with which it overlaps [0, 1].
+        // Add a copy of the triangle for every whole turn by which it can be shifted and still overlap [0,
+        // 1].
         for (int shift = static_cast<int>(std::ceil(-most)); least + shift <= 1; ++shift) {
             const auto base = static_cast<Index>(flat_.size());
             for (const Vec2& c : corners[t]) flat_.emplace_back((c.x() + shift) * width_, c.y() * height_, 0);
@@ -225,7 +226,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     check_cancelled(context);
 
     if (upright.empty()) measure_heights(model);
-    const bool creased = upright.size() > link.lines.size(); // columns run along the creases
+    const bool creased = upright.size() > link.lines.size(); // columns then follow the creases
     if (!creased && !runs_straight(model, link)) measure_columns(model, link, context);
     find_rings(volume, link, corners, void_edges);
 }
@@ -285,18 +286,18 @@ void LinkingMap::measure_columns(const Model& model, const LinkingSurface& link,
         middles.push_back(geometry::mean_point(geometry::even_places(ring, kRingPoints)));
         widths.push_back(geometry::length(ring) / kFullTurn);
     }
-    // Nested sections, as of a flat ring, define no axis; the normals of their planes define the direction
-    // instead.
+    // The centres of nested sections, as on a flat ring, define no axis. The normals of the sections then
+    // define the direction.
     const bool leads = geometry::length(middles) > kLeads * *std::ranges::max_element(widths);
     const std::vector<Vec3> ways = leads ? geometry::ways_along(middles, widths) : areas;
     // For each section, shares of its length at even steps of the harmonic s.
     std::vector<std::vector<double>> round;
     std::vector<Vec3> first;
-    std::vector<double> turned; // rotation of the frame against the harmonic s [turns]
+    std::vector<double> turned; // rotation of the frame relative to the harmonic s [turns]
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     for (std::size_t k = 0; k < rings.size(); ++k) {
-        // Project along the direction of the sweep, because sections of coarse facets, and sections between
-        // oblique rims, are tilted.
+        // Project along the direction of the sweep, because sections are tilted if facets are coarse or rims
+        // are oblique.
         for (Vec3& p : rings[k]) p -= ways[k].dot(p - middles[k]) * ways[k];
         round.push_back(geometry::arc_lengths(rings[k]));
         const double length = round.back().back();
@@ -351,7 +352,7 @@ double LinkingMap::harmonic(double s, double t) const
 Vec2 LinkingMap::upright(const Vec2& place) const
 {
     if (columns_.empty()) return place;
-    double low = place.x() - 2, high = place.x() + 2; // a column deviates from its harmonic s by less than 2
+    double low = place.x() - 2, high = place.x() + 2; // a column deviates by less than 2 from its harmonic s
     while (high - low > kRoundoff) {
         const double middle = (low + high) / 2;
         (harmonic(middle, place.y()) < place.x() ? low : high) = middle;
@@ -361,7 +362,8 @@ Vec2 LinkingMap::upright(const Vec2& place) const
 
 bool runs_straight(const Model& model, const LinkingSurface& link)
 {
-    constexpr double kAcross = 0.01; // cosine of 0.6° off a right angle, for facets in single precision
+    // Cosine of an angle 0.6° off 90°, which allows for facets in single precision.
+    constexpr double kAcross = 0.01;
     const Vec3 way = (geometry::mean_point(round_points(link.target)) -
                       geometry::mean_point(round_points(link.source)))
                          .stableNormalized();
@@ -441,7 +443,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
             along += std::abs(b.x() - a.x()) * width_;
             up += b.y() - a.y();
         }
-        // Kept quads already have mesh nodes along their edges.
+        // Along its edges, a face with kept quads already has mesh nodes.
         const bool stays = std::ranges::any_of(model.uses_of_edge(use.edge), [&](const FaceUse& user) {
             return model[user.face].keeps_nodes && has_quads_all_over(model[user.face]);
         });
@@ -478,7 +480,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
 
 std::vector<LinkingMap::Crossing> LinkingMap::crossings(const Ring& ring, double s)
 {
-    // The ends of a piece belong to it, so that a column through an end still crosses the ring.
+    // The ends of a piece belong to it. A column through such an end therefore crosses the ring.
     std::vector<Crossing> result;
     for (const Piece& piece : ring.pieces) {
         const Vec2 &a = piece.a, &b = piece.b;

@@ -47,7 +47,7 @@ std::optional<std::size_t> use_leaving(const Model& model, const std::vector<Edg
 }
 
 struct RimOf {
-    std::map<EdgeId, std::size_t> rim; ///< rim number of each rim edge
+    std::map<EdgeId, std::size_t> rim; ///< for each rim edge, the index of its rim
     std::vector<Rim> rims;
 };
 
@@ -61,7 +61,7 @@ RimOf rims_of(const OpenVolume& volume, Role role)
     return result;
 }
 
-/// The only rim that a connected part of the walls touches.
+/// The rim that a connected part of the walls touches. @throw NotSweepable  it touches none or several
 std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const RimOf& of, const char* end)
 {
     std::set<std::size_t> touched;
@@ -78,8 +78,7 @@ std::size_t only_rim(const Model& model, const std::vector<FaceId>& part, const 
                        entities_of(model, part), found(touched.size()), end);
 }
 
-/// Side lines must meet both rims in the same cyclic order. Keep the first one and all that follow in this
-/// order.
+/// Keep the first side line, and all side lines that follow it in the same cyclic order around both rims.
 std::vector<LinkingLine> in_order(std::vector<LinkingLine> lines)
 {
     std::vector<LinkingLine> kept;
@@ -106,8 +105,8 @@ std::vector<double> corners_between(const Model& model, const Chain& chain, doub
 
 void add_segments(const Model& model, LinkingSurface& link, double s0, double s1, double t0, double t1)
 {
-    // Without side lines the walls determine which corners correspond, so only corners close to each other
-    // are paired.
+    // Without side lines, the walls determine which corners correspond. Then only corners that are close to
+    // each other are paired.
     const Pairing pairing = link.lines.empty() ? Pairing::near : Pairing::in_order;
     std::vector<double> a = corners_between(model, link.source, s0, s1, true);
     std::vector<double> b = corners_between(model, link.target, t0, t1, false);
@@ -127,12 +126,12 @@ void add_segments(const Model& model, LinkingSurface& link, double s0, double s1
     }
 }
 
-/// Positions of two corresponding vertices on the chains.
+/// The positions of two corresponding vertices on the two chains.
 struct PairedPlaces {
     double source_at, target_at;
 };
 
-/// Add segments between two positions of both chains, split at the pairs in between.
+/// Add the segments between two positions of each chain, split at the pairs between these positions.
 void add_paired_segments(const Model& model, LinkingSurface& link, std::vector<PairedPlaces> pairs, double s0,
                          double s1, double t0, double t1)
 {
@@ -179,9 +178,9 @@ void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext
     add_segments(volume.model, link, 0, link.source.length(), start, start + length);
 }
 
-/// Whether the only side line is the seam of a periodic face that should not guide the sweep. This holds if
-/// the seam winds around the walls. It also holds if the walls bend and have several faces, because the seam
-/// would shear their rows.
+/// Whether the only side line is the seam of a periodic face, and should not guide the sweep. It should not
+/// if it winds around the walls. It also should not if the walls bend and have several faces, because it
+/// would then shear their rows.
 bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const RunContext& context)
 {
     if (link.lines.size() != 1 || runs_straight(volume.model, link)) return false;
@@ -243,8 +242,8 @@ LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, co
     return link;
 }
 
-/// Check that the walls of a loop form a ring. With a tunnel through them (a bore from one wall to another)
-/// they cannot be mapped onto a strip.
+/// Check that the walls of a loop form a ring. If a tunnel leads through them (a bore from one wall to
+/// another), they cannot be mapped onto a strip.
 void check_ring(const Model& model, const std::vector<FaceId>& part)
 {
     if (euler_number(model, part) == 0) return;

@@ -24,7 +24,7 @@ constexpr std::size_t kSamples = 24;
 /// Number of lines between two opposite sides on which the size is sampled. Heuristic.
 constexpr std::size_t kLines = 3;
 
-/// Points of a side of the face at even steps of running length.
+/// Points at even steps of running length on a side of the face.
 std::vector<Vec3> side_points(const Model& model, const Loop& loop, std::size_t from, std::size_t to)
 {
     std::vector<EdgeUse> side;
@@ -79,7 +79,8 @@ MappedFace::Shape MappedFace::shape(const SizeField& size) const
 {
     Shape shape;
     double jacobians = 0;
-    std::array<std::vector<double>, 2> sides; // numbers of sides that the size requires in both directions
+    // For each direction, the number of sides that the size requires along each grid side.
+    std::array<std::vector<double>, 2> sides;
     for (std::size_t j = 0; j < kSamples; ++j) {
         for (std::size_t i = 0; i < kSamples; ++i) {
             const std::array<Vec3, 4> quad{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};

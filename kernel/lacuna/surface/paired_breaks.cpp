@@ -14,7 +14,7 @@ BreakPairs paired(const std::vector<double>& a, const std::vector<double>& b, do
 {
     const std::size_t n = a.size(), m = b.size();
     std::vector<std::vector<double>> cost(n + 1, std::vector<double>(m + 1, 0));
-    // With `in_order` the distance of a pair costs nothing.
+    // With `in_order`, the distance between the two breaks of a pair costs nothing.
     const auto cost_paired = [&](std::size_t i, std::size_t j) {
         return cost[i - 1][j - 1] + (in_order ? 0.0 : 1.0) * std::abs(a[i - 1] - b[j - 1]);
     };
@@ -46,8 +46,8 @@ BreakPairs paired(const std::vector<double>& a, const std::vector<double>& b, do
 
 BreakPairs paired_breaks(const std::vector<double>& a, const std::vector<double>& b, Pairing pairing)
 {
-    // Two unpaired breaks cost as much as a pair whose distance is twice this value, as a share of the
-    // length. Heuristic.
+    // Leaving two breaks unpaired costs as much as pairing two breaks at twice this distance, as a share of
+    // the length. Heuristic.
     const double alone = pairing == Pairing::in_order ? 0.1 : 0.02;
     return paired(a, b, alone, a.size() == b.size() && pairing == Pairing::in_order);
 }

@@ -26,7 +26,7 @@ std::vector<Vec2> points_of(std::span<const PlaneChain> chains, const Walk& loop
     return points;
 }
 
-/// An outgoing half-edge of a node.
+/// A half-edge that leaves a node.
 struct Spoke {
     double angle;
     PlaneUse use;
@@ -56,7 +56,7 @@ std::vector<Walk> traced_loops(std::span<const PlaneChain> chains)
     const auto bounds = [&](const PlaneUse& use) {
         return use.reversed ? chains[use.chain].right : chains[use.chain].left;
     };
-    // The successor of an incoming half-edge is the first outgoing one clockwise from its twin.
+    // A half-edge that arrives at a node is followed by the first half-edge clockwise from its twin.
     const auto next = [&](const PlaneUse& use) {
         const std::vector<Spoke>& around = spokes.at(use.reversed ? chains[use.chain].from
                                                                   : chains[use.chain].to);

@@ -76,12 +76,13 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         hit.triangle = facet;
         return hit;
     };
-    // A point this close lies on the facet up to rounding. If it is inside the facet, no other facet is
-    // searched.
+    // A point that is this close to a facet lies on it up to rounding. If it is also inside the facet, no
+    // other facet can be closer, and the search ends.
     constexpr double kInside = 1e-6;
     const double rounding = 1e-15 * tree_.bounds().diagonal().norm();
     parallel_for(context, points.size(), 512, [&](std::size_t begin, std::size_t end) {
-        // Consecutive points are close together, so the last facet limits the search for the next one.
+        // Consecutive points are close to each other. The distance to the last point's facet therefore limits
+        // the search for the next point.
         for (std::size_t i = begin; i < end; ++i) {
             if (i > begin) {
                 hits[i] = hit_on(hits[i - 1].triangle, points[i]);
@@ -89,7 +90,8 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
                 if (inside && hits[i].distance2 <= rounding * rounding) continue;
                 hits[i] = tree_.closest(points[i], hits[i].distance2);
             }
-            if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]); // rounding can exclude all facets
+            // By rounding, no facet may be within the limit.
+            if (hits[i].triangle < 0) hits[i] = tree_.closest(points[i]);
         }
     });
     std::map<FaceId, std::vector<std::size_t>> on_face;
@@ -98,7 +100,7 @@ std::vector<FaceId> Projector::project(std::span<Vec3> points, const RunContext&
         faces[i] = facets_.face[index(hits[i].triangle)];
         on_face[faces[i]].push_back(i);
     }
-    // One call per face, because exact surfaces project in bulk.
+    // One call for each face, because exact surfaces project points in bulk.
     for (const auto& [face, members] : on_face) {
         const Face& f = (*model_)[face];
         if (f.surface == nullptr) {

@@ -16,9 +16,9 @@ using namespace topology;
 
 namespace {
 
-/// The size counts as uniform on a facet or side if its values differ by at most this ratio. Heuristic.
+/// The size counts as uniform on a facet or side if the ratio of its values there is at most this. Heuristic.
 constexpr double kOneSize = 1.5;
-/// Facets and sides that are shorter than this multiple of the size are not subdivided.
+/// Facets and sides are not subdivided if they are shorter than this multiple of the size.
 constexpr double kFewSides = 2;
 
 using Facet = std::array<Vec3, 3>;
@@ -27,11 +27,12 @@ using Segment = std::array<Vec3, 2>;
 Vec3 middle(const Facet& f) { return (f[0] + f[1] + f[2]) / 3; }
 Vec3 middle(const Segment& s) { return (s[0] + s[1]) / 2; }
 
-/// Number of quads with sides of length `h` on a facet, and number of sides of length `h` on a segment.
+/// Number of quads with sides of length `h` on a facet, and of sides of length `h` on a segment.
 double asked_by(double h, const Facet& f) { return (f[1] - f[0]).cross(f[2] - f[0]).norm() / 2 / (h * h); }
 double asked_by(double h, const Segment& s) { return (s[1] - s[0]).norm() / h; }
 
-/// Whether the size is uniform on a facet or segment, judged at its corners and its midpoint.
+/// Whether the size is uniform on a facet or segment, according to its values at the corners and the
+/// midpoint.
 template <std::size_t n>
 bool is_even(const std::array<Vec3, n>& part, const SizeField& size, double in_middle)
 {
@@ -44,8 +45,8 @@ bool is_even(const std::array<Vec3, n>& part, const SizeField& size, double in_m
     return most <= kOneSize * least;
 }
 
-/// Number of quads on a facet, or of sides on a segment, that a size field requires. The part is subdivided
-/// until the size on it is uniform. Counting stops just above `most`.
+/// Number of quads on a facet, or of sides on a segment, that a size field requires. The facet or segment is
+/// subdivided until the size is uniform on each part. Counting stops just above `most`.
 template <std::size_t n>
 double asked_on(const std::array<Vec3, n>& whole, const SizeField& size, double most)
 {
@@ -86,7 +87,7 @@ double sides_round(const Model& model, FaceId face, const SizeField& size, doubl
 
 bool asks_for_more(const OpenVolume& volume, const SizeField& size, double most)
 {
-    constexpr double kSides = 4; ///< of a face with a grid
+    constexpr double kSides = 4; ///< a face with a grid has four sides
     const Model& model = volume.model;
     double all = 0;
     for (const FaceId face : volume.faces(Role::source)) {

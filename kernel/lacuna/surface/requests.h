@@ -12,14 +12,14 @@ namespace lacuna::surface {
 
 /// Faces as named by the user: the union of both lists.
 struct FaceNames {
-    std::vector<int> tags;          ///< tags of given faces
-    std::vector<std::string> names; ///< of given faces; "void:<n>": void face n; "source",
-                                    ///< "target": void ends; "walls": all walls
+    std::vector<int> tags; ///< tags of given faces
+    /// Names of given faces; "void:<n>": void face n; "source", "target": void ends; "walls": all walls.
+    std::vector<std::string> names;
 };
 
 /// Rows of thin cells along selected faces.
 struct BoundaryLayer {
-    FaceNames walls;   ///< walls, and ends
+    FaceNames walls;   ///< the faces with these rows: walls or ends
     double first = 0;  ///< thickness of the cells at the face, normal to it, > 0 [model length]
     double growth = 1; ///< height ratio of consecutive rows, > 0 [-]
     int count = 1;     ///< rows, >= 1
@@ -27,23 +27,23 @@ struct BoundaryLayer {
 
 /// A number of sides requested by the user.
 struct Interval {
-    /// Where the sides are: on an edge, by its tag; on the edge between two vertices, by their tags; on the
-    /// rim of walls; or along the sweep.
+    /// Where the sides are: on an edge, given by its tag; on the edge between two vertices, given by their
+    /// tags; around the rim of walls; or along the sweep.
     enum class Of { edge, vertices, wall, sweep };
     Of of = Of::sweep;
     int edge = 0;
     std::array<int, 2> vertices{};
-    FaceNames walls; ///< these walls have `count` sides together, that is, as many columns of quads
+    FaceNames walls; ///< walls that together have `count` sides, that is, `count` columns of quads
     int count = 1;   ///< number of sides, >= 1
-    /// Ratio of last to first length, > 0 [-]: in the edge's direction, from the first vertex to the second,
-    /// or from source to target; 1 for walls.
+    /// Ratio of last to first length, > 0 [-]. It counts in the direction of the edge, from the first vertex
+    /// to the second, or from source to target. It must be 1 for walls.
     double bias = 1;
 };
 
 /// Two groups of faces that get the same mesh, one moved onto the other.
 struct PeriodicPair {
     FaceNames a, b;
-    /// Motion that moves the faces `a` onto `b`; empty: it is determined from the faces.
+    /// Motion that moves the faces `a` onto `b`; empty: the program determines it from the faces.
     std::optional<Eigen::Isometry3d> onto;
 };
 

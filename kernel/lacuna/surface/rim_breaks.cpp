@@ -51,7 +51,7 @@ std::vector<std::size_t> kept_points(std::span<const Vec3> points, double sag)
     return kept;
 }
 
-/// Whether an edge of a chain starts at a position, which is therefore a node in any case.
+/// Whether an edge of a chain starts at a position. Such a position is a node in any case.
 bool starts_at(const Chain& chain, double at)
 {
     for (std::size_t u = 0; u <= chain.uses().size(); ++u)
@@ -65,7 +65,7 @@ double nearest_turn(double at, double to, double length)
     return at + std::round((to - at) / length) * length;
 }
 
-/// Move each end of a segment to the nearest of `vertices`, unless it already is a vertex of this rim.
+/// Move each end of a segment to the nearest of `vertices`, unless a vertex of this rim is already there.
 template <class Vertices>
 void snap(BreakPairs& ends, double std::pair<double, double>::*side, const Chain& chain,
           const Vertices& vertices)
@@ -87,7 +87,7 @@ void snap(BreakPairs& ends, double std::pair<double, double>::*side, const Chain
     }
 }
 
-/// Relative positions of the vertices between two positions, increasing.
+/// Relative positions of the vertices between two positions, in increasing order.
 template <class Vertices>
 std::vector<double> shares_between(double from, double to, const Chain& chain, const Vertices& vertices)
 {
@@ -100,7 +100,7 @@ std::vector<double> shares_between(double from, double to, const Chain& chain, c
     return shares;
 }
 
-/// The starts of all segments, and the end of the last one.
+/// The positions on both rims of the starts of all segments, and of the end of the last segment.
 BreakPairs boundaries(const LinkingSurface& link)
 {
     BreakPairs ends;
@@ -121,7 +121,7 @@ bool holds(const BreakPairs& pairs, const std::pair<double, double>& wanted, con
     });
 }
 
-/// Extend pairs around the whole ring by pairs at the starts of source edges.
+/// Add pairs at the starts of source edges to pairs around the whole ring.
 BreakPairs with_starts(BreakPairs pairs, const LinkingSurface& link)
 {
     pairs.emplace_back(link.source.length(), pairs.front().second + link.target.length());
@@ -137,8 +137,8 @@ BreakPairs with_starts(BreakPairs pairs, const LinkingSurface& link)
     return pairs;
 }
 
-/// Pairs of vertices of both rims that are close to each other. Every other vertex is paired with the
-/// position opposite to it.
+/// Pair vertices of the two rims that are close to each other. Pair every other vertex with the opposite
+/// position on the other rim.
 template <class Vertices>
 BreakPairs paired_near(const LinkingSurface& link, const Vertices& low, const Vertices& high)
 {
@@ -210,7 +210,7 @@ const std::vector<Index>& RimFacets::crease(Index rim)
     return crease->second;
 }
 
-/// Whether the given nodes on a linking surface's rims are exactly the ends of its creases.
+/// Whether the given nodes on the rims of a linking surface are exactly the ends of its creases.
 bool RimFacets::has_nodes_at(const LinkingSurface& link,
                              std::span<const std::pair<double, double>> creases) const
 {
@@ -230,7 +230,8 @@ bool RimFacets::has_nodes_at(const LinkingSurface& link,
     return true;
 }
 
-/// Follow the sharpest sides of facets. @return  empty if they do not lead to another rim
+/// Follow the sharpest sides of facets from a point of a rim. @return  empty if they do not lead to another
+/// rim
 std::vector<Index> RimFacets::crease_from(Index rim) const
 {
     const Model& model = volume_.model;
@@ -291,7 +292,7 @@ std::vector<RimFacets::Vertex> RimFacets::kept(const Chain& chain, int per_turn,
     return vertices;
 }
 
-/// Remove all vertices of edges on which some vertex has no crease.
+/// If some vertex of an edge has no crease, remove all vertices of this edge.
 std::vector<RimFacets::Vertex> RimFacets::on_creases(std::vector<Vertex> vertices)
 {
     std::set<EdgeId> without;
@@ -313,7 +314,7 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
         const std::vector<Vertex> low = on_creases(kept(link.source, per_turn, size));
         const std::vector<Vertex> high = on_creases(kept(link.target, per_turn, size));
         if (low.empty() && high.empty()) continue;
-        // Find the creases up the walls, and the positions that they connect.
+        // Find the creases up the walls, and the positions on both rims that they connect.
         std::vector<Crease> up;
         BreakPairs joined;
         bool in_order = true;

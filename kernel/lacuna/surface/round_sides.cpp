@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// Minimum turn of a round side. A lower value treats flatter sides as round. Not measured.
+/// Minimum turn of a round side. With a lower value, flatter sides count as round. Not measured.
 constexpr double kBulges = std::numbers::pi / 4;
 /// Relative depth of the rows along a round side, as in the disc patterns (`quads::pattern_counts()`).
 constexpr double kRowsOfRadius = 1.0 / 3;
@@ -52,7 +52,8 @@ double wish_rows(const RoundSide& bulge, int parts, const std::vector<std::size_
 {
     const double deep = kRowsOfRadius * bulge.radius, angle = bulge.turn / parts / 2;
     // The line behind the rows of one part. Its corner is on the ray through the middle of the part, and its
-    // ends are on the rays through the part's ends, all at the same depth below the side.
+    // ends are on the rays through the ends of the part. All three points are at the same depth below the
+    // side.
     const double left = bulge.radius - deep;
     const double line = 2 * parts * std::hypot(left * std::sin(angle), left * (1 - std::cos(angle)));
     program.wishes.push_back({{rows}, std::max(deep / bulge.size, kLeastWish), 1});

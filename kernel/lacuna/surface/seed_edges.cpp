@@ -23,14 +23,14 @@ namespace {
 /// have corners of 120° or more.
 constexpr int kFewestPerTurn = 6;
 
-/// A further side is added only if the turn exceeds the current number of sides by this part of a side, which
-/// covers the sampling error of a curve. Heuristic.
+/// A further side is added only if the turn needs more than the current number of sides by this part of a
+/// side. This part covers the sampling error of a curve. Heuristic.
 constexpr double kPartOfSide = 0.05;
 
 /// Number of points on each piece at which the size is sampled. Heuristic.
 constexpr int kSizeSamples = 32;
 
-/// Turn of the target's rim in even steps along a segment [radian].
+/// Turns of the target's rim over even steps along a segment [radian].
 std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment& segment)
 {
     const double whole = target.length(), step = (segment.target_to - segment.target_from) / kSizeSamples;
@@ -44,7 +44,7 @@ std::vector<double> opposite_turning(const EdgeTurning& target, const RimSegment
     return turning;
 }
 
-/// Add the parts of the source's rim as pieces; each part is swept to a single edge of the target's rim.
+/// Add the segments of the source's rim as pieces.
 void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
 {
     const EdgeTurning target(model, link.target.uses());
@@ -63,9 +63,9 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
     }
 }
 
-/// Hexahedra cannot be swept from a given mesh of quads and triangles. Add a note if the user requested that
-/// the face is remeshed. A face with triangles only is a shape, not a mesh.
-/// @throw NotSweepable  the face has such a mesh and quads = "auto".
+/// Hexahedra cannot be swept from a given mesh of quads and triangles. If the user requested that the face is
+/// remeshed, add a note. The triangles of a face without quads only define its shape and are no mesh.
+/// @throw NotSweepable  the face has a mesh of quads and triangles, and quads = "auto".
 void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
 {
     const Face& f = task.model[face];
@@ -116,7 +116,7 @@ void keep_nodes(const Model& model, FaceId face, EdgeId edge, Seeds& seeds)
             to = to || std::abs(f - piece.to) <= slack;
             if (f > piece.from + slack && f < piece.to - slack) piece.kept.push_back(f);
         }
-        // A piece that is one given side has no given node inside.
+        // A piece that is one side between two given nodes has no given node inside.
         if (!from || !to || (piece.fixed && piece.kept.size() != sides)) {
             throw NotSweepable(
                 Message("surface.kept_rim",
@@ -140,8 +140,8 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
     const EdgeTurning turning(task.model, edge);
     const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
-    // Of the opposite rim's turn, only the excess over this rim's turn counts. The rim of an oblique end
-    // turns unevenly, but by the same total.
+    // If the opposite rim turns more than this rim, only the excess counts. On an oblique end the rim turns
+    // unevenly, but by the same total.
     const auto turn_between = [&](double from, double to) {
         return piece.follows ? 0 : turning.between(from, to);
     };
@@ -181,7 +181,8 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     piece.least = std::max(1, bends);
 }
 
-/// Add a note on edges that have sides longer than twice the size, if only triangles gave their nodes.
+/// If edges have sides longer than twice the size, and only triangles gave these edges their nodes, add a
+/// note.
 void note_coarse_edges(const SeedTask& task, Seeds& seeds)
 {
     const auto has_quads = [&](const FaceUse& use) { return !task.model[use.face].given_quads.empty(); };

@@ -21,38 +21,39 @@ namespace {
 /// Weight of a line across a mapped face relative to an edge of its rim. Heuristic.
 constexpr double kLineWeight = 1;
 
-/// A face with a round side that turns by at least this (120°) is filled by two three-sided patterns side by
-/// side. Heuristic.
+/// If the round side of a face turns by at least this (120°), the face is filled by two three-sided patterns
+/// side by side. Heuristic.
 constexpr double kHalves = kFullTurn / 3;
 
-/// Weight of the wish for a square core, relative to an edge. With a quarter of this value, sectors around a
-/// common point alternate between 15 and 13 sides.
+/// Weight of the wish for a square core, relative to an edge. With a quarter of this weight, the numbers of
+/// sides of sectors around a common point alternate between 15 and 13.
 constexpr double kEvenCore = 1;
 
-/// From this number of wanted quads on, the numbers of sides of a sector follow the rows along its round
-/// side. Measured on quarters of a disc: for 30 wanted quads, the rule gives 80 quads, and without it there
-/// are 45; for 12 wanted quads, 86 and 39. From 120 wanted quads on, the rule is better throughout.
+/// If a sector should have at least this number of quads, its numbers of sides follow the rows along its
+/// round side. Measured on quarters of a disc. For 30 wanted quads, there are 80 quads with this rule and 45
+/// without it; for 12 wanted quads, 86 and 39. For 120 and more wanted quads, the rule is better in all
+/// cases.
 constexpr double kQuadsForRows = 20;
 
-/// Weight of edges that are to be changed last, relative to other edges, when numbers are repaired.
+/// When numbers are repaired: weight of edges that are to be changed last, relative to other edges.
 /// Heuristic.
 constexpr double kLastWeight = 10;
-/// Weight of the wish for half of a face's total. The wish only decides where the search starts; its weight
-/// is too small to affect the result.
+/// Weight of the wish for half of a face's total. The wish only decides where the search starts. Its weight
+/// is too small to affect the result otherwise.
 constexpr double kHalfWeight = 1e-6;
 
-/// A grid of a face: the variables along its sides, in both directions.
+/// A grid that fills a face or a part of it: the variables along its sides, in both directions.
 using FaceGrid = std::array<std::vector<std::size_t>, 2>;
 
-/// The variables of the program and the pieces they belong to.
+/// The program, and the pieces to which its variables belong.
 struct Program {
     IntervalProgram intervals;
     std::vector<SeedPiece*> pieces;
     std::vector<std::size_t> piece_variable;
     std::map<EdgeId, std::size_t> first; ///< variable of the first piece of each edge
-    std::vector<FaceGrid> grids;         ///< grids that together fill a face
+    std::vector<FaceGrid> grids;         ///< all grids with which faces are filled
     double asked = 0;                    ///< number of quads wanted on faces filled by `grids`
-    /// Edges to be changed last, if the program only corrects existing numbers of sides; otherwise null.
+    /// If the program only repairs existing numbers of sides: the edges to be changed last. Otherwise null.
     const std::set<EdgeId>* last = nullptr;
 };
 
@@ -69,7 +70,7 @@ void add_piece(EdgeId edge, SeedPiece& piece, Program& program)
     program.piece_variable.push_back(variable);
 }
 
-/// The variables of edges.
+/// The variables of some edges. They are added to the program if needed.
 std::vector<std::size_t> variables_of(Seeds& seeds, const std::vector<EdgeId>& edges, Program& program)
 {
     std::vector<std::size_t> variables;
@@ -100,7 +101,7 @@ void add_even(Seeds& seeds, const std::vector<EdgeId>& edges, Program& program)
     program.intervals.equations.push_back({std::move(all), {half, half}});
 }
 
-/// Require equal numbers on edges that a symmetry of a face maps onto each other.
+/// Require equal numbers of sides on edges that a symmetry of a face maps onto each other.
 void add_alike(const AlikeEdges& alike, Program& program)
 {
     for (const auto& [face, sets] : alike) {
@@ -115,7 +116,7 @@ void add_alike(const AlikeEdges& alike, Program& program)
     }
 }
 
-/// Require equal numbers on opposite sides of mapped and submapped faces.
+/// Require equal numbers of sides on opposite sides of mapped and submapped faces.
 void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Program& program)
 {
     for (const auto& [face, pairs] : grids.opposite) {
@@ -143,9 +144,9 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
     }
 }
 
-/// Whether a face is a large sector next to a free face: it has three sides of which one is round, and shares
-/// an edge with another free face, whose numbers must suit both. None of its sides may be given or requested,
-/// and the face must be large enough for rows along the round side.
+/// Whether a face is a large sector next to a free face. It must have three sides of which one is round, and
+/// share an edge with another free face, so that the edge's number must suit both. None of its sides may be
+/// given or requested. The face must be large enough for rows along the round side.
 bool is_sector_beside(const SeedTask& task, const FaceGrids& grids, const Seeds& seeds, FaceId face,
                       const std::vector<EdgeId>& edges)
 {
@@ -165,7 +166,8 @@ bool is_sector_beside(const SeedTask& task, const FaceGrids& grids, const Seeds&
 /// Add the constraints of a free face:
 /// - Three sides: three grids meet at an inner node, so the total is even and no side exceeds the sum of the
 ///   other two.
-/// - Two sides, one of them round (half disc): two such patterns lie side by side, with a square core.
+/// - Two sides, one of them round (half disc): two patterns as for three sides lie side by side, with a
+///   square core.
 /// - Two other sides: their numbers differ by an even number, as around a grid that has two of its four
 ///   corners inside the face.
 /// - All other faces: the total is even.
@@ -217,7 +219,7 @@ bool add_free(const SeedTask& task, FaceId face, const std::vector<EdgeId>& edge
     return false;
 }
 
-/// Add the constraints of free faces that share edges with mapped ones, so that quads can fill them.
+/// Add the constraints of free faces that share edges with mapped faces, so that quads can fill them.
 /// @return  edges whose numbers of sides are those of a grid
 std::set<EdgeId> add_beside_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds,
                                    Program& program)
@@ -265,8 +267,9 @@ double quads_of(const Program& program, const std::vector<int>& counts)
     return quads;
 }
 
-/// The numbers of sides with the least cost. If they give too many or too few quads, solve again with scaled
-/// wanted numbers, because three grids around a node have more quads than the sides of the face suggest.
+/// The numbers of sides with the least cost. If they give too many or too few quads, solve again with the
+/// wanted numbers multiplied by a factor. This is needed because three grids around a node have more quads
+/// than the sides of the face suggest.
 std::vector<int> solve_for_quads(const Program& program)
 {
     // The requested number of quads must be met within a quarter. The tolerance `kNear` and the number of
@@ -301,7 +304,7 @@ std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, co
     std::set<EdgeId> settled = add_beside_mapped(task, grids, seeds, all);
     add_alike(alike, all);
     const std::vector<int> counts = solve_for_quads(all);
-    std::vector<int> fewer; // used if the free faces have no solution
+    std::vector<int> fewer; // the solution for mapped faces alone; used if the free faces have no solution
     for (std::size_t p = 0; p < all.pieces.size(); ++p) {
         int count = counts[all.piece_variable[p]];
         if (count == 0 && p < mapped.pieces.size()) {

@@ -28,25 +28,25 @@ using namespace topology;
 
 namespace {
 
-/// Maximum sag of a side as a share of the local width of the face. Two opposite sides then leave half of the
-/// width [-].
+/// Maximum sag of a side as a share of the local width of the face. With sides on both rims, half of the
+/// width remains [-].
 constexpr double kSagOfWidth = 0.25;
-/// Number of rim points for each mesh side of the requested size. More points would resolve changes of the
-/// size within a side, but take more time. Heuristic.
+/// Number of rim points for each mesh side of the requested size. With more points, changes of the size
+/// within a side would be resolved, but it would take more time. Heuristic.
 constexpr double kPointsPerSide = 4;
-/// Maximum distance of neighbouring rim points [multiples of the size there]. Halfway between two points the
-/// size is then at most a third too large. Heuristic.
+/// Maximum distance of neighbouring rim points, as a multiple of the size there. Halfway between two points
+/// the size is then at most a third too large. Heuristic.
 constexpr double kApart = 2;
 /// Maximum number of rim points per edge. Heuristic.
 constexpr std::size_t kMostPoints = 4096;
-/// Two rim points face each other if the line between them and the rim's normal form an angle with at least
-/// this cosine. With this bound, the two sides of a right angle never face each other.
+/// Two rim points face each other if the cosine of the angle between the line that joins them and the rim's
+/// normal is at least this. The two sides of a right angle then never face each other.
 constexpr double kFacing = 0.8;
-/// Two points of one edge face each other only if the path along the edge is longer than the chord by this
-/// factor. For a half circle the factor is 1.57 [-].
+/// Two points of one edge face each other only if the path along the edge is longer than this multiple of the
+/// chord. For a half circle the ratio is 1.57 [-].
 constexpr double kWayRound = 1.5;
-/// Inside a face, curvature does not reduce the size below this share of the requested size. Quads are
-/// isotropic, so following a sharp bend in one direction would cost hundreds of them. Heuristic.
+/// Inside a face, curvature does not reduce the size below this share of the requested size. Quads have the
+/// same size in both directions, so a sharp bend in one direction would need hundreds of them. Heuristic.
 constexpr double kLeastShare = 0.5;
 
 /// Keep the cause with the smaller size.
@@ -55,7 +55,7 @@ void take_least(std::optional<SizeCause>& least, const SizeCause& cause)
     if (!least || cause.size < least->size) least = cause;
 }
 
-/// Size by curvature at the facet vertices of a face.
+/// Add sizes required by curvature at the vertices of a face's facets.
 void add_curvature(const Model& model, FaceId face, const SizeField& asked, int per_turn,
                    std::vector<PointSize>& sizes, std::optional<SizeCause>& cause)
 {
@@ -84,10 +84,10 @@ struct RimPiece {
     double length = 0; ///< length of the whole edge
 };
 
-/// The boundary of a face as pieces in a tree, and the size by local width.
+/// The boundary of a face as pieces in a tree. It finds the sizes that the local width requires.
 class Width {
 public:
-    /// @param least  minimum size by the gap, as a share of the requested one.
+    /// @param least  minimum size in narrow places, as a share of the requested size.
     Width(const Model& model, FaceId face, double least = 0) : model_(model), face_(face), least_(least)
     {
         double rim = 0;
@@ -96,7 +96,7 @@ public:
         std::vector<Vec3> points;
         std::vector<Triangle> triangles;
         for (const auto& [edge, count] : uses) {
-            if (count > 1) continue; // a seam has the face on both sides
+            if (count > 1) continue; // a seam is no boundary
             const std::vector<Vec3> line = edge_line(model, edge);
             const std::vector<double> arc = geometry::arc_lengths(line);
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -123,7 +123,7 @@ public:
     }
 
 private:
-    /// The boundary point that faces another one.
+    /// The boundary point opposite to another boundary point.
     struct Opposite {
         EdgeId edge;
         double width = 0;
@@ -156,10 +156,11 @@ private:
                 parts.pop_back();
                 const RimPoint at{a + (from + to) / 2 * along, inward,
                                   turning.between(start + from, start + to) / (to - from)};
-                // Sides here are no longer than this anyway: by the requested size and the edge's curvature.
+                // The mesh sides are at most this long anyway, because of the requested size and the edge's
+                // curvature.
                 const double bend = at.curvature * sizing.curvature / kFullTurn;
                 const double most = 1 / std::max(1 / asked(at.point), bend);
-                // Places that are wider than this do not reduce the size.
+                // If the width is larger than this, the size is not reduced.
                 const double reach = std::max(sizing.gap * most,
                                               at.curvature * most * most / (8 * kSagOfWidth));
                 const auto facing = opposite(edge, start + (from + to) / 2, at, reach);
@@ -176,12 +177,13 @@ private:
                 double share = sizing.gap > 0 ? width / sizing.gap : most;
                 share = std::max(share, least_ * asked(at.point));
                 if (share >= most) continue;
-                // Add the point halfway across as well, so that quads stay small between the two rims.
+                // Also add the point halfway to the opposite rim, so that quads stay small between the two
+                // rims.
                 sizes.push_back({at.point, share});
                 sizes.push_back({at.point + width / 2 * at.inward, share});
                 because(share);
-                // Where the width is much smaller than the size, sample more densely; otherwise the size
-                // would grow again between the samples.
+                // If the width is much smaller than the size, divide the interval, because the size would
+                // grow again between two samples.
                 if (to - from > kApart * share && length < static_cast<double>(kMostPoints) * (to - from)) {
                     parts.push_back({(from + to) / 2, to});
                     parts.push_back({from, (from + to) / 2});
@@ -191,7 +193,7 @@ private:
         }
     }
 
-    /// The boundary point that faces this position, if it is within `reach`.
+    /// The boundary point opposite to this position, if it is within `reach`.
     [[nodiscard]] std::optional<Opposite> opposite(EdgeId edge, double s, const RimPoint& at,
                                                    double reach) const
     {
@@ -226,8 +228,8 @@ private:
         }
         const bool at_start = a.from == b.from || a.from == b.to, at_end = a.to == b.from || a.to == b.to;
         if (!at_start && !at_end) return Opposite{other, width};
-        // Next to a common corner the width is not defined. Two edges with both ends in common enclose the
-        // face, so its mean width is used.
+        // Near a common corner of two edges the width is not defined. Two edges with both ends in common
+        // enclose the face, so the width is at least the face's mean width.
         if (!at_start || !at_end || a.from == a.to) return std::nullopt;
         return Opposite{other, std::max(width, mean_width_)};
     }
@@ -237,7 +239,7 @@ private:
     double least_;
     double mean_width_ = 0;
     geometry::FacetTree tree_;
-    std::vector<RimPiece> pieces_; ///< for each triangle in the tree
+    std::vector<RimPiece> pieces_; ///< piece of each triangle in the tree
     std::vector<EdgeId> edges_;
     std::unordered_map<std::uint64_t, Index> opposite_; ///< corner of the facet at a side
 };

@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// The largest height of rows that fit on an edge, measured along the edge that the rows follow.
+/// The largest total height of rows for which an edge has room.
 double room_on(const Model& model, const SeedPiece& piece, EdgeId edge, bool at_end, const RimRows::End& end)
 {
     const std::vector<double>& other = at_end ? piece.low : piece.high;
@@ -26,7 +26,7 @@ double room_on(const Model& model, const SeedPiece& piece, EdgeId edge, bool at_
         .dot(end.inward);
 }
 
-/// Place nodes on an edge at the heights of the rows that end at one of its ends.
+/// Place nodes at one end of an edge, at the heights of the rows that end there.
 void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const RimRows::End& end)
 {
     std::vector<SeedPiece>& pieces = seeds.pieces.at(edge);
@@ -54,7 +54,7 @@ void end_rows(Seeds& seeds, const Model& model, EdgeId edge, bool at_end, const 
     piece.count = std::max(1, static_cast<int>(std::lround(sides_between))) + piece.rows();
 }
 
-/// Number of sides from the start to a share of the length, for a request with bias.
+/// Number of sides between the start and a share of the length, for a request with bias.
 double index_at(double share, const SidesAsked& asked)
 {
     if (asked.count < 2 || asked.bias == 1) return share * asked.count;
@@ -69,8 +69,8 @@ double length_at(double index, const SidesAsked& asked)
     return std::expm1(growth * index) / std::expm1(growth * asked.count);
 }
 
-/// Choose the node at the end of each piece: the nearest one by the bias, such that every piece has at least
-/// one side.
+/// Choose the node at the end of each piece. It is the nearest one according to the bias that leaves every
+/// piece at least one side.
 std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& asked)
 {
     std::vector<int> node{0};
@@ -84,10 +84,11 @@ std::vector<int> nodes_at(const std::vector<double>& ends, const SidesAsked& ask
     return node;
 }
 
-/// For each piece, the request that set its number of sides.
+/// For each piece, the request that determined its number of sides.
 using Askers = std::map<const SeedPiece*, const SidesAsked*>;
 
-/// Apply the sides requested on a piece of an edge, or refuse a conflict.
+/// Apply a request to a piece of an edge. Refuse a request that contradicts given nodes or an earlier
+/// request.
 void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiece& own,
             const SidesAsked& asked, EdgeId edge)
 {

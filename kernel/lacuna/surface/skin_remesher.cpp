@@ -16,31 +16,32 @@ namespace lacuna::surface {
 
 namespace {
 
-/// Sides longer than the first multiple of the size are split, and sides shorter than the second one are
+/// Sides longer than the first multiple of the size are split, and sides shorter than the second multiple are
 /// collapsed. Both halves of a split side are nearer to the size than the whole side was (@cite
 /// botsch_2004_remeshing).
 constexpr double kLong = 4.0 / 3, kShort = 4.0 / 5;
-/// Number of rounds of splitting, collapsing, flipping and smoothing. On the bodies of the tests the smallest
-/// angle did not change after five rounds.
+/// Number of rounds of splitting, collapsing, flipping and smoothing. On the bodies of the tests, the
+/// smallest angle did not change after the fifth round.
 constexpr int kRounds = 6;
-/// Tangent of the smallest angle that a collapse or a move may cause: 15°. Later flips and moves about double
-/// such angles.
+/// Tangent of the smallest angle that a collapse or a move may make: 15°. Later flips and moves approximately
+/// double such angles.
 constexpr double kPoorAngle = 0.27;
-/// Tangent of the smallest angle below which triangles are improved one by one: 30°.
+/// Triangles with a smaller angle are improved one by one. The tangent of 30°.
 constexpr double kGoodAngle = 0.577;
 /// Number of rounds of these improvements. The last rounds find hardly anything to improve.
 constexpr int kImprovements = 6;
 /// Tangent of an angle that counts as zero.
 constexpr double kFlat = 1e-4;
 /// Maximum number of triangles after a round of splitting, as a multiple of the estimate from area and size.
-/// Badly shaped triangles need at most twice the estimate. The limit stops endless splitting next to folded
-/// facets.
+/// Badly shaped triangles need at most twice the estimate. The limit ends splitting that would otherwise go
+/// on forever next to folded facets.
 constexpr double kMostOfEstimate = 4;
-/// More triangles than this are refused, as the volume behind them would have more than 1e7 tetrahedra.
+/// A skin with more triangles is refused, because the volume inside would have more than 1e7 tetrahedra.
 constexpr double kMostTriangles = 1e7;
 /// Minimum distance of a new node from the corners opposite to its side, in multiples of the size.
 constexpr double kClose = 0.25;
-/// Minimum relative gain of a flip, above the rounding of two equal diagonals.
+/// Minimum relative gain of a flip. It is above the rounding error, so that two equal diagonals are not
+/// flipped back and forth.
 constexpr double kGain = 1e-6;
 
 } // namespace
@@ -79,8 +80,8 @@ Index SkinRemesher::try_split(Index s)
 {
     const Index g = mesh_.twin(s), line = mesh_.line(s);
     if (mesh_.is_kept(s) || (line >= 0 && lines_[index(line)].kept)) return -1;
-    // A triangle without height is not split, because its parts would have no height either. It is flipped or
-    // collapsed first.
+    // A triangle without height is flipped or collapsed first. It is not split, because its parts would have
+    // no height either.
     if (line < 0 && std::min(std::abs(mesh_.quality(s)), std::abs(mesh_.quality(g))) < kFlat) return -1;
     const auto& side = mesh_.sides;
     const auto normal_at = [&](Index x) {
@@ -107,7 +108,7 @@ Index SkinRemesher::try_split(Index s)
         if (halves && is_upright(place.point)) node.at = place.point;
     }
     node.size = size_(node.at);
-    // A node this close to others is not inserted, because it would be collapsed again.
+    // A node that is this close to others is not inserted, because it would be collapsed again.
     const double close = std::min((c - node.at).norm(), (d - node.at).norm());
     if (line < 0 && close < kClose * node.size) return -1;
     return mesh_.split(s, node, normals);
@@ -115,7 +116,7 @@ Index SkinRemesher::try_split(Index s)
 
 void SkinRemesher::split_long()
 {
-    double estimate = 0; // of the number of triangles
+    double estimate = 0; // estimated number of triangles
     for (std::size_t i = 0; i < mesh_.sides.size(); i += 3) {
         const auto s = static_cast<Index>(i);
         if (!mesh_.lives(s)) continue;
@@ -143,7 +144,7 @@ void SkinRemesher::split_long()
         const auto [before, s] = queue.top();
         queue.pop();
         const double now = ratio(s);
-        if (now != before) { // the side was changed by a flip or another split
+        if (now != before) { // the side was changed by a flip or by another split
             add(s);
             continue;
         }
@@ -344,7 +345,7 @@ void SkinRemesher::make_exact(const topology::Model& model)
 
 // --- small angles ---------------------------------------------------------------------------------------
 
-/// Move a node of a triangle, or collapse one of its sides, if this increases the smallest angle.
+/// Move a node of a triangle or collapse one of its sides, if this increases its smallest angle.
 bool SkinRemesher::improve(Index side, bool moves)
 {
     const double before = mesh_.quality(side);
@@ -401,7 +402,7 @@ void SkinRemesher::run(const topology::Model& model)
     }
     improve(true);
     make_exact(model);
-    improve(false); // in narrow places, the exact position of a node may be beyond the exact border
+    improve(false); // in a narrow place, the exact position of a node may be beyond the exact border
 }
 
 } // namespace lacuna::surface

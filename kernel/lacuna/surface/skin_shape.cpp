@@ -22,13 +22,14 @@ using namespace topology;
 
 namespace {
 
-/// Number of samples of an exact curve per side of a triangle. With four, the sag of the polyline is a
-/// sixteenth of the sag of the side.
+/// Number of samples of an exact curve for each side of a triangle. With four samples, the sag of the
+/// polyline is a sixteenth of the sag of the side.
 constexpr double kSamplesPerSide = 4;
 /// Maximum number of samples per facet. Heuristic.
 constexpr double kMostSamples = 1000;
 
-/// Sides of facets inside a face at which the facets meet at an angle larger than `angle`.
+/// The sides of facets inside a face at which two facets form an angle larger than `angle`, as a graph of
+/// points.
 std::map<Index, std::set<Index>> creases(const Model& model, const Face& face, double angle)
 {
     std::unordered_map<std::uint64_t, std::size_t> first;
@@ -41,7 +42,7 @@ std::map<Index, std::set<Index>> creases(const Model& model, const Face& face, d
             if (fresh) continue;
             const Vec3 own = facet_area_vector(model, t);
             const Vec3 other = facet_area_vector(model, face.triangles[found->second]);
-            // The normals of facets without height are rounding errors.
+            // The normal of a facet without height is only a rounding error.
             const double side = (model.at(a) - model.at(b)).norm();
             if (std::min(own.norm(), other.norm()) <= model.tolerance * side) continue;
             if (geometry::angle_between(own, other) <= angle) continue;
@@ -52,7 +53,7 @@ std::map<Index, std::set<Index>> creases(const Model& model, const Face& face, d
     return result;
 }
 
-/// The chains of a graph. A chain ends at a point in `ends`, or where the number of sides is not two.
+/// The chains of a graph. A chain ends at a point of `ends`, or at a point whose number of sides is not two.
 std::vector<std::vector<Index>> chains_of(std::map<Index, std::set<Index>> graph, const std::set<Index>& ends)
 {
     std::set<Index> stops;

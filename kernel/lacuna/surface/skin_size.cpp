@@ -23,22 +23,22 @@ using namespace topology;
 
 namespace {
 
-/// Minimum number of sides for a full turn. With 12, neighbouring triangles turn by 30°, which is less than a
-/// crease.
+/// Minimum number of sides for a full turn. With 12 sides, neighbouring triangles form an angle of 30°, which
+/// is less than at a crease.
 constexpr int kLeastPerTurn = 12;
-/// Maximum number of sides for a full turn. With it, a sphere loses 0.06 % of its volume.
+/// Maximum number of sides for a full turn. With 160 sides, a sphere loses 0.06 % of its volume.
 constexpr int kMostPerTurn = 160;
 /// Minimum size in narrow places, as a share of the requested size. The number of triangles along a rim is
-/// inversely proportional to it. In still narrower faces triangles become flat.
+/// inversely proportional to it. Faces that are still narrower get flat triangles.
 constexpr double kLeastShare = 0.1;
-/// Maximum sag of a side, as a share of the distance to the opposite skin [-]. Two opposite sides then use at
-/// most half of the distance.
+/// Maximum sag of a side, as a share of the distance to the opposite skin [-]. Two opposite sides together
+/// then take at most half of the distance.
 constexpr double kSagOfGap = 0.25;
-/// Two skins are opposite to each other if the angle between one normal and the reverse of the other is less
-/// than 37° [cosine].
+/// Two parts of the skin are opposite to each other if the angle between the normal of one and the reversed
+/// normal of the other is less than 37° [cosine].
 constexpr double kOpposite = 0.8;
 
-/// Curvature of all faces that are meshed.
+/// For each face that is meshed, the curvature at its points.
 using Curvatures = std::vector<std::vector<PointCurvature>>;
 
 double size_on(const PointCurvature& at, int per_turn)
@@ -46,14 +46,15 @@ double size_on(const PointCurvature& at, int per_turn)
     return at.most > 0 ? std::max(kFullTurn / (at.most * per_turn), at.least_size) : kInfinity;
 }
 
-/// Number of sides for a full turn that keeps the loss of volume within its limit.
+/// Number of sides for a full turn with which the skin loses no more volume than allowed.
 int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeField& size)
 {
     const double allowed = kSameVolume / 2 * std::abs(volume_integral(model, all_faces(model)));
-    std::vector<std::pair<const PointCurvature*, double>> points; // with the requested size there
+    // Points, and the requested size at each of them.
+    std::vector<std::pair<const PointCurvature*, double>> points;
     for (const std::vector<PointCurvature>& face : curvatures)
         for (const PointCurvature& at : face) points.emplace_back(&at, size(at.point));
-    const auto lost = [&](int count) { // decreases with the count
+    const auto lost = [&](int count) { // the lost volume decreases when the count increases
         double sum = 0;
         for (const auto& [at, most] : points) {
             const double side = std::min(most, size_on(*at, count));
@@ -66,12 +67,14 @@ int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeF
     return first == counts.end() ? kMostPerTurn : *first;
 }
 
-/// Add sizes along the sides of facets on curved faces, because such a side may be longer than the sizes at
-/// its ends.
+/// Add sizes along the sides of facets on curved faces. A side may be so long that the sizes at its ends do
+/// not limit the size at its middle.
 void add_curved(const Face& face, std::span<const PointCurvature> at, int per_turn, const SizeField& size,
                 std::vector<PointSize>& sizes)
 {
-    constexpr double kApart = 2; // spacing, in sizes: the size grows by 0.3 halfway between two points
+    // Distance between added sizes, as a multiple of the size; halfway between two of them, the size has
+    // grown by 0.3 of itself.
+    constexpr double kApart = 2;
     if (at.empty()) return;
     const std::vector<Index> points = corner_points(face);
     const auto place = [&](Index p) -> const PointCurvature& {
@@ -94,7 +97,7 @@ void add_curved(const Face& face, std::span<const PointCurvature> at, int per_tu
     }
 }
 
-/// Add sizes on curved faces that follow from the distance of the opposite skin, inside and outside.
+/// Add the sizes that the distance to the opposite skin requires on curved faces, both inside and outside.
 void add_gaps(const Model& model, const Curvatures& curvatures, const SizeField& size,
               std::vector<PointSize>& sizes, const RunContext& context)
 {
@@ -170,8 +173,9 @@ SizeField skin_sizes(const Model& model, std::span<const SkinLine> lines, std::v
         }
     }
 
-    // Given sides may be longer than requested; sizes then decrease away from them. The maximum of size -
-    // kGrading · distance is found by `GradedPoints`, which computes a minimum, with negative sizes.
+    // Given sides may be longer than requested. The size then decreases with the distance from them: it is
+    // the maximum of size - kGrading · distance. `GradedPoints` computes a minimum, so it gets negative
+    // sizes.
     std::vector<PointSize> coarse;
     for (const PointSize& side : given) {
         sizes.push_back(side);

@@ -26,7 +26,7 @@ using namespace topology;
 
 namespace {
 
-/// Whether each point is fixed: vertices, given nodes, and ends and corners of lines are.
+/// Whether each point is fixed. Vertices, given nodes, and the ends and corners of lines are fixed.
 std::vector<char> fixed_points(const Model& model, std::span<const SkinLine> lines)
 {
     std::vector<char> fixed(model.points.size(), 0);
@@ -50,7 +50,7 @@ std::vector<char> fixed_points(const Model& model, std::span<const SkinLine> lin
     return fixed;
 }
 
-/// Sides of given meshes: middle and length.
+/// The sides of given meshes, each as a midpoint and a length.
 std::vector<PointSize> given_sides(const Model& model, std::span<const SkinLine> lines)
 {
     std::vector<PointSize> sides;
@@ -96,7 +96,7 @@ LinkedTriangles linked(const Model& model, std::span<const SkinLine> lines, cons
                                .remedy("close the volume first"));
     }
     for (std::size_t i = 0; i < mesh.sides.size(); ++i) mesh.sides[i].normal = normals[i / 3][i % 3];
-    // For each side, by its two points: its line, and the position of the first point on that line.
+    // For each side, given by its two points: its line, and the position of its first point on that line.
     std::unordered_map<std::uint64_t, std::pair<Index, double>> on_line;
     for (std::size_t l = 0; l < lines.size(); ++l) {
         const SkinLine& line = lines[l];
@@ -117,7 +117,7 @@ LinkedTriangles linked(const Model& model, std::span<const SkinLine> lines, cons
     return mesh;
 }
 
-/// The cells of a skin: new triangles, and the given cells of faces that keep them.
+/// The cells of a skin: new triangles, and the cells of given meshes.
 SkinMesh skin_of(const Model& model, const LinkedTriangles& mesh)
 {
     SkinMesh result;

@@ -101,7 +101,7 @@ private:
         std::vector<Index>& loop = result_.quads.loops.emplace_back();
         for (std::size_t i = points.size(); i-- > 0;) loop.push_back(first + static_cast<Index>(i));
 
-        // The nodes of each edge, in its direction.
+        // Store the nodes of each edge in the direction of the edge.
         std::size_t i = 0;
         for (std::size_t u = 0; u < link.source.uses().size(); ++u) {
             const EdgeUse use = link.source.uses()[u];
@@ -209,7 +209,7 @@ private:
         }
     }
 
-    /// The boundary rows along a face's rim, for nodes in the order of `border_loops()`.
+    /// The boundary rows along a face's rim, for rim nodes in the order of `border_loops()`.
     [[nodiscard]] quads::BoundaryRows rows_along(FaceId face, const std::vector<RimNode>& rim) const
     {
         quads::BoundaryRows rows;
@@ -235,7 +235,7 @@ private:
         return rows;
     }
 
-    /// Report rows that do not fit: name the wall that they belong to, and the edge that they follow.
+    /// Report rows that do not fit: name the wall to which they belong, and the edge along which they run.
     [[noreturn]] void refuse_rows(FaceId face, const std::vector<RimNode>& rim,
                                   const quads::RowsFinding& finding) const
     {
@@ -281,7 +281,8 @@ private:
                                .remedy("give both walls the same table"));
     }
 
-    /// Mesh a free face by the planar mesher. Seams are inside such a face, and poles are ordinary points.
+    /// Mesh a free face by the planar mesher. A seam lies inside such a face and gets no nodes; a pole is an
+    /// ordinary point.
     void fill(FaceId face)
     {
         if (!mesher_) {
@@ -328,7 +329,7 @@ private:
     const quads::PlanarQuadMesher& mesher_;
     const RunContext& context_;
     SourceMesh result_;
-    std::string how_; ///< method for the last face
+    std::string how_; ///< the method by which the last face was meshed
     std::map<VertexId, Index> node_of_;
 };
 

@@ -24,24 +24,26 @@ namespace {
 
 /// Number of samples per side on an edge: enough for cubic interpolation. Heuristic.
 constexpr int kPerSide = 4;
-/// Maximum number of Gauss-Newton steps, and maximum number of increases of the evenness weight. If more were
-/// needed, nodes would end up far from even. Heuristic.
+/// Maximum number of Gauss-Newton steps, and maximum number of times that the weight of evenness is
+/// increased. If more were needed, nodes would be far from evenly spaced. Heuristic.
 constexpr int kSteps = 12, kRounds = 5;
-/// Allowed range of a side's length, relative to its original length: half of the accepted range of sizes.
+/// Allowed range of a side's length, relative to its original length. It is narrower than the accepted range
+/// of sizes, 0.6 to 1.6.
 constexpr double kShortest = 0.75, kLongest = 1.35;
-/// Factor on the weight of evenness at the ends of an edge. Heuristic: with 1, a third of the rows along
-/// shared edges of flat rings are too low; with 4, the mean scaled Jacobian drops by 0.01.
+/// Factor on the weight of evenness at the ends of an edge. Heuristic: with a factor of 1, a third of the
+/// rows along shared edges of flat rings are too low; with a factor of 4, the mean scaled Jacobian drops by
+/// 0.01.
 constexpr double kEnds = 2;
-/// Nodes move only if the largest cosine falls by this: 3°. Heuristic.
+/// Nodes move only if the largest cosine decreases by at least this, which is 3°. Heuristic.
 constexpr double kWorthIt = 0.05;
-/// The lines between two opposite sides of a grid count as straight if the directions of the other two sides,
-/// at both ends, deviate from their chords by at most this share of the chord. Only straight lines between
-/// rims are also squared in the sections above the source, where the walls give nothing but their ends.
-/// Heuristic.
+/// The lines between two opposite sides of a grid count as straight if the other two sides are nearly
+/// straight: at both ends, the direction of such a side deviates from its chord by at most this share of the
+/// chord. Only straight lines between rims are also made square in the sections above the source, because
+/// walls define only the ends of lines there. Heuristic.
 constexpr double kStraight = 0.1;
 using Line = SectionLine;
 
-/// A cosine, and its derivatives by the positions of the two ends of a line.
+/// A cosine, and its derivatives with respect to the positions of both ends of a line.
 struct Cosine {
     double value = 0, from = 0, to = 0;
 };
@@ -53,9 +55,9 @@ struct Node {
 /// A line of a grid between nodes of opposite sides.
 struct Rung {
     Node from, to;
-    /// For each end, the deviation of the line's direction from its chord, on the source.
+    /// For each end: the deviation of the line's direction there from its chord, on the source.
     std::array<Vec3, 2> bend{Vec3::Zero(), Vec3::Zero()};
-    bool on_rims = false; ///< both ends lie on the rims
+    bool on_rims = false; ///< both ends lie on rims of the source
 };
 
 class LineSquarer {
@@ -108,7 +110,8 @@ private:
         }
     }
 
-    /// Fractions of the edge at even steps of a piece's sides, its end included.
+    /// Positions at even steps of a piece's sides, as fractions of the edge. The end of the piece is
+    /// included.
     static std::vector<double> fractions_of(const SeedPiece& piece, int per_side)
     {
         std::vector<double> nodes = piece.fractions(), at;
@@ -121,8 +124,8 @@ private:
         return at;
     }
 
-    /// Find the positions of nodes of the source's rims in higher sections. @return  false if the walls do
-    /// not determine them
+    /// Find the positions of the nodes of the source's rims in the sections above the source. @return  false
+    /// if the walls do not determine these positions
     bool add_sections()
     {
         std::vector<LinkingNodes> nodes;
@@ -133,7 +136,7 @@ private:
         try {
             walls = mesh_walls(volume_, links_, nodes, heights, {}, context_, false);
         } catch (const NotSweepable&) {
-            return false; // more edges must be followed than there are layers
+            return false; // there are more edges to follow than layers
         }
         for (std::size_t b = 0; b < links_.size(); ++b) {
             std::size_t next = 0;
@@ -186,13 +189,14 @@ private:
         return lines_[node.line].place(end, lines_[node.line].at[node.node]);
     }
 
-    /// Add the lines from one side to the opposite one. The sides `first` and `last` are parallel to these
-    /// lines.
+    /// Add the lines that run from one side to the opposite side. The other two sides, `first` and `last`,
+    /// are parallel to these lines.
     void add_between(const std::vector<Node>& from, const std::vector<Node>& to,
                      const std::vector<Node>& first, const std::vector<Node>& last)
     {
         const auto sides = static_cast<double>(first.size() - 1);
-        std::array<std::array<Vec3, 2>, 2> bend; // deviations of the first and the last line, at either end
+        // Deviations from the chord of the first and the last line, at both ends.
+        std::array<std::array<Vec3, 2>, 2> bend;
         bool straight = true;
         for (std::size_t k = 0; k < 2; ++k) {
             const std::vector<Node>& own = k == 0 ? first : last;
@@ -211,7 +215,7 @@ private:
         }
     }
 
-    /// Cosines between a line and the edges at its ends.
+    /// Cosines of the angles between a line and the edges at its two ends.
     [[nodiscard]] std::array<Cosine, 2> cosines(const Rung& rung, std::size_t section) const
     {
         const Line &a = lines_[rung.from.line], &b = lines_[rung.to.line];
@@ -237,7 +241,7 @@ private:
         return lines_[node.line].column(section, node.node);
     }
 
-    /// Weight of a line in one section, relative to the terms of lengths.
+    /// Weight of a line's angles in one section.
     static double share(const Rung& rung) { return rung.on_rims ? 1.0 / kSections : 1; }
 
     template <class Visit>
@@ -260,7 +264,7 @@ private:
         return worst;
     }
 
-    /// As above, including the cosines between edges and columns that were evenly spaced at first.
+    /// The same maximum, including the cosines between edges and columns, which were zero at first.
     [[nodiscard]] double worst_cosine(const std::vector<std::size_t>& lines,
                                       const std::vector<std::size_t>& rungs) const
     {
@@ -273,7 +277,7 @@ private:
         return worst;
     }
 
-    /// Whether the angles between lines and edges vary from section to section.
+    /// Whether the angles between lines and edges differ from section to section.
     [[nodiscard]] bool are_unlike(const std::vector<std::size_t>& rungs) const
     {
         return std::ranges::any_of(rungs, [&](std::size_t r) {
@@ -299,20 +303,20 @@ private:
 
     using Slope = std::pair<std::size_t, double>; ///< derivative by a variable
 
-    /// Visit the terms of the objective: residual, weight and derivatives.
+    /// Visit the terms of the objective. Each has a residual, a weight and derivatives.
     template <class Visit>
     void for_terms(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                    double weight, const Visit& visit) const
     {
         for (const std::size_t l : lines) {
             const Line& line = lines_[l];
-            // If the nodes have the same positions on source and target, the term occurs once, with the full
+            // If the nodes have the same positions on source and target, the term occurs only once, with full
             // weight.
             const double each = line.above.empty() ? weight : weight / 2;
             const auto visit_sides = [&](const std::vector<double>& u,
                                          const std::vector<std::size_t>& variable) {
                 for (std::size_t i = 0; i + 1 < u.size(); ++i) {
-                    // A side at an end of a line is the height of a row along the edge that meets it.
+                    // A side at an end of a line is the height of a row along the edge that starts there.
                     const double ends = i == 0 || i + 2 == u.size() ? kEnds : 1;
                     visit(u[i + 1] - u[i] - 1, each * ends,
                           std::array<Slope, 2>{{{variable[i], -1}, {variable[i + 1], 1}}});
@@ -335,8 +339,8 @@ private:
         });
     }
 
-    /// Visit the nodes whose columns deviate from evenly spaced ones. The deviation is the displacement along
-    /// the edge divided by the length of the column.
+    /// Visit the nodes whose columns are inclined because source and target positions differ. The inclination
+    /// is the displacement along the edge divided by the length of the column.
     template <class Visit>
     static void for_columns(const Line& line, const Visit& visit)
     {
@@ -344,7 +348,8 @@ private:
             visit(i, (line.above[i] - line.at[i]) * line.steep[i]);
     }
 
-    /// Add the derivatives of the position of a node's column in a section by the node's variables.
+    /// Add the derivatives of the position of a node's column in a section, with respect to the variables of
+    /// the node.
     void add_slopes(const Node& node, std::size_t section, double slope, std::vector<Slope>& slopes) const
     {
         const Line& line = lines_[node.line];
@@ -432,8 +437,8 @@ private:
         if (settle_apart(lines, rungs, variables) || squarer) take(lines);
     }
 
-    /// Give nodes other positions on the target if the sections differ and the angles improve by this.
-    /// @return  whether they improve
+    /// If the sections differ, give nodes other positions on the target, provided that this improves the
+    /// angles. @return  whether it does
     bool settle_apart(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                       std::size_t variables)
     {
@@ -458,13 +463,13 @@ private:
         return false;
     }
 
-    /// Move nodes to make the lines as square to the edges as possible. @return whether the sides stay even
-    /// enough
+    /// Move nodes so that the lines become as square to the edges as possible. @return  whether the sides
+    /// stay even enough
     bool square(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                 std::size_t variables)
     {
         double weight = 1;
-        std::vector<Line> uneven; // lines with uneven sides, with the previous weight
+        std::vector<Line> uneven; // lines of the last round in which the sides were uneven
         for (int round = 0; round < kRounds; ++round, weight *= 2) {
             for (int k = 0; k < kSteps && step(lines, rungs, weight, variables) > kVisible; ++k) {}
             if (is_even(lines)) {
@@ -477,7 +482,7 @@ private:
         return false;
     }
 
-    /// Move evenly spaced nodes towards squarer positions, as far as the sides stay even enough.
+    /// Move nodes towards the squarer but uneven positions, as far as the sides stay even enough.
     void go_towards(const std::vector<std::size_t>& lines, const std::vector<std::size_t>& rungs,
                     const std::vector<Line>& uneven)
     {
@@ -535,7 +540,7 @@ private:
     std::set<EdgeId> rim_;
     std::vector<Line> lines_;
     std::vector<Rung> rungs_;
-    std::map<EdgeId, std::size_t> first_; ///< line of an edge's first piece
+    std::map<EdgeId, std::size_t> first_; ///< for each edge, the index of the line of its first piece
 };
 
 } // namespace

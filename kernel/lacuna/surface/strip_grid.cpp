@@ -37,8 +37,8 @@ public:
     }
 
 private:
-    /// Assign a layer to each level: the nearest one that leaves enough layers for all levels above and
-    /// below.
+    /// Assign a layer to each level: the nearest layer that leaves enough layers for all levels above and
+    /// below it.
     void plan_levels()
     {
         const auto layers = static_cast<int>(layers_);
@@ -69,7 +69,7 @@ private:
         }
     }
 
-    /// Heights of a column's nodes: the layers' heights, shifted to the rings that cross the column.
+    /// Heights of a column's nodes: the heights of the layers, shifted to the rings that cross the column.
     [[nodiscard]] std::vector<double> column_heights(const std::map<int, double>& at_layer) const
     {
         std::vector<std::pair<double, double>> knots{{0, 0}};
@@ -89,7 +89,8 @@ private:
         return result;
     }
 
-    /// As `column_heights()`, in the t of the map. Without rings they are even steps along the walls.
+    /// As `column_heights()`, in the map's coordinate t. If no ring crosses the column, the heights are
+    /// shares of the length along the walls.
     [[nodiscard]] std::vector<double> map_heights(const std::map<int, double>& at_layer) const
     {
         std::vector<double> at = column_heights(at_layer);
@@ -98,7 +99,7 @@ private:
         return at;
     }
 
-    /// The crossings of a column with plain rings, by the layers of the rings.
+    /// The crossings of a column with plain rings, by the layer of each ring.
     [[nodiscard]] std::map<int, LinkingMap::Crossing> crossings_at(double s) const
     {
         std::map<int, LinkingMap::Crossing> at_layer;
@@ -114,8 +115,8 @@ private:
         return at_layer;
     }
 
-    /// Heights of a side line's nodes: the nodes of kept edges, or the layers' heights shifted to the plain
-    /// rings that meet the line.
+    /// Heights of the nodes of a side line. If its edges are kept, these are the heights of their nodes.
+    /// Otherwise they are the heights of the layers, shifted to the plain rings that meet the line.
     [[nodiscard]] std::vector<double> line_heights(const Chain& chain) const
     {
         if (chain.uses().size() > 1 && std::ranges::all_of(chain.uses(), [&](const EdgeUse& use) {
@@ -138,8 +139,7 @@ private:
         return column_heights(at_layer);
     }
 
-    /// Place each node in the strip. At first, columns are vertical and layers follow the plain rings. Then
-    /// nodes are moved onto the net's stops.
+    /// Place each node in the strip. Columns are vertical, and layers follow the plain rings.
     void lay_grid()
     {
         laid_.place.assign(count_ * (layers_ + 1), Vec2::Zero());
@@ -206,7 +206,7 @@ private:
         return static_cast<std::size_t>(level_layer_[static_cast<std::size_t>(stop.level)]);
     }
 
-    /// Pin a node to an edge.
+    /// Fix the position of a node on an edge.
     void pin(std::size_t node, std::size_t layer, EdgeId edge, double share, const Vec2& place)
     {
         if (layer == 0 || layer == layers_) return;
@@ -232,7 +232,7 @@ private:
         }
     }
 
-    /// The position in the strip of a fraction of an edge.
+    /// The position in the strip of a point of an edge, given as a fraction of the edge's length.
     static Vec2 place_on(const std::vector<LinkingMap::Piece>& pieces, EdgeId edge, double share)
     {
         for (const LinkingMap::Piece& piece : pieces) {
@@ -244,7 +244,7 @@ private:
         return pieces.front().a;
     }
 
-    /// Pin the nodes of a level between its stops: they lie on its edges, at even steps of the columns.
+    /// Fix the nodes of a level between its stops: on the level's edges, at even steps of the columns.
     void pin_level(std::size_t number, const std::vector<std::size_t>& column_node)
     {
         const WallNet::Level& level = net_.levels[number];
@@ -276,14 +276,14 @@ private:
         }
     }
 
-    /// Coordinate s of a node, with whole turns added.
+    /// Coordinate s of a node; each turn around the strip adds 1.
     [[nodiscard]] double at_node(std::size_t node) const
     {
         return nodes.source_at[node % count_] / link.source.length() +
                static_cast<double>(node / count_); // NOLINT(bugprone-integer-division): whole turns
     }
 
-    /// Pin nodes to the net, and move the others by a harmonic field over the grid.
+    /// Fix nodes on the net, and move the other nodes by a harmonic field over the grid.
     void follow_net()
     {
         const std::vector<std::size_t> column_node = nodes_of_columns();
@@ -306,7 +306,8 @@ private:
         }
     }
 
-    /// Whether the heights of a column's nodes increase in the strip; given nodes are not checked.
+    /// Whether the heights of a column's nodes increase from layer to layer. Intervals between two given
+    /// nodes are not checked.
     [[nodiscard]] bool rises(std::size_t node) const
     {
         for (std::size_t k = 0; k < layers_; ++k) {
@@ -316,8 +317,8 @@ private:
         return true;
     }
 
-    /// Distribute the free nodes of a column between given nodes and nodes on edges, in proportion to the
-    /// heights.
+    /// Distribute the free nodes of a column between its given nodes and its nodes on edges. The distances
+    /// are proportional to those of the layers' heights.
     void spread_evenly(std::size_t node)
     {
         const auto is_free = [&](std::size_t k) {
@@ -348,7 +349,7 @@ private:
                                .remedy("use more layers"));
     }
 
-    /// Displacement of a node from a position in the strip.
+    /// Displacement that moves a node to a position in the strip, along one axis.
     [[nodiscard]] double off_place(const Vec2& to, std::size_t node, Eigen::Index axis) const
     {
         const double off = to[axis] - laid_.place[node][axis];
@@ -357,7 +358,7 @@ private:
 
     void move_grid()
     {
-        // Solve on a cylinder, because the grid is periodic like the strip.
+        // Solve on a cylinder, because the grid is closed around the strip.
         std::vector<Vec3> points;
         for (std::size_t k = 0; k <= layers_; ++k) {
             for (std::size_t i = 0; i < count_; ++i) {
@@ -405,7 +406,7 @@ private:
     const WallNet& net_;
     const RunContext& context_;
     std::size_t count_, layers_;
-    std::vector<int> level_layer_; ///< for each level of the net
+    std::vector<int> level_layer_; ///< layer of each level of the net
     StripGrid laid_;
 };
 

@@ -17,27 +17,27 @@ using namespace topology;
 
 namespace {
 
-/// Number of Newton iterations on a curve. They start within a few percent of a side from the solution and
-/// converge quadratically. Heuristic.
+/// Number of Newton iterations on a curve. The iterations start at most a few percent of a side away from the
+/// solution and converge quadratically. Heuristic.
 constexpr int kRounds = 3;
-/// Step of the finite differences for a curve's derivatives, as a share of a side: a compromise between
-/// truncation and rounding. Heuristic.
+/// Step of the finite differences for derivatives of a curve, as a share of a side. It balances truncation
+/// error and rounding error. Heuristic.
 constexpr double kDifference = 1e-2;
-/// Minimum number of points per thread: the same as in the search for closest facets, where a point costs as
+/// Minimum number of points per thread. It is that of the search for closest facets, where a point costs as
 /// much.
 constexpr std::size_t kGrain = 512;
 
-/// Maximum height of a convex curve over its chord, as a share of the chord, if it forms these angles with
-/// the chord at its two ends.
+/// Maximum height of a convex curve over its chord, as a share of the chord, for the angles between curve and
+/// chord at both ends.
 double height_over_chord(double first, double second)
 {
-    constexpr double kSteep = 1.2; // above it, nearly 70°, use the chord's length
+    constexpr double kSteep = 1.2; // for steeper angles, above nearly 70°, the result is the chord's length
     if (std::max(first, second) > kSteep) return 1;
     const double a = std::tan(first), b = std::tan(second);
     return a + b > 0 ? a * b / (a + b) : 0;
 }
 
-/// State of Newton's method for the closest point of a curve; used for all points of one edge at once.
+/// State of Newton's method for one closest point of a curve. All points of one edge are computed together.
 struct OnCurve {
     double param = 0, difference = 0;
     Vec3 tangent = Vec3::Zero();
@@ -125,8 +125,8 @@ void Trimming::add_loop(const Loop& loop, const std::vector<Index>& facet_of_sid
         side.inward_at_end = side.inward + sides_[first + after].inward;
         const Edge& edge = model[side.use.edge];
         if (edge.curve == nullptr) continue;
-        // At the end of an edge the angle of the polyline is arbitrary, so the angle at the side's other end
-        // is used.
+        // At an end of an edge, the polyline's angle says nothing about the curve. The angle at the other end
+        // of the side is used instead.
         const bool starts = sides_[first + before].use != side.use || before == i;
         const bool ends = sides_[first + after].use != side.use || after == i;
         const double at_start = turn(before, i), at_end = turn(i, after);
@@ -149,8 +149,8 @@ Trimming::Clearance Trimming::clearance_of(Index triangle) const
     return clear;
 }
 
-/// Whether a point is well inside the face: the distance from its facet is smaller than the facet's distance
-/// to the border, or the point is above the same facet.
+/// Whether a point is certainly inside the face. This is so if the distance from its facet is smaller than
+/// the facet's distance to the border, or if the point is above the interior of this facet.
 bool Trimming::is_clear(const Projected& point, bool measured) const
 {
     const double reach = (*point.at - point.from->point).norm() + most_bulge_;
@@ -169,15 +169,16 @@ bool Trimming::is_near(const Projected& point, Near& near) const
     near.inward = near.share <= 0 ? side.inward_at_start : near.share >= 1 ? side.inward_at_end : side.inward;
     if (std::sqrt(hit.distance2) <= side.bulge) return true;
     if ((*point.at - hit.point).dot(near.inward) >= 0) return false;
-    // The border is near in space but far along the face: no path across it leads here.
+    // The border may be near the point in space, but far from it along the face. The point cannot have
+    // crossed such a border.
     return std::sqrt(tree_.closest(point.from->point).distance2) <= reach;
 }
 
 void Trimming::keep_inside(std::span<const Projected> points, const RunContext& context) const
 {
     if (sides_.empty()) return;
-    // If there are as many points as facets, compute the clearance of all facets; otherwise only of those in
-    // use.
+    // If there are at least as many points as facets, compute the clearance of all facets once. Otherwise
+    // compute it only for the facets of the points.
     const std::size_t facets = (*model_)[face_].triangles.size();
     const bool measured = points.size() >= facets;
     if (measured) {
@@ -232,7 +233,8 @@ void Trimming::settle(std::span<const Projected> points, std::span<Near> near) c
         Near& n = near[i];
         const Side& side = sides_[n.side];
         n.on_border = at[i];
-        if (params[i] <= low || params[i] >= high) continue; // at an end, the rule for corners applies
+        // At an end of the curve, the rule for corners decides.
+        if (params[i] <= low || params[i] >= high) continue;
         const Vec3 tangent = rising == side.use.reversed ? Vec3(-places[i].tangent) : places[i].tangent;
         n.inward = side.normal.cross(tangent);
     }

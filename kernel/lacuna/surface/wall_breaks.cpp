@@ -19,7 +19,7 @@ using namespace topology;
 
 namespace {
 
-/// Whether some edge inside a linking surface has an end that is on neither a side line nor a rim.
+/// Whether some edge inside a linking surface ends at a vertex that is on neither a side line nor a rim.
 bool has_net(const Model& model, const LinkingSurface& link)
 {
     std::set<VertexId> known;
@@ -38,8 +38,8 @@ bool has_net(const Model& model, const LinkingSurface& link)
     return false;
 }
 
-/// Minimum number of layers for edges around the walls that end only on side lines: one more than the largest
-/// number of vertices on one side line at which such edges start.
+/// Minimum number of layers for edges around the walls that end only on side lines. Count the vertices on
+/// each side line at which such edges start; the result is one more than the largest count.
 int layers_between_rings(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> along;
@@ -78,7 +78,8 @@ public:
     }
 
 private:
-    /// Whether a position of the rim is already used by a column that overlaps this one in height.
+    /// Whether a position of the rim is already used by another column whose range of heights overlaps that
+    /// of this column.
     [[nodiscard]] bool is_taken(double at, std::size_t column) const
     {
         const WallNet::Column& own = net_.columns[column];
@@ -118,8 +119,9 @@ private:
         if (column.target_at) lead(*near, *way_to(*near, *column.target_at));
     }
 
-    /// The distance by which the target end of a break must move along the rim to reach the end of a column.
-    /// Empty if this target end is a vertex or a given node, or if other breaks lie in between.
+    /// The distance by which the target end of a break must move along the rim to meet the end of a column.
+    /// Empty if this target end is a vertex or a given node, or if other breaks are between the two
+    /// positions.
     [[nodiscard]] std::optional<double> way_to(std::size_t i, double target_at) const
     {
         const double length = link_.target.length();
@@ -153,7 +155,8 @@ private:
         for (std::size_t i = 0; i < link_.segments.size(); ++i) {
             RimSegment& low = link_.segments[i];
             if (at < low.source_from + slack || at > low.source_to - slack) continue;
-            if (low.given) return; // a side of a given quad is not split: the column uses one of its nodes
+            // A side of a given quad is not split: the column uses one of its end nodes.
+            if (low.given) return;
             RimSegment high = low;
             const double f = (at - low.source_from) / (low.source_to - low.source_from);
             high.source_from = low.source_to = at;
@@ -184,7 +187,7 @@ WallBreaks set_wall_breaks(const OpenVolume& volume, const SizeField& size, std:
         try {
             layers = std::max(layers, Breaker(volume, size, link, true).run());
         } catch (const NotSweepable& error) {
-            // If given nodes guide the columns, edges between void faces need not be followed.
+            // If given nodes determine the columns, edges between void faces need not be followed.
             if (!has_given || error.code() != "surface.wall_edge") throw;
             layers = std::max(layers, Breaker(volume, size, link, false).run());
         }

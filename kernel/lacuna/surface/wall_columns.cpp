@@ -15,16 +15,15 @@ using namespace topology;
 
 namespace {
 
-/// Number of columns that are sampled if there are no side lines: one every 45° on a round wall. Not
-/// measured.
+/// Number of columns if there are no side lines: one every 45° on a round wall. Not measured.
 constexpr int kPlaces = 8;
 
-/// Walls count as straight if they exceed the straight line by less than this share, half the height of one
-/// of ten layers.
+/// Walls count as straight if their length differs from that of a straight line by less than this share. That
+/// is half the height of one of ten layers.
 constexpr double kHardlyLonger = 0.05;
 
-/// Whether the walls are straight: their area divided by the mean length of their rims is the mean length of
-/// straight columns. Walls that bend or bulge are longer; walls with a waist have less area.
+/// Whether the walls are straight. Their area divided by the mean length of their rims is then the mean
+/// length of straight columns. Walls that bend or bulge have more area, and walls with a waist have less.
 bool are_straight(const Model& model, const LinkingSurface& link, double straight, std::size_t columns)
 {
     double area = 0;
@@ -42,13 +41,13 @@ std::vector<Vec3> straight_column(const LinkingSurface& link, const RimSegment& 
     return points;
 }
 
-/// A point of a column on the walls. `s` is the start of the column as a share of the source's rim, and
-/// `share` the height.
+/// A point of a column on the walls. `s` is the start of the column as a share of the source rim's length.
+/// `share` is the height of the point as a share of the walls' length.
 struct ColumnPlace {
     double s, share;
 };
 
-/// The points of columns.
+/// The points of columns, on the walls.
 std::vector<Vec3> mapped_points(const Model& model, const LinkingMap& map,
                                 const std::vector<ColumnPlace>& places)
 {

@@ -17,8 +17,8 @@ using namespace topology;
 
 namespace {
 
-/// Tangent of 30°. An edge that deviates more from the direction of its column or level counts as slanted or
-/// round. Heuristic.
+/// Tangent of 30°. If an edge deviates by a larger angle from the direction of its column or level, it counts
+/// as slanted or round. Heuristic.
 constexpr double kSlanted = 0.577;
 
 double wrapped(double s) { return s - std::floor(s + kSamePlace); }
@@ -129,7 +129,7 @@ private:
             const EdgeId corner = corner_at(ring, vertex);
             if (!met && (!corner.valid() || on_line_.contains(vertex))) continue;
             if (on_source_.contains(vertex) || on_target_.contains(vertex)) {
-                // A column exists here, but the level runs into the rim.
+                // A column exists here, but the level ends on the rim.
                 refuse_wall_edge(model_, corner.valid() ? corner : level.edge,
                                  "runs around the walls and ends on a rim, where no layer can follow it",
                                  "let it end above or below the rim, or merge the two faces");
@@ -137,7 +137,7 @@ private:
             level.plain = false;
             level.stops.push_back(stop_at(vertex, place));
         }
-        // A level with stops also has stops at its vertices on side lines.
+        // A level with stops also has stops at those of its vertices that are on side lines.
         for (const auto& [vertex, place] : places) {
             if (level.plain || !on_line_.contains(vertex)) continue;
             const std::size_t stop = stop_at(vertex, place);
@@ -148,7 +148,8 @@ private:
         net_.levels.push_back(std::move(level));
     }
 
-    /// An edge of a ring that turns or ends at a vertex; invalid if the ring continues smoothly there.
+    /// Of a ring that turns or ends at a vertex, an edge at this vertex. Invalid if the ring continues
+    /// smoothly there.
     [[nodiscard]] EdgeId corner_at(const LinkingMap::Ring& ring, VertexId vertex) const
     {
         std::vector<Vec3> away;
@@ -167,8 +168,8 @@ private:
         return away.size() == 2 && away[0].dot(away[1]) < -kOneCurve ? EdgeId() : any;
     }
 
-    /// Check that the edges of one ring follow each other around the walls. Edges around a round patch turn
-    /// back.
+    /// Check that the edges of a ring follow each other around the walls in one direction. Edges around a
+    /// round patch do not: they turn back.
     void check_one_way(const LinkingMap::Ring& ring) const
     {
         struct Reach {
@@ -185,8 +186,8 @@ private:
             reach.low = std::min(reach.low, reach.at);
             reach.high = std::max(reach.high, reach.at);
         }
-        // Minimum extent of a ring in s, as a share of its length. A closed edge that returns to its start
-        // has one half. Heuristic.
+        // Minimum extent of an edge of a ring in s, as a share of the edge's length in s. A closed edge that
+        // returns to its start has an extent of one half. Heuristic.
         constexpr double kStraightOn = 0.75;
         for (std::size_t i = 0; i < reaches.size(); ++i) {
             const Reach& reach = reaches[i];
@@ -198,8 +199,8 @@ private:
         }
     }
 
-    /// Check that levels with stops are nearly horizontal throughout. Rings from side line to side line, or
-    /// all around the walls, may climb.
+    /// Check that the edges of levels with stops are nearly horizontal throughout. Rings without stops, which
+    /// run from side line to side line or all around the walls, may climb.
     void check_cross_edges(const WallNet::Level& level) const
     {
         if (level.plain) return;
@@ -305,7 +306,7 @@ private:
         return column;
     }
 
-    /// Create a level for each vertex between the rims that has no cross edge.
+    /// Create a level for each stop between the rims that is on no cross edge.
     void make_point_levels()
     {
         for (std::size_t i = 0; i < net_.stops.size(); ++i) {

@@ -23,7 +23,7 @@ using namespace topology;
 
 namespace {
 
-/// For each side line, the faces of the part of the walls that follows it.
+/// For each side line, the faces of the walls between this line and the next one.
 std::vector<std::vector<FaceId>> panel_faces(const Model& model, const LinkingSurface& link)
 {
     std::set<EdgeId> borders;
@@ -83,7 +83,7 @@ public:
         } catch (const NotSweepable& error) {
             if (error.code() != "surface.wall_edge") throw;
         }
-        // Columns of given nodes cannot follow an edge between void faces, so such edges are ignored.
+        // Columns of given nodes cannot follow an edge between void faces. Such edges are therefore ignored.
         map_.reset();
         net_ = {};
         WallMesh result = mesh(false);
@@ -136,7 +136,7 @@ private:
         for (std::size_t i = 0; i < count_; ++i) point(layer, i) = points[i];
     }
 
-    /// Whether the walls were made by moving the source along a path. Between two side lines they then have
+    /// Whether the walls were made by moving the source along a path. They then have, between two side lines,
     /// one face for each part of the path.
     [[nodiscard]] bool moves_along(const std::vector<std::vector<FaceId>>& panels) const
     {
@@ -145,8 +145,8 @@ private:
                });
     }
 
-    /// Place the rows by moving the source's rim along the path. At the end, its distance from the target's
-    /// rim is spread over the height.
+    /// Place the rows by moving the source's rim along the path. The distance that remains at the end between
+    /// the moved rim and the target's rim is spread over the height.
     void mesh_by_motion(const std::vector<std::vector<FaceId>>& panels)
     {
         const geometry::Motion& motion = *motion_;
@@ -179,7 +179,7 @@ private:
         return faces.size() == 1 && model_[faces.front()].loops.size() == 1;
     }
 
-    /// Refuse an edge that turns or ends between columns of given nodes, because these are fixed.
+    /// Refuse an edge that turns or ends between columns of given nodes, because these columns do not move.
     void check_stops() const
     {
         for (std::size_t i = 0; i < grid_.stops.size(); ++i) {
@@ -194,7 +194,7 @@ private:
         }
     }
 
-    /// The position of a node that lies on an edge.
+    /// The position of a node on an edge of the net; empty if the node is on none.
     [[nodiscard]] std::optional<Vec3> pinned_point(std::size_t layer, std::size_t node) const
     {
         const auto found = grid_.on_edge.find(layer * count_ + node);
@@ -289,7 +289,7 @@ private:
     const LinkingSurface& link_;
     const LinkingNodes& nodes_;
     std::vector<double> heights_;
-    bool exact_; ///< whether nodes lie on exact faces; otherwise on the facets
+    bool exact_; ///< true: nodes lie on exact faces; false: on the facets
     const RunContext& context_;
     std::size_t count_, layers_;
     BegunWall begun_;
@@ -298,7 +298,7 @@ private:
     std::unique_ptr<LinkingMap> map_;
     WallNet net_;
     StripGrid grid_;
-    std::vector<int> line_of_; ///< side line of each node of the rim; -1: none
+    std::vector<int> line_of_; ///< for each node of the rim, its side line; -1: none
 };
 
 } // namespace

@@ -37,7 +37,7 @@ using namespace topology;
 
 namespace {
 
-/// Copy a face's mesh, moved, to the face of another volume.
+/// Copy the mesh of a part's face, moved by `onto`, to a face of another volume.
 void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to, const Eigen::Isometry3d& onto)
 {
     FaceMesh mesh = face_mesh(part.skin(), quads_on(part.mesh, part.faces, from));
@@ -45,7 +45,7 @@ void hand_on(const Swept& part, FaceId from, OpenVolume& volume, FaceId to, cons
     give_mesh(volume, to, mesh.places, mesh.quads);
 }
 
-/// The given quads of a face, if it keeps them.
+/// The given quads of a face. Empty if the face does not keep them.
 std::optional<FaceMesh> given_mesh(const Model& model, FaceId face)
 {
     if (!model[face].keeps_nodes || model[face].given_quads.empty()) return std::nullopt;
@@ -65,8 +65,8 @@ double shortest_side(const FaceMesh& mesh)
     return least;
 }
 
-/// Corresponding nodes of two faces with the same quad connectivity coincide if their distance is below this
-/// share of the shortest side. No other node is then as near.
+/// Corresponding nodes of two faces with the same quad connectivity coincide if their distance is less than
+/// this share of the shortest side. No other pair of nodes is that close.
 constexpr double kNearImage = 0.25;
 
 /// Relative difference between a face's area and the sum of its facets' areas below which the face is flat.
@@ -76,8 +76,8 @@ constexpr double kFlat = 1e-9;
 constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surface.wall_not_rows",
                                                      "surface.kept_rim", "sweep.layers_given"};
 
-/// The reason for a member's failure. If the member was given without a mesh, the quads that it keeps come
-/// from neighbours meshed before it, so the remedy to load it without its mesh is left out.
+/// The reason for a member's failure. If the member has no given mesh, the quads that it keeps come from
+/// neighbours meshed before it. Loading it without its mesh would not help, so that remedy is replaced.
 Message why_failed(const AssemblyMember& member, const Error& error)
 {
     Message why = error.message().about(member.region);
@@ -87,12 +87,12 @@ Message why_failed(const AssemblyMember& member, const Error& error)
         "and 'layers'");
 }
 
-/// A member's own mesh of a shared face differs from its neighbour's.
+/// Error: a member's own mesh of a shared face differs from its neighbour's mesh.
 struct UnlikeNeighbour : Error {
     using Error::Error;
 };
 
-/// A member could not be swept, either alone or together with the meshes of its neighbours.
+/// Error: a member could not be swept, either alone or together with the meshes of its neighbours.
 struct MemberFailed : NotSweepable {
     MemberFailed(std::size_t which, Message why) : NotSweepable(std::move(why)), member(which) {}
     std::size_t member;
@@ -107,8 +107,8 @@ struct Ingredients {
     int layers = 0;
     bool wedges = false;
     std::set<FaceId> between; ///< faces shared with other members
-    /// For each neighbour meshed before: the common face in this member, the same face in the neighbour, and
-    /// the number of the neighbour's part.
+    /// For each neighbour that was meshed before: the common face in this member, the same face in the
+    /// neighbour, and the number of the neighbour's part.
     std::vector<std::tuple<FaceId, FaceId, std::size_t>> beside;
 
     bool operator==(const Ingredients& other) const
@@ -123,22 +123,22 @@ struct Ingredients {
     }
 };
 
-/// A part that was made before, or why it could not be made.
+/// A part that was made earlier, or the reason why it could not be made.
 struct MadePart {
     Ingredients of;
-    std::size_t number = 0; ///< no other part has it
+    std::size_t number = 0; ///< unique among all parts
     std::optional<Swept> part;
     std::optional<Message> why;
 };
 
-/// Parts made in earlier attempts, with another order of the members or with more members swept. A part is
-/// made again only if its inputs differ.
+/// Parts made in earlier attempts, in which the order of the members differed or more members were swept. A
+/// part is made again only if its inputs differ.
 struct PartsBefore {
     std::vector<MadePart> parts;
     std::size_t count = 0; ///< number of parts made so far
 
-    /// Take out the part that was made from these inputs, or the reason for its failure. Empty if there is
-    /// neither.
+    /// Remove and return the part that was made from these inputs, or return the reason for its failure.
+    /// Empty if these inputs were never tried.
     std::optional<MadePart> take(const Ingredients& of)
     {
         const auto found = std::ranges::find(parts, of, &MadePart::of);
@@ -164,9 +164,9 @@ void check_alike(std::span<const AssemblyMember> members)
         if (own.order != first.order || own.second_order.serendipity != first.second_order.serendipity)
             throw InvalidInput(
                 Message("assembly.order",
-                        "{} and {} become one mesh, which needs the same order and 'serendipity' everywhere",
+                        "{} and {} are parts of one mesh and must have the same 'order' and 'serendipity'",
                         members.front().region, members[m].region)
-                    .remedy("give both the same"));
+                    .remedy("give both volumes the same values"));
         for (std::size_t n = 0; n < m; ++n)
             if (members[m].region == members[n].region)
                 throw InvalidInput(Message("assembly.same_name",
@@ -209,7 +209,7 @@ public:
     }
 
 private:
-    /// Log defaults that several members share once.
+    /// Log each default once, even if several members have it.
     void log_defaults() const
     {
         std::set<std::string> said;
@@ -275,8 +275,8 @@ private:
         }
     }
 
-    /// Move the members that are not swept, and the faces that they share, to the lists of the result for
-    /// these.
+    /// Move members that are not swept to the list `unswept` of the result, and the faces that they share to
+    /// its list `beside`.
     void set_aside()
     {
         std::vector<std::size_t> place(members_.size(), members_.size());
@@ -322,7 +322,7 @@ private:
         try {
             const std::vector<std::size_t> before = faces_of_fixed();
             lines = sweep::carry_lines(members_, imprinted_, context_);
-            if (faces_of_fixed() != before) return false; // their quads stay as they are
+            if (faces_of_fixed() != before) return false; // given quads are not split
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& error) { // report the first error: it is more informative
@@ -462,13 +462,14 @@ private:
         return of;
     }
 
-    /// Make a part, or reuse one that was made from the same inputs.
+    /// Make the part of a member, or reuse one that was made from the same inputs.
     void make_or_take(std::size_t m, const std::vector<Neighbour>& neighbours,
                       const std::vector<Neighbour>& images)
     {
         Ingredients of = ingredients(m, neighbours);
-        // At order 2 a part also depends on the parts that it touches along an edge. A part with periodic
-        // faces depends on their images.
+        // At order 2 a part also depends on parts that it only touches along an edge, and a part with
+        // periodic faces depends on the images of these faces. `Ingredients` contains neither, so such parts
+        // are always made again.
         const bool again = members_[m].options.order > 1 || !periodic_.empty();
         if (!again && made_of_[m] && made_of_[m]->first == of) return;
         if (again)
@@ -487,7 +488,7 @@ private:
         is_made_ = true;
     }
 
-    /// Keep a part, or the reason for its failure, for another order of the members.
+    /// Store a part, or the reason for its failure, for an attempt with another order of the members.
     void put_away(std::size_t m, std::optional<Message> why = {})
     {
         if (!made_of_[m]) return;
@@ -509,10 +510,10 @@ private:
         return shared;
     }
 
-    /// Copy the neighbours' meshes on shared faces to the member, then sweep it. If the rim alone determines
-    /// the mesh of a shared face, the member meshes that face itself, and the result is compared with the
-    /// neighbour's; if they differ, all meshes are copied. Meshes of images on periodic faces are always
-    /// copied.
+    /// Copy the neighbours' meshes on shared faces to the member, then sweep the member. A shared face whose
+    /// mesh follows from its rim alone is an exception: the member meshes it, and the result is compared with
+    /// the neighbour's mesh. If the two differ, all meshes are copied. On periodic faces, the meshes of their
+    /// images are always copied.
     void make(std::size_t m, const std::vector<Neighbour>& neighbours, const std::vector<Neighbour>& images)
     {
         const AssemblyMember& member = members_[m];
@@ -542,7 +543,7 @@ private:
         const auto sweep_it = [&] {
             OpenVolume volume = *member.volume, sealed = *member.volume;
             give_edge_nodes(volume, plan_.nodes[m]);
-            // Rows along walls continue across a shared face, so each side makes them itself.
+            // Rows along walls continue across a shared face, so both members make the rows themselves.
             if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
                 for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
             for (const auto& [own, other, from, onto] : handed) {
@@ -555,8 +556,8 @@ private:
             fixed = options.beside.handed;
             for (const Neighbour& n : handed) fixed.insert(n.own);
             if (keeps) give_to_images(m, volume, fixed);
-            // The reference shape is the sealed volume. It lacks the nodes planned on edges, and of the
-            // neighbours' quads it has only those on void faces.
+            // The reference shape is the sealed volume without the nodes planned on edges. Of the neighbours'
+            // quads it has only those on void faces.
             if (!plan_.nodes[m].empty() || !fixed.empty()) options.beside.shape = &sealed;
             result_.parts[m] = sweep(volume, options, context_);
         };
@@ -572,7 +573,7 @@ private:
     }
 
     /// Copy the quads of a member's periodic faces to their images in the same member.
-    /// @param fixed  is extended by the faces with given quads
+    /// @param fixed  the faces with given quads are added to this set
     void give_to_images(std::size_t m, OpenVolume& volume, std::set<FaceId>& fixed) const
     {
         for (const PeriodicFaces& pair : periodic_) {
@@ -593,7 +594,7 @@ private:
     }
 
     /// Make the nodes of a member's periodic faces exact images of each other. If the motion is a
-    /// translation, nodes are also rounded to the grid, so that images in other members are bit-identical.
+    /// translation, nodes are also rounded to the grid: their images in other members are then bit-identical.
     void tie_images(std::size_t m, const std::set<FaceId>& fixed, const mesh::SkinNodes& skin,
                     const std::vector<FaceId>& faces, SettledNodes& settled) const
     {
@@ -664,8 +665,8 @@ private:
             for (const Index n : from) moved.push_back(pair.onto * part_a.skin()[n]);
             for (const Index n : to) places.push_back(part_b.skin()[n]);
             const FaceMesh corners = face_mesh(part_a.skin(), quads_of(pair.a, pair.face_a));
-            // Nodes given for the two faces may differ by the tolerance, and middle nodes by the sag of the
-            // facets.
+            // The allowed distance is not zero: nodes given for the two faces may differ by the tolerance,
+            // and middle nodes by the sag of the facets.
             const std::vector<Index> twin = same_places(moved, places,
                                                         kNearImage / 4 * shortest_side(corners));
             if (twin.empty()) refuse_images(pair, false);
@@ -689,7 +690,7 @@ private:
         for (const mesh::PeriodicNodes& pair : result_.periodic)
             result_.report.push_back(formatted("periodic: {} pairs of nodes", pair.pairs.size()));
     }
-    /// All nodes of a part on a face, middle nodes too.
+    /// All nodes of a part on a face, including middle nodes.
     [[nodiscard]] std::vector<Index> nodes_on(std::size_t m, FaceId face) const
     {
         const Swept& part = result_.parts[m];
@@ -702,7 +703,8 @@ private:
         return {nodes.begin(), nodes.end()};
     }
 
-    /// Add the middle nodes of meshed members before those from the user's files.
+    /// Make the options look up a middle node in the members meshed so far and, if they have none, in the
+    /// user's files.
     void give_middles(SecondOrderOptions& options) const
     {
         const Vec3 none = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -724,7 +726,7 @@ private:
         };
     }
 
-    /// Store a part's middle nodes for later members, and check that it kept the middle nodes of earlier
+    /// Store a part's middle nodes for later members. Check that the part kept the middle nodes of earlier
     /// members.
     void keep_middles(std::size_t m)
     {
@@ -738,8 +740,8 @@ private:
                     .remedy("use order = 1"));
     }
 
-    /// Whether a member will make the same grid on a shared face as its neighbour did: the face is flat, has
-    /// four edges with planned nodes, and the neighbour has as many quads there as the grid.
+    /// Whether a member will make the same grid on a shared face as its neighbour. This is so if the face is
+    /// flat, it has four edges with planned nodes, and the neighbour has as many quads there as the grid.
     [[nodiscard]] bool is_alike(std::size_t m, const Neighbour& n) const
     {
         if (members_[n.other].fixed != nullptr) return false;
@@ -762,7 +764,7 @@ private:
                face_area_vector(model, face).norm() >= (1 - kFlat) * face_area(model, face);
     }
 
-    /// The positions of neighbours' nodes onto which nodes of a member's faces are moved.
+    /// Positions of neighbours' nodes for the nodes of a member that must be moved onto them.
     SettledNodes settle(std::size_t m, const std::vector<Neighbour>& alike, const std::set<FaceId>& fixed,
                         const mesh::SkinNodes& skin, const std::vector<FaceId>& faces)
     {
@@ -784,7 +786,7 @@ private:
         }
         return settled;
     }
-    /// The largest coordinate of a member.
+    /// The largest absolute coordinate of a member.
     [[nodiscard]] double coordinates_of(std::size_t m) const
     {
         double largest = 0;
@@ -817,7 +819,7 @@ private:
         }
     }
 
-    /// Give patches of a piece the groups of the whole volume's faces.
+    /// Give the patches of a piece the groups that the same faces have in the whole volume.
     static void take_roles(const OpenVolume& whole, std::vector<mesh::SkinPatch>& patches)
     {
         std::map<int, std::vector<std::string>> of_tag;
@@ -875,8 +877,8 @@ private:
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
     PartsBefore& parts_before_;
-    bool is_made_ = true; ///< false while a part is made
-    /// For each part that exists: what it was made of, and its number.
+    bool is_made_ = true; ///< false from the start of `make()` until it succeeds
+    /// For each part that exists: the inputs it was made from, and its number.
     std::vector<std::optional<std::pair<Ingredients, std::size_t>>> made_of_;
     SharedMiddles middles_; ///< middle nodes of the parts so far, at order 2
     SweptAssembly result_;
@@ -895,8 +897,9 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
     }
     std::vector<std::size_t> place(left.size());
     std::iota(place.begin(), place.end(), std::size_t{0});
-    std::map<std::string, MemberFailed> without_wedges; // first errors, by region
-    std::map<std::size_t, Message> failures;            // of members not swept, by index
+    // The first error of each region that was repeated with wedges.
+    std::map<std::string, MemberFailed> without_wedges;
+    std::map<std::size_t, Message> failures; // errors of members that are not swept, by index
     std::vector<LeftOut> left_out;
     PartsBefore before;
     for (;;) {
@@ -918,7 +921,7 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
             swept.left_out = std::move(left_out);
             return swept;
         } catch (const MemberFailed& failed) {
-            // Its index among all members; `failed.member` counts only those that are swept.
+            // The index of the failed member in `left`; `failed.member` counts only members that are swept.
             std::size_t m = 0;
             for (std::size_t swept_members = 0; left[m].unswept || swept_members++ < failed.member;) ++m;
             AssemblyMember& member = left[m];
@@ -927,7 +930,7 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
                 member.options.wedges = true;
                 without_wedges.emplace(member.region, failed);
             } else if (const auto first = without_wedges.find(member.region); first != without_wedges.end()) {
-                throw MemberFailed(first->second); // more informative than the error with wedges
+                throw MemberFailed(first->second); // it says more than the error with wedges
             } else if (fallback == Fallback::mixed) {
                 member.unswept = true;
                 failures.emplace(place[m], failed.message());

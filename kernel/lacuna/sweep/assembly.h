@@ -16,31 +16,31 @@
 
 namespace lacuna::sweep {
 
-/// Faces further apart than the tolerance, but by no more than this factor, were probably meant to touch: CAD
-/// kernels leave gaps of up to about a thousandth of a model. Heuristic.
+/// If two faces are farther apart than the tolerance, but not farther than this many tolerances, they were
+/// probably meant to touch: CAD kernels leave gaps of up to about a thousandth of a model. Heuristic.
 inline constexpr double kNearMiss = 1000;
 
 /// One volume of an assembly.
 struct AssemblyMember {
-    const topology::OpenVolume* volume = nullptr; ///< sealed
+    const topology::OpenVolume* volume = nullptr; ///< the sealed volume of this member
     SweepOptions options;
     std::string region; ///< its name, for messages and groups
     /// A given mesh, which is not changed; or null. With a given mesh, `volume` is the skin of that mesh and
     /// keeps its quads, and `Swept::faces` refers to `volume`. Only the option `order` applies.
     const Swept* fixed = nullptr;
-    /// For a piece of a full turn, the name of the whole turn, because the volumes of its pieces are checked
-    /// together. Empty otherwise.
+    /// For a piece of a full turn, the name of the whole turn. The volumes of its pieces are checked together
+    /// under that name. Empty otherwise.
     std::string turn_of = {};
-    /// For a piece of a volume, the name of that volume. Its cells are in the group of that name, and faces
-    /// between two pieces of one volume are in no group. Empty otherwise.
+    /// For a piece of a volume, the name of that volume. The piece's cells are in the group of that name, and
+    /// faces between two pieces are in no group. Empty otherwise.
     std::string whole = {};
-    /// The volume of which this member is a piece; its faces define the roles of the piece's faces in groups.
-    /// Null if unknown.
+    /// The volume of which this member is a piece. The faces of that volume define the groups of the piece's
+    /// faces. Null if unknown.
     const topology::OpenVolume* piece_of = nullptr;
-    bool alone = false;   ///< it is the only volume, or all members are pieces of one volume
+    bool alone = false;   ///< this is the only member, or all members are pieces of one volume
     bool unswept = false; ///< not swept: the caller meshes it after the others; see `Unswept`
-    /// Members with the same number share faces and nodes. For contacts of other members see
-    /// `faces_in_contact()`.
+    /// Members with the same number share faces and nodes. Members with different numbers are not joined;
+    /// `faces_in_contact()` finds where they touch.
     std::size_t glue = 0;
 };
 
@@ -67,13 +67,13 @@ struct NearMiss {
     Message message{"assembly.near_miss", "a near miss"}; ///< the fields above as a note
 };
 
-/// The faces shared by members. Two faces are shared if they are the same surface within the tolerance,
-/// whatever their facets, or if one of them is void and has the same rim as the other.
+/// The faces shared by members. Two faces are shared if they are the same surface within the tolerance, even
+/// if their facets differ, or if one of them is void and has the same rim as the other.
 /// @throw InvalidInput "assembly.part_of_face"  a face covers only part of another member's face;
 ///         "assembly.overlap"  two volumes lie on the same side of a shared face, or overlap;
 ///         "assembly.rims_apart"  the rims of a shared face differ by more than the tolerance, but by less
 ///         than `kNearMiss` times the tolerance; "assembly.crack"  faces touch in part or along an edge, and
-///         elsewhere are apart by a distance in that range. The message names the faces and members.
+///         elsewhere have a gap in the same range. The message names the faces and members.
 /// @note  O(facets log facets) over faces whose boxes overlap.
 std::vector<SharedFace> shared_faces(std::span<const AssemblyMember> members, const RunContext& context = {});
 
@@ -86,8 +86,8 @@ struct FaceContact {
 };
 
 /// Find the pairs of faces of two members in contact. Pieces of one volume are not in contact, nor are
-/// touching faces of members that are glued together. If most of a face lies on another member, its contacts
-/// across a gap are omitted.
+/// touching faces of members that are glued together. If most of a face lies on another member, contacts of
+/// this face across a gap are omitted.
 /// @param gap  returns the largest distance at which faces of two members are in contact [model length].
 /// @throw InvalidInput "assembly.overlap"  members that are not glued overlap, as for `shared_faces()`.
 /// @note  cost as for `shared_faces()`.
@@ -109,9 +109,9 @@ struct LeftOut {
 /// `Fallback::mixed`.
 struct Unswept {
     std::size_t member = 0; ///< its index in the list of members
-    /// If it shares only parts of faces, its faces are split like those of the swept volumes.
+    /// The volume itself. As in swept volumes, a face that is shared only in part is split.
     topology::OpenVolume volume;
-    std::optional<Message> why; ///< message of the error; empty: it was requested not to be swept
+    std::optional<Message> why; ///< message of the error; empty: the caller requested that it is not swept
 };
 
 /// Hexahedra of several sweeps with common nodes at shared faces.
@@ -122,8 +122,8 @@ struct SweptAssembly {
     std::vector<Unswept> unswept;    ///< members that are not swept
     /// Faces that an unswept member shares with any other member; `a` and `b` index the list of members.
     std::vector<SharedFace> beside;
-    /// For each part, the number of each of its nodes in the whole mesh, from 0. Parts are numbered in order;
-    /// a node that an earlier part has too keeps the number it got there.
+    /// For each part, the number of each of its nodes in the whole mesh, from 0. Parts are numbered in order.
+    /// A node that also belongs to an earlier part has the number from that part.
     std::vector<mesh::NodeNumbers> numbering;
     std::size_t nodes = 0;                     ///< number of nodes of the whole mesh
     std::vector<mesh::PeriodicNodes> periodic; ///< one for each pair of `SweepOptions::periodic`
@@ -135,10 +135,11 @@ struct SweptAssembly {
 
 /// Sweep several sealed volumes with common quads on shared faces.
 ///
-/// First, one interval assignment over the whole assembly places the nodes of shared edges; the `layers` of
+/// First, one interval assignment over the whole assembly places the nodes of shared edges. The `layers` of
 /// one volume therefore also apply to the volumes beside it. Then volumes are meshed one after the other.
-/// Each keeps its neighbours' meshes on shared faces, node for node; if it cannot, the order is changed so
-/// that it comes first. A void face with the same rim as a neighbour's given face is taken to be that face.
+/// Each volume keeps its neighbours' meshes on shared faces, node for node. A volume that cannot keep them is
+/// moved to the start of the order. A void face with the same rim as a neighbour's given face is taken to be
+/// that face.
 ///
 /// Faces that are shared in part are first split along each other's rims. `shared` and the faces of the parts
 /// then refer to the split volumes, in which the members' own faces come first.
@@ -147,21 +148,21 @@ struct SweptAssembly {
 /// prefixed with the member's name, `fluid:source`; groups of a face's name exist with and without the
 /// prefix. A single volume has the groups of `sweep()`.
 ///
-/// Members with the option `layered` may become parts that do not hold their nodes. Fixed members become
-/// parts first and unchanged, and their neighbours keep their quads on shared faces. A member that cannot be
-/// meshed is meshed with wedges, left out, or listed as not swept, as its `fallback` says; the assembly is
-/// then computed again.
+/// Parts of members with the option `layered` may generate their nodes on demand instead of storing them.
+/// Fixed members become parts first and unchanged, and their neighbours keep their quads on shared faces. A
+/// member that cannot be meshed is meshed with wedges, left out, or listed as not swept, as its `fallback`
+/// says; the assembly is then computed again.
 ///
-/// Faces of `SweepOptions::periodic` get the same mesh as their images: the edges around both are one edge in
-/// the interval assignment. A face whose image is on another member gets the image's quads. If both are on
-/// one member, their nodes are moved onto each other before the proof, and then fixed. If the motion is a
-/// translation, nodes and images are bit-identical unless both are given.
+/// Faces of `SweepOptions::periodic` get the same mesh as their images. An edge and its image count as one
+/// edge in the interval assignment. A face whose image is on another member gets the image's quads. If both
+/// are on one member, their nodes are moved onto each other before the proof, and then fixed. If the motion
+/// is a translation, nodes and images are bit-identical unless both are given.
 /// @throw NotSweepable  as `sweep()`, with the name of the region; "sweep.periodic_unlike"  the quads of two
 ///         periodic faces of a member have different connectivity; "assembly.layers"  different numbers of
 ///         layers are requested for volumes side by side; "assembly.layers_differ"  boundary layers of
 ///         several volumes end on one edge with different heights; "assembly.layers_rows"  an edge has too
-///         few sides for its boundary layers; "assembly.round"  in a cycle of volumes each lacks a face that
-///         another one has; "assembly.not_shared"  two meshes differ on a shared face;
+///         few sides for its boundary layers; "assembly.round"  each volume of a cycle lacks a face that the
+///         next one has; "assembly.not_shared"  two meshes differ on a shared face;
 ///         "assembly.hanging_node"  a node of one mesh lies within a side of another mesh.
 /// @throw InvalidInput  as `shared_faces()` and `sweep()`; "sweep.periodic_faces"  no motion moves the faces
 ///         of a pair onto each other; "sweep.periodic_given"  given nodes of such faces differ;

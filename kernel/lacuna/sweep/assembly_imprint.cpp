@@ -30,11 +30,11 @@ using namespace topology;
 
 namespace {
 
-constexpr const char* kPartOfFace = "assembly.part_of_face"; // code of an error
+constexpr const char* kPartOfFace = "assembly.part_of_face"; // error code
 
-/// The midpoint of the shortest connection of two chords. Empty if they are farther apart than `within`, or
-/// run along each other: rounding would then decide where they cross, and a vertex there could make a side
-/// without length.
+/// The midpoint of the shortest connection of two chords. Empty if the chords are farther apart than
+/// `within`, or nearly parallel. The crossing of parallel chords would depend on rounding, and a vertex there
+/// could make a side of zero length.
 std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double within)
 {
     const Vec3 u = b - a, v = d - c, w = c - a;
@@ -47,7 +47,8 @@ std::optional<Vec3> crossing(const Vec3& a, const Vec3& b, const Vec3& c, const 
     return (p - q).norm() <= within ? std::optional<Vec3>((p + q) / 2) : std::nullopt;
 }
 
-/// The chords of a line that do not run along another line. @return  the indices of their first points
+/// The chords of a line that do not run along another line. @return  the index of the first point of each
+/// chord
 std::vector<std::size_t> chords_off(const std::vector<Vec3>& line, const std::vector<Vec3>& other,
                                     double within)
 {
@@ -61,15 +62,14 @@ std::vector<std::size_t> chords_off(const std::vector<Vec3>& line, const std::ve
 /// A face of one volume that is cut along the rim of another.
 class FaceCutter {
 public:
-    /// @param within  if a vertex of the rim is within this distance of a line's end, it is taken as that
-    ///         end.
+    /// @param within  a vertex of the rim that is within this distance of a line's end replaces that end.
     FaceCutter(ModelBuilder& model, FaceId face, double within)
         : model_(model), face_(face), tolerance_(model.tolerance), within_(within)
     {
     }
 
-    /// Cut the facets along a chain of points near the face. @return  the points of the cut; empty: the chain
-    /// leaves the face
+    /// Cut the facets along a chain of points near the face. @return  the points of the cut; empty if the
+    /// chain leaves the face
     std::vector<Index> lay(const std::vector<Vec3>& line)
     {
         std::vector<Index> stops;
@@ -234,7 +234,8 @@ std::vector<std::vector<Vec3>> lines_across(const SideOfPair& of, const SideOfPa
     return lines;
 }
 
-/// Cut a face along chains. @return  its parts, starting with the face itself; empty: a chain leaves the face
+/// Cut a face along chains. @return  its parts, starting with the face itself; empty if a chain leaves the
+/// face
 std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::vector<Vec3>>& lines,
                                 double within, const RunContext& context)
 {
@@ -253,7 +254,8 @@ std::vector<FaceId> split_along(const SideOfPair& side, const std::vector<std::v
     }
     const std::size_t edges = model.edges.size();
     const WalkImprint made = imprint_walks(model, walks, {}, model.tolerance, context);
-    // The new edges are chains, not intersections of the surface with a plane.
+    // The new edges are chains of points. Curves that were made as intersections of the surface with a plane
+    // are wrong for them.
     for (std::size_t e = edges; e < model.edges.size(); ++e) {
         if (model.edges[e].origin != Origin::made_void) continue;
         model.edges[e].curve = nullptr;
@@ -288,7 +290,7 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
             for (const SideOfPair* side : {&a, &b})
                 ensure_vertex(side->model(), rim_edges(side->model(), side->face), stop, within);
     };
-    // Corners first: where two curves meet in a corner, their chords may cross next to it.
+    // Place the corners first. Where two curves meet in a corner, their chords may cross next to that corner.
     std::vector<Vec3> stops = corners_of(a, b, within);
     const std::vector<Vec3> others = corners_of(b, a, within);
     stops.insert(stops.end(), others.begin(), others.end());
@@ -298,7 +300,8 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
         const std::vector<Vec3> p = surface::edge_line(a.model(), e);
         for (const EdgeId f : rim_edges(b.model(), b.face)) {
             const std::vector<Vec3> q = surface::edge_line(b.model(), f);
-            // Rims that run along each other do not cross, although their chords meet at every point.
+            // Rims that run along each other do not cross, although their chords may meet at every point.
+            // Such chords are left out.
             const std::vector<std::size_t> of_q = chords_off(q, p, within);
             for (const std::size_t i : chords_off(p, q, within))
                 for (const std::size_t j : of_q)
@@ -315,22 +318,21 @@ Parts imprint_pair(const SideOfPair& a, const SideOfPair& b, double limit, const
             Message(kPartOfFace,
                     "{} of {} and {} of {}: {} {}, and cannot be split along the rim of the other", a.whole,
                     a.region, b.whole, b.region, entity_of(side->model(), side->face),
-                    side->fixed ? "is a face of a mesh that stays as it is"
-                                : "came with quads, which stay as they are")
+                    side->fixed ? "belongs to a mesh that must not change" : "keeps its given quads")
                 .remedy("{}", side->fixed
                                   ? "use the unmeshed volume instead, or split the face before the volume "
                                     "is meshed"
-                                  : "mesh the two faces alike, or, of a mesh from a file, load it with "
+                                  : "mesh both faces alike, or load meshes from files with "
                                     "keep_mesh = false"));
     }
     Parts parts{split_along(a, onto_a, within, context), split_along(b, onto_b, within, context)};
     if (parts.a.empty() || parts.b.empty())
         throw InvalidInput(
             Message(kPartOfFace,
-                    "{} of {} and {} of {}: the rim of one cannot be laid onto the facets of the "
-                    "other",
+                    "{} of {} and {} of {}: the rim of one face cannot be projected onto the facets "
+                    "of the other",
                     a.whole, a.region, b.whole, b.region)
-                .remedy("split the larger face along it where the faces were made"));
+                .remedy("split the larger face along the rim of the smaller one in the CAD system"));
     return parts;
 }
 
@@ -388,7 +390,8 @@ FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const Assembl
             return SideOfPair{&volumes[m], face, members[m].fixed != nullptr, m == faces.a ? face_a : face_b,
                               members[m].region};
         };
-        // Compare each part made in earlier steps with each part of the other face.
+        // Earlier pairs may have split both faces. Compare every part of one face with every part of the
+        // other.
         std::vector<FaceId> all_a = parts(faces.a, faces.face_a);
         for (std::size_t i = 0; i < all_a.size(); ++i) {
             std::vector<FaceId> all_b = parts(faces.b, faces.face_b);
@@ -402,7 +405,7 @@ FaceImprint imprint_faces(std::span<OpenVolume> volumes, std::span<const Assembl
         }
         parts(faces.a, faces.face_a) = all_a;
         imprint.report.push_back(
-            formatted("imprinted: {} of {} and {} of {} share a part, which is a face of both now", face_a,
+            formatted("imprinted: {} of {} and {} of {} share a part, which is now a face of both", face_a,
                       a.region, face_b, b.region));
     }
     for (std::size_t m = 0; m < volumes.size(); ++m) {

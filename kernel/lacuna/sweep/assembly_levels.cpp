@@ -17,8 +17,8 @@ using namespace topology;
 
 namespace {
 
-/// Levels that differ by less than this share of a member's height are one level. A layer boundary can bend
-/// to reach both, while a layer between them would be very thin. A choice.
+/// Levels that differ by less than this share of a member's height are treated as one. A layer boundary can
+/// bend to reach both, whereas a layer between them would be very thin. A choice.
 constexpr double kSameLevel = 1e-2;
 
 /// Whether the layers of a member are free: neither the user nor a given mesh prescribes them.
@@ -33,7 +33,7 @@ bool has_free_layers(const AssemblyMember& member)
 /// The lowest and the highest edges of a wall.
 struct Span {
     double low = 0, high = 1;
-    Vec3 at_low = Vec3::Zero(), at_high = Vec3::Zero(); ///< their mean points
+    Vec3 at_low = Vec3::Zero(), at_high = Vec3::Zero(); ///< mean points of these edges
 };
 
 std::optional<Span> span_of(const Model& model, FaceId wall, const std::map<EdgeId, double>& heights)
@@ -123,7 +123,7 @@ std::vector<AssemblyLevels::Contact> AssemblyLevels::contacts() const
     return found;
 }
 
-/// Copy levels within shared walls from each member to the other, until no member gets a new level.
+/// Copy the levels within shared walls from each member to the other, until no member gets a new level.
 void AssemblyLevels::exchange(std::span<const Contact> contacts)
 {
     const auto pass_on = [&](std::size_t from, double low, double high, std::size_t to, double there,
@@ -136,7 +136,7 @@ void AssemblyLevels::exchange(std::span<const Contact> contacts)
         }
         return any;
     };
-    // A level reaches every member within as many rounds as there are members.
+    // A level reaches every member after at most as many rounds as there are members.
     for (std::size_t round = 0; round < members_.size(); ++round) {
         bool any = false;
         for (const Contact& c : contacts) {
@@ -155,13 +155,14 @@ std::vector<std::vector<double>> AssemblyLevels::heights(
     exchange(all);
     geometry::UnionFind groups(members_.size());
     for (const Contact& c : all) groups.unite(c.a, c.b);
-    // Only groups of members that have levels, and in which no member's number of layers is prescribed.
+    // Only groups in which some member has levels, and in which no member's number of layers is prescribed,
+    // are constrained.
     std::vector<bool> concerned(members_.size(), false), set(members_.size(), false);
     for (std::size_t m = 0; m < members_.size(); ++m) {
         if (levels_[m].size() > 2) concerned[groups.find(m)] = true;
         if (!has_free_layers(members_[m])) set[groups.find(m)] = true;
     }
-    std::vector<std::size_t> first{0}; // for each member, the index of the first interval between its levels
+    std::vector<std::size_t> first{0}; // for each member, the index of its first interval between levels
     for (const std::vector<double>& levels : levels_) first.push_back(first.back() + levels.size() - 1);
     geometry::UnionFind parts(first.back());
     const auto at = [&](std::size_t m, double height) {

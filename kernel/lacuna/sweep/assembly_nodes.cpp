@@ -25,7 +25,8 @@ struct PartNode {
     friend auto operator<=>(const PartNode&, const PartNode&) = default;
 };
 
-/// Each node that coincides with an earlier one, paired with the first node in that place.
+/// For each node that coincides with an earlier node: the pair of this node and the first node at that
+/// position.
 std::vector<std::pair<PartNode, PartNode>> in_same_places(const SweptAssembly& assembly,
                                                           const std::vector<PartNode>& nodes)
 {
@@ -49,7 +50,7 @@ std::vector<std::pair<PartNode, PartNode>> in_same_places(const SweptAssembly& a
     return same;
 }
 
-/// Middle nodes of the skin.
+/// Add the middle nodes of the skin.
 void add_middles(const mesh::HexMesh& mesh, std::size_t part, std::vector<PartNode>& nodes)
 {
     std::vector<bool> known(mesh.middles.nodes.size(), false);
@@ -108,7 +109,7 @@ void check_no_hanging_nodes(const SweptAssembly& assembly, std::span<const Assem
         std::size_t part;
         Segment nodes;
     };
-    // Collect each side and each node once, by the node numbers of the whole mesh.
+    // Collect each side and each node once, identified by the node numbers of the whole mesh.
     std::vector<EdgeSide> sides;
     std::vector<std::array<Vec3, 2>> segments;
     std::vector<std::pair<std::size_t, Index>> at;

@@ -13,8 +13,9 @@ using namespace topology;
 
 namespace {
 
-/// For each member, whether both its source and its target have several faces, or such a member must come
-/// after it. A member of this kind imprints one end on the other before any neighbour has meshed them.
+/// For each member, whether both its ends have several faces, or whether it must come before such a member. A
+/// member whose ends both have several faces imprints one end on the other, which must happen before a
+/// neighbour meshes these faces.
 std::vector<bool> split_at_both_ends(std::span<const AssemblyMember> members,
                                      std::span<const std::set<std::size_t>> before)
 {
@@ -42,9 +43,9 @@ bool is_wall(const AssemblyMember& member, FaceId face)
     return member.volume->role[face.index()] == Role::wall;
 }
 
-/// Whether a face lies within a member's walls without touching the rims of its ends, such as the part of a
-/// pin inside a plate. If the neighbour meshed this face first, its rows of quads would end within the
-/// member's columns.
+/// Whether a face lies within a member's walls without touching the rims of its ends. An example is the part
+/// of a pin inside a plate. If the neighbour meshed this face first, the face's rows of quads would end in
+/// the middle of the member's columns.
 bool in_middle(const AssemblyMember& member, FaceId face)
 {
     const Model& model = member.volume->model;
@@ -107,7 +108,8 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
                    is_wall(members[other], is_a ? face.face_b : face.face_a) == other_wall;
         });
     };
-    // For each member, those that share a wall with it which lies in the middle of their walls.
+    // For each member, the neighbours that must come first: those that share a wall with it which lies in the
+    // middle of the neighbour's own walls.
     std::vector<std::set<std::size_t>> below(members.size());
     for (const SharedFace& face : shared) {
         const bool a = in_middle(members[face.a], face.face_a), b = in_middle(members[face.b], face.face_b);

@@ -37,9 +37,10 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of nodes on edges of all members: with more, memory runs out before anything is meshed.
+/// Maximum number of nodes on the edges of all members. More nodes would exhaust the memory before anything
+/// is meshed.
 constexpr double kMostNodes = 2e7;
-/// A request for a rim segment ignores edges of which it covers less than this share.
+/// A request for a rim segment ignores an edge if it covers less than this share of the edge.
 constexpr double kInset = 1e-3;
 /// Maximum number of rounds that make the number of sides of ends even. Each round adds a side to one class;
 /// families of blocks need far fewer.
@@ -95,7 +96,7 @@ public:
     }
 
 private:
-    /// Rows of boundary layers at an end of an edge, and the member they belong to.
+    /// The rows of boundary layers at one end of an edge, and the member that has these rows.
     struct RowsHere {
         std::vector<double> places; ///< running lengths from that end
         std::size_t member = 0;
@@ -131,8 +132,8 @@ private:
         for (const SharedFace& face : shared_) find_same_rims(face);
         for (const std::size_t e : beside_) common_[e] = true;
     }
-    /// The closed rims of a shared face are the same edges in both members, even if their chords differ
-    /// widely.
+    /// Unite the closed rims of a shared face in both members, which are the same edges even if their chords
+    /// differ widely.
     void find_same_rims(const SharedFace& face)
     {
         const auto closed_rims = [&](std::size_t m, FaceId of) {
@@ -155,8 +156,8 @@ private:
         }
     }
 
-    /// Join edges of periodic faces with their images. The position and the nodes of the first edge apply to
-    /// all.
+    /// Join the edges of periodic faces with their images. The first edge of each set defines the position
+    /// and the nodes of all edges of the set.
     void join_periodic()
     {
         // Transforms onto the first edge of each set.
@@ -191,8 +192,8 @@ private:
         for (const auto& [first, ignored] : home) tied_.insert(same_.find(first));
     }
 
-    /// Move the vertices of periodic faces so that they are exact images of each other, for all pairs at
-    /// once. Vertices of given meshes do not move.
+    /// Move the vertices of periodic faces so that they are exact images of each other. All pairs are handled
+    /// together. Vertices of given meshes do not move.
     void tie_corners()
     {
         if (periodic_.empty()) return;
@@ -227,7 +228,7 @@ private:
         corners_ = std::move(places);
     }
 
-    /// Move the nodes of an edge onto the edge that represents its images.
+    /// Move the nodes of a periodic edge onto the edge that represents all its images.
     [[nodiscard]] std::vector<Vec3> at_home(std::vector<Vec3> nodes, std::size_t e) const
     {
         if (!tied_.contains(same_.find(e))) return nodes;
@@ -253,15 +254,15 @@ private:
         if (kept_[e] == Kept::rim) return nodes;
         const AssemblyMember& member = members_[edge.member];
         throw InvalidInput(Message("sweep.periodic_given",
-                                   "periodic: {} of {} has {} given nodes where its image has {} others, and "
+                                   "periodic: {} of {} has {} given nodes, its image has {} other ones, and "
                                    "given nodes do not move",
                                    entity_in(member, edge.edge), member.region, given.size(), nodes.size())
                                .remedy("load one of them with keep_mesh = false"));
     }
 
     /// Find cusps: corners of ends whose two edges leave in the same direction, such as an arc and its
-    /// tangent line. A quad at a cusp has an angle near 0° unless its sides are long enough for the edges to
-    /// diverge.
+    /// tangent line. A quad at a cusp has an angle near 0° unless its sides are long enough to reach the
+    /// place where the edges have diverged.
     void find_cusps()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -299,7 +300,7 @@ private:
         }
     }
 
-    /// Join edges that get the same number of sides in the sweep of a member.
+    /// Join edges that must have the same number of sides for the sweep of a member.
     void join_by_sweep(std::size_t m)
     {
         std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
@@ -346,7 +347,7 @@ private:
         }
     }
 
-    /// Find the numbers of sides and layers that the volume of a member requires.
+    /// Find the numbers of sides and layers that a member needs to keep its volume.
     void plan_sides(std::size_t m, std::span<const surface::LinkingSurface> links)
     {
         const OpenVolume& volume = *members_[m].volume;
@@ -366,7 +367,8 @@ private:
         }
     }
 
-    /// Read the interval requests of a member. Errors in them are reported by the member's own sweep.
+    /// Read the interval requests of a member. Errors are ignored here, because the member's own sweep
+    /// reports them.
     void find_demands(std::size_t m, std::span<const surface::LinkingSurface> links)
     {
         const AssemblyMember& member = members_[m];
@@ -388,8 +390,8 @@ private:
         bool reversed = false;
     };
 
-    /// Assign requested numbers of sides to classes. If a request covers only a part of an edge, it is left
-    /// to the sweep of the member.
+    /// Assign requested numbers of sides to classes. A request that covers only a part of an edge is left to
+    /// the sweep of the member.
     void ask_sides()
     {
         for (const auto& [m, demands] : demands_) {
@@ -445,8 +447,8 @@ private:
                 .remedy("ask for the same number in both"));
     }
 
-    /// Join opposite edges of walls, whose quads form rows and columns, and of shared faces with four edges,
-    /// which are then meshed by the same grid in both members.
+    /// Join opposite edges of walls, whose quads form rows and columns. Also join opposite edges of shared
+    /// faces with four edges, so that both members mesh such a face by the same grid.
     void join_opposite()
     {
         for (std::size_t m = 0; m < members_.size(); ++m) {
@@ -459,11 +461,11 @@ private:
             join_opposite(face.b, face.face_b, rows);
         }
     }
-    /// @param rows  whether the quads form rows: then a face with two rims has the same number of nodes on
-    ///         both.
+    /// @param rows  whether the quads form rows. A face with two rims then has the same number of nodes on
+    ///         both rims.
     void join_opposite(std::size_t m, FaceId face, bool rows)
     {
-        if (members_[m].fixed != nullptr) return; // it keeps its quads
+        if (members_[m].fixed != nullptr) return; // a fixed member keeps its quads
         const std::vector<Loop> loops = border_loops(model(m), face);
         if (rows && loops.size() == 2 && loops[0].uses.size() == 1 && loops[1].uses.size() == 1)
             classes_.unite(number(m, loops[0].uses[0].edge), number(m, loops[1].uses[0].edge));
@@ -472,13 +474,13 @@ private:
             classes_.unite(number(m, loops[0].uses[k].edge), number(m, loops[0].uses[k + 2].edge));
     }
 
-    /// An edge that follows facets, and the positions of its vertices that become nodes, as shares of its
-    /// length.
+    /// An edge that follows facets. `ends` are the positions of those of its vertices that become nodes, as
+    /// shares of its length.
     struct Followed {
         std::size_t edge = 0;
         std::vector<double> ends;
     };
-    /// Number of sides between the vertices that become nodes, at about the requested size.
+    /// Number of sides, at about the requested size, if all these vertices become nodes.
     [[nodiscard]] double followed_sides(const Followed& followed, const MemberEdge& edge) const
     {
         double sides = 0;
@@ -487,7 +489,8 @@ private:
                                               size(edge.member, edge.middle)));
         return sides;
     }
-    /// Distribute `count` sides between these positions; the longest interval is divided first.
+    /// Distribute `count` sides over the intervals between these vertices. The interval with the longest
+    /// sides is divided first.
     static std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count)
     {
         std::vector<int> parts(ends.size() - 1, 1);
@@ -506,7 +509,7 @@ private:
         return at;
     }
 
-    /// Number of sides that an edge needs according to its member's size and curvature.
+    /// Number of sides that an edge needs for the size and the curvature of its member.
     [[nodiscard]] double wanted(const MemberEdge& edge) const
     {
         const std::vector<Vec3> line = surface::edge_line(model(edge.member), edge.edge);
@@ -548,8 +551,8 @@ private:
         return static_cast<int>(model(edges_[e].member)[edges_[e].edge].points.size()) - 1;
     }
 
-    /// Find edges whose given nodes are kept. If several members have the same edge, one next to given quads
-    /// takes precedence over one on the rim of a face whose mesh is only its shape.
+    /// Find edges whose given nodes are kept. If several members have the same edge, an edge next to given
+    /// quads takes precedence over an edge on the rim of a face whose given mesh only defines its shape.
     void find_kept()
     {
         kept_.assign(edges_.size(), Kept::no);
@@ -569,13 +572,13 @@ private:
         }
     }
 
-    /// Whether the same edge has the same direction in two members.
+    /// Whether the same edge runs in the same direction in two members.
     static bool run_alike(const MemberEdge& a, const MemberEdge& b)
     {
         const Vec3 from = a.home * a.from;
         return (from - b.home * b.from).norm() <= (from - b.home * b.to).norm();
     }
-    /// Whether a member's edge has the direction of the edge that represents it.
+    /// Whether a member's edge runs in the direction of the edge that represents it.
     [[nodiscard]] bool runs_along(std::size_t e) const { return run_alike(edges_[e], edges_[same_.find(e)]); }
 
     /// Find edges on which rows of boundary layers end. The rows of one member apply to all members that have
@@ -597,7 +600,7 @@ private:
                 const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
                                      (here[1].places.empty() ? 0 : here[1].places.back());
                 if (taken >= edges_[e].length)
-                    rows_.erase(same_.find(e)); // drop the rows; the sweep reports that they do not fit
+                    rows_.erase(same_.find(e)); // drop the rows; the sweep reports the misfit
             }
         }
     }
@@ -624,8 +627,8 @@ private:
                                .remedy("give both faces the same boundary_layers table"));
     }
 
-    /// Number of sides of an edge that belong to rows, and the length that remains beside them [model
-    /// length].
+    /// Number of sides of an edge that rows take up, and the length of the edge that remains for other sides
+    /// [model length].
     [[nodiscard]] std::pair<int, double> beside_rows(std::size_t e) const
     {
         const auto found = rows_.find(same_.find(e));
@@ -661,7 +664,7 @@ private:
     /// Determine the number of sides of each class.
     void count()
     {
-        std::map<std::size_t, std::size_t> asked; // class: member
+        std::map<std::size_t, std::size_t> asked; // for each class: the member that requests layers
         for (const auto& [m, sides] : sides_) {
             if (layers_asked(m) == 0 || sides.empty()) continue;
             const auto [found, fresh] = asked.try_emplace(classes_.find(number(m, sides.front().edge)), m);
@@ -723,8 +726,8 @@ private:
         check_rows();
     }
 
-    /// Make the number of sides even on ends whose edges are all shared or have given nodes, so that quads
-    /// fit.
+    /// If all edges of an end are shared or have given nodes, make the number of its sides even, because
+    /// quads need an even number.
     void make_even()
     {
         for (int round = 0; round < kRounds; ++round) {
@@ -739,10 +742,10 @@ private:
         }
     }
 
-    /// @return  whether a class got more sides.
+    /// @return  whether a class has got one more side.
     bool make_even(std::size_t m, FaceId face, int round)
     {
-        std::map<std::size_t, int> uses; // uses of each class
+        std::map<std::size_t, int> uses; // number of uses of each class by the face
         int sides = 0;
         for (const Loop& loop : border_loops(model(m), face)) {
             for (const EdgeUse& use : loop.uses) {
@@ -758,7 +761,7 @@ private:
         for (const auto& [of, times] : uses) {
             if (times % 2 == 0 || asked_.contains(of) || kept_of_class_.at(of) == Kept::quads) continue;
             // Later rounds choose the next class, so that two ends do not undo each other's changes. Classes
-            // with given nodes on the rim of faces whose mesh is only their shape are changed last.
+            // with given nodes on rims of faces whose mesh only defines the shape are changed last.
             const auto before = [&](std::size_t a, std::size_t b) {
                 return std::tuple(kept_of_class_.at(a) != Kept::rim, -bumps_[a], count_.at(a)) >
                        std::tuple(kept_of_class_.at(b) != Kept::rim, -bumps_[b], count_.at(b));
@@ -785,7 +788,7 @@ private:
         }
         std::vector<double> at;
         for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
-        // Layers are spaced as the options of one of the members require.
+        // If one of the members requires a spacing of layers, use it.
         for (const auto& [m, sides] : sides_) {
             const bool by_levels = std::cmp_equal(heights_[m].size(), count);
             const LayerSpec& spec = members_[m].options.layers;
@@ -813,7 +816,7 @@ private:
             at = with_cusps(cusp->second, edge.length, runs_along(e), std::move(at));
         return surface::edge_points(model(edge.member), edge.edge, at);
     }
-    /// Lengthen the first side at a cusp to its minimum length, and move the nodes between in proportion.
+    /// Lengthen the first side at a cusp to its minimum length, and move the other nodes in proportion.
     static std::vector<double> with_cusps(const std::array<double, 2>& ends, double length, bool along,
                                           std::vector<double> at)
     {
@@ -826,7 +829,7 @@ private:
             at[i] = last > first ? low + (at[i] - first) / (last - first) * (high - low) : low + high - at[i];
         return at;
     }
-    /// Node positions as shares of an edge's length: the rows at its ends, and equal sides between them.
+    /// Node positions as shares of an edge's length: the rows at its ends, and equal sides between the rows.
     static std::vector<double> with_rows(const std::array<RowsHere, 2>& ends, double length, bool along,
                                          int count)
     {
@@ -860,8 +863,8 @@ private:
         std::map<std::size_t, std::vector<Vec3>> nodes;
         const std::vector<bool> on_frame = find_frame();
         for (std::size_t e = 0; e < edges_.size(); ++e) {
-            // A face with triangles only is a shape. Given nodes on its rim are dropped if the planned number
-            // of sides differs.
+            // The triangles of a face without quads only define its shape. Given nodes on its rim are dropped
+            // if the planned number of sides differs.
             const bool gives_way = kept_[e] == Kept::rim && sides_of(e) != count_.at(classes_.find(e));
             if (!(common_[e] || gives_way) || !on_frame[e]) continue;
             auto found = nodes.find(same_.find(e));
@@ -888,7 +891,8 @@ private:
         return plan;
     }
 
-    /// Number of layers of a member that has side lines of several edges: at least the number of these edges.
+    /// Number of layers of a member with side lines that consist of several edges: at least the largest
+    /// number of edges of one line.
     [[nodiscard]] int layers_of(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines) const
     {
         double layers = std::max(layers_asked(m), layers_[m]);
@@ -904,8 +908,8 @@ private:
         return std::max(static_cast<int>(std::lround(layers)), static_cast<int>(most));
     }
 
-    /// Place nodes on side lines of several edges so that each vertex between these edges is a node. An edge
-    /// of an unswept member that ends at such a vertex needs this node.
+    /// Place the nodes of side lines that consist of several edges, so that each vertex between two of these
+    /// edges is a node. An unswept member may have an edge that ends at such a vertex and needs this node.
     void plan_stacks(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines,
                      std::map<std::size_t, std::vector<Vec3>>& nodes, AssemblyPlan& plan)
     {
@@ -938,8 +942,8 @@ private:
         }
     }
 
-    /// Find shared edges that run around a member's walls, such as the rim of a band. They need as many sides
-    /// as the rims of the member's ends, so the nodes of these rims are planned too.
+    /// Find shared edges that run around a member's walls, such as the rim of a band. Such an edge needs as
+    /// many sides as the rims of the member's ends, so the nodes of these rims are planned too.
     void find_across()
     {
         const std::vector<bool> frame = find_frame();
@@ -950,8 +954,8 @@ private:
             if (frame[e] && across.contains({edges_[e].member, classes_.find(e)})) common_[e] = true;
     }
 
-    /// The edges on the rims of ends, and the side lines. The nodes of other edges on walls follow from
-    /// these.
+    /// For each edge, whether it is on the rim of an end or on a side line. The nodes of the other edges of
+    /// walls follow from these.
     [[nodiscard]] std::vector<bool> find_frame() const
     {
         std::vector<bool> frame;
@@ -967,8 +971,7 @@ private:
         return frame;
     }
 
-    /// The position of a vertex, stored once so that it is bit-identical for all edges and members that meet
-    /// there.
+    /// The stored position of a vertex. All edges and members that meet there use the same bits.
     const Vec3& corner_at(const Vec3& p, double tolerance)
     {
         for (const Vec3& corner : corners_)
@@ -976,8 +979,8 @@ private:
         return corners_.emplace_back(p);
     }
 
-    /// Of the edges of several members that are the same, the one with given nodes, or else one with an exact
-    /// curve.
+    /// Of the same edge in several members, the index of the one with given nodes. Without given nodes, the
+    /// one with an exact curve.
     [[nodiscard]] std::size_t exact_one(std::size_t e)
     {
         const std::size_t root = same_.find(e);
@@ -991,8 +994,8 @@ private:
         return root;
     }
 
-    /// Arrange nodes in the direction of a member's edge. On a closed edge they start at the node nearest to
-    /// the edge's vertex.
+    /// Put nodes in the direction of a member's edge. On a closed edge they start at the node nearest to the
+    /// edge's vertex.
     void turn(std::vector<Vec3>& nodes, const MemberEdge& edge) const
     {
         if (!edge.closed) {
@@ -1004,7 +1007,7 @@ private:
         const auto nearest = std::ranges::min_element(nodes, {},
                                                       [&](const Vec3& p) { return (p - edge.from).norm(); });
         std::ranges::rotate(nodes, nearest);
-        // Direction around the edge: the second node lies on its first half.
+        // Find the direction around the edge: the second node must lie on the first half of the edge.
         const std::vector<Vec3> line = surface::edge_line(model(edge.member), edge.edge);
         const std::vector<double> arc = geometry::arc_lengths(line);
         const Vec3 quarter = geometry::point_at(line, arc, arc.back() / static_cast<double>(nodes.size()));
@@ -1023,13 +1026,14 @@ private:
     /// Which given nodes of an edge are kept: none, the rim nodes of a face whose mesh is only its shape, or
     /// the nodes of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
-    std::vector<Kept> kept_;                    ///< for each edge
-    std::map<std::size_t, Kept> kept_of_class_; ///< for each class, the highest value of its edges
+    std::vector<Kept> kept_; ///< for each edge, which nodes are kept
+    /// For each class, the highest value of its edges in this order.
+    std::map<std::size_t, Kept> kept_of_class_;
     std::map<std::size_t, std::array<RowsHere, 2>>
         rows_; ///< for each set of same edges, in the direction of the first
-    std::map<std::size_t, std::size_t> kept_one_; ///< for each set of same edges, one edge that has given
-                                                  ///< nodes
-    std::vector<bool> common_;                    ///< for each edge: other members have it too
+    /// For each set of same edges, one edge of it that has given nodes.
+    std::map<std::size_t, std::size_t> kept_one_;
+    std::vector<bool> common_; ///< for each edge, whether other members have it too
     /// For each set of same edges: minimum length of the first and the last side at cusps [model length].
     std::map<std::size_t, std::array<double, 2>> cusps_;
     double grid_ = 0;              ///< spacing of the grid for nodes on periodic faces
@@ -1038,22 +1042,24 @@ private:
     /// For each member: its side lines of several edges, if an unswept member shares some of these edges.
     std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
-    std::map<std::size_t, int> count_;                  ///< for each class
-    std::vector<int> per_turn_, layers_;                ///< numbers required by each member's volume
+    std::map<std::size_t, int> count_;                  ///< number of sides of each class
+    std::vector<int> per_turn_, layers_;                ///< numbers that each member needs to keep its volume
     AssemblyLevels levels_;
-    /// For each member: heights of its layers from its source, from its levels.
+    /// For each member, heights of its layers that result from its levels, counted from its source.
     std::vector<std::vector<double>> heights_;
-    std::map<std::size_t, Followed> followed_;                ///< for each set of same edges
-    std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member with intervals
-    std::map<std::size_t, SidesOfClass> intervals_;           ///< for each class with an interval request
+    std::map<std::size_t, Followed> followed_; ///< sets of same edges that follow facets
+    /// Interval requests of each member that has any.
+    std::map<std::size_t, surface::IntervalDemands> demands_;
+    /// Number of sides requested for a class by 'intervals'.
+    std::map<std::size_t, SidesOfClass> intervals_;
     /// For each set of same edges: the edge with a requested bias, and that bias in the direction of this
     /// edge.
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
-    /// Sets of same edges that are part of a side line of several edges in some member.
+    /// Sets of same edges that, in some member, form only a part of a side line.
     std::set<std::size_t> stacked_;
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
-    std::vector<Vec3> corners_;           ///< vertices where edges of several members end
+    std::vector<Vec3> corners_;           ///< stored positions of vertices; see `corner_at()`
     mutable std::vector<double> spacing_; ///< for each member's rim
 };
 

@@ -25,20 +25,20 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of rounds. Each round copies lines from one end of every volume to the other end, so lines
-/// can pass through a stack of up to this many volumes.
+/// Maximum number of rounds. In each round, every volume copies lines from one end to the other, so lines can
+/// pass through a stack of this many volumes.
 constexpr int kRounds = 64;
 
-/// Copies the parts of a split face to the volume that has the whole face.
+/// Copies the parts of a split face to a volume in which the face is still whole.
 class FaceCopier {
 public:
-    /// @param whole  one face, or the parts of one.
+    /// @param whole  the whole face, or its parts if it is already split.
     FaceCopier(const Model& from, std::vector<FaceId> parts, OpenVolume& to, std::vector<FaceId> whole)
         : from_(from), parts_(std::move(parts)), to_(to.model), role_(to.role), whole_(std::move(whole))
     {
     }
 
-    /// Add the vertices of the parts' rim to the rim of the whole face. @return  whether any was added
+    /// Add the vertices on the rim of the parts to the rim of the whole face. @return  whether any was added
     bool copy_vertices()
     {
         const std::size_t before = to_.vertices.size();
@@ -80,8 +80,8 @@ private:
         return std::ranges::any_of(model.vertices, [&](const Vertex& v) { return v.point == point; });
     }
 
-    /// Add the rim points that the whole face lacks. Points that are vertices on the parts become vertices
-    /// there.
+    /// Add the points that the rim of the whole face lacks. Points that are vertices of the parts become
+    /// vertices there.
     void copy_rim()
     {
         for (const Rim& rim : rims(from_, parts_)) {
@@ -113,8 +113,8 @@ private:
         return geometry::arc_lengths(surface::edge_line(to_, edge));
     }
 
-    /// Insert a point on the rim of the whole face, between the previous point and the next one that exists
-    /// there.
+    /// Insert point i of the walk on the rim of the whole face. The point splits the edge from the previous
+    /// point of the walk to the next one that the rim already has.
     void insert(const std::vector<Index>& walk, std::size_t i)
     {
         const Index before = place_.at(walk[i - 1]);
@@ -143,7 +143,7 @@ private:
         refuse();
     }
 
-    /// The parameter of a vertex on a curve.
+    /// The parameter of a vertex on a curve; empty if no edge with this curve ends there.
     [[nodiscard]] std::optional<double> param_of(
         Index point, const std::shared_ptr<const geometry::ExactCurve>& curve) const
     {
@@ -340,7 +340,8 @@ private:
         std::swap(line.source_to, line.target_to);
     }
 
-    /// Corresponding lines and vertices of both ends of a member; the end that is split counts as the source.
+    /// Corresponding lines and vertices of both ends of a member, listed as if the end that is split were the
+    /// source.
     [[nodiscard]] std::vector<surface::KnownLine> known_lines(std::size_t m, Role end) const
     {
         std::vector<surface::KnownLine> lines = known_[m];
@@ -416,7 +417,8 @@ private:
     std::span<OpenVolume> volumes_;
     const RunContext& context_;
     std::vector<SharedFace> shared_ = shared_faces(members_, context_);
-    std::vector<std::vector<surface::KnownLine>> known_; ///< for each member and end, source first
+    /// For each member: corresponding lines on its source and its target.
+    std::vector<std::vector<surface::KnownLine>> known_;
     std::vector<std::vector<surface::RimPair>> pairs_;
     std::set<std::size_t> split_;
 };

@@ -13,7 +13,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Weight of the volume term against the shape term, as Garanzha et al.
+/// Weight of the volume term against the shape term, from Garanzha et al. (2021).
 constexpr double kVolumeShare = 1.0 / 128;
 
 /// Ends of the four edges along each of u, v, w.
@@ -39,8 +39,8 @@ Edges edges_of(const std::array<Vec3, 8>& corners)
     return edges;
 }
 
-/// Call `visit(corner, after, before, above)` for the six corners of a wedge; the three edges that lead from
-/// the first to the others are right-handed.
+/// Call `visit(corner, after, before, above)` for the six corners of a wedge. The three edges from a corner
+/// to `after`, `before` and `above` are right-handed.
 template <class Visit>
 void each_wedge_corner(const Visit& visit)
 {
@@ -50,8 +50,9 @@ void each_wedge_corner(const Visit& visit)
     }
 }
 
-/// Four corners side by side. All functions are inlined and compiled for the processor; no vector is passed
-/// by value, because the calling convention depends on the processor.
+/// Computes four corners at once with vector instructions. All functions are inlined and compiled for the
+/// processor at hand. No vector is passed by value, because the calling convention for vectors depends on the
+/// processor.
 class FourCorners {
 public:
     /// The three edges at each corner, right-handed.
@@ -76,8 +77,8 @@ public:
         const Vector squares{u_[0] * u_[0] + u_[1] * u_[1] + u_[2] * u_[2],
                              v_[0] * v_[0] + v_[1] * v_[1] + v_[2] * v_[2],
                              w_[0] * w_[0] + w_[1] * w_[1] + w_[2] * w_[2]};
-        // The foldover-free energy, from the determinant relative to the volume of the reference box, and
-        // from the squares of the edges relative to the edges of the box.
+        // The foldover-free energy. It needs the determinant relative to the volume of the reference box, and
+        // the squares of the edges relative to the edges of the box.
         const Four determinant = det / volume;
         const Four tall = energy.epsilon * energy.epsilon + determinant * determinant;
         Four root{}, cube_root{};

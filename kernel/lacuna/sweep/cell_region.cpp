@@ -13,7 +13,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Cells per task: enough to be worth a thread. Sums are computed chunk by chunk, in order.
+/// Cells per task: enough to make a thread worthwhile. Sums are added chunk by chunk, in order.
 constexpr std::size_t kChunk = 512;
 
 std::array<Vec3, 8> corners_of(const std::vector<Vec3>& places, const Hex& hex)
@@ -60,7 +60,7 @@ const std::array<std::array<std::size_t, 3>, 8>& neighbours_in(const Hex& hex)
 }
 
 /// Call `visit(corner, a, b)` for each pair of fixed edges of a cell that meet in a corner. An edge is fixed
-/// if both its nodes are.
+/// if both its nodes are fixed.
 template <class Visit>
 void for_locked_angles(const Hex& hex, const std::vector<char>& locked, const Visit& visit)
 {
@@ -74,9 +74,9 @@ void for_locked_angles(const Hex& hex, const std::vector<char>& locked, const Vi
     }
 }
 
-/// Upper bound of a cell's quality from its fixed edges: the smallest sine of an angle between two of them,
-/// and the smallest scaled Jacobian of a corner whose three edges are all fixed. In triangles of wedges,
-/// sines are relative to the sine of 60°.
+/// Upper bound of a cell's quality due to its fixed edges. It is the smaller of two values: the smallest sine
+/// of an angle between two fixed edges, and the smallest scaled Jacobian of a corner whose three edges are
+/// fixed. In triangles of wedges, sines are relative to the sine of 60°.
 double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::vector<char>& locked)
 {
     double bound = 1;
@@ -98,7 +98,8 @@ double bound_of(const std::array<Vec3, 8>& corners, const Hex& hex, const std::v
     return bound;
 }
 
-/// A cell this close to its upper bound is skipped: the possible gain does not justify the work.
+/// A cell whose quality is this close to its upper bound is skipped: the possible gain does not justify the
+/// work.
 constexpr double kLeastRoom = 0.01;
 
 /// Whether each cell is poor and can be improved.
@@ -133,13 +134,13 @@ void grow(const mesh::HexMesh& mesh, std::vector<char>& taken)
     }
 }
 
-/// The uses of each free node.
+/// For each free node, the cells and corners that use it.
 mesh::Incidence uses_of(const CellRegion& region)
 {
     return mesh::incidence(region.free, [&](const auto& visit) {
         for (std::size_t c = 0; c < region.cells.size(); ++c) {
             for (std::size_t k = 0; k < 8; ++k) {
-                // Where two corners of a wedge coincide, only the first one counts.
+                // Two corners of a wedge coincide in one node; only the first of them counts.
                 if (k % 4 == 3 && mesh::is_wedge(region.cells[c])) continue;
                 if (index(region.cells[c][k]) < region.free)
                     visit(index(region.cells[c][k]), static_cast<Index>(8 * c + k));
@@ -184,7 +185,7 @@ CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options,
     if (std::ranges::none_of(taken, [](char c) { return c != 0; })) return region;
     for (int ring = 0; ring < options.rings; ++ring) grow(mesh, taken);
 
-    // Nodes used by cells outside the region are fixed, so that the region stays connected to the rest.
+    // Nodes of cells outside the region are fixed, so that the region still fits these cells.
     std::vector<char> held = locked;
     std::vector<char> inside(mesh.nodes.size(), 0);
     for (std::size_t c = 0; c < taken.size(); ++c) {
@@ -230,7 +231,7 @@ RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places,
             const Hex& hex = region.cells[c];
             double scaled = scaled_jacobian(hex, corners);
             found.mean += scaled;
-            // Positive Jacobians at the corners do not prove that a cell is valid.
+            // A cell may be invalid even if the Jacobians at its corners are positive.
             if (scaled > 0 && !certified_positive(hex, corners)) scaled = 0;
             found.least = std::min(found.least, scaled);
             found.lacking += std::max(0.0, region.aim[c] - scaled);
@@ -304,14 +305,14 @@ void RegionEnergy::set_planes(const Eigen::VectorXd& x)
             for (std::size_t k = 0; k < 4; ++k) node[k] = index(cell[index(side[k])]);
             const Vec3 area =
                 (places_[node[2]] - places_[node[0]]).cross(places_[node[3]] - places_[node[1]]);
-            // Sides inside the region are visited twice, in opposite directions, and cancel; the skin
-            // remains.
+            // A side inside the region is visited twice, in opposite directions, and the two contributions
+            // cancel. What remains is the normal of the skin.
             for (const std::size_t n : node) {
                 if (n < region_.free && region_.surface[n] >= 0) normal_[n] += area;
             }
         }
     }
-    for (Vec3& normal : normal_) normal.normalize(); // zero stays
+    for (Vec3& normal : normal_) normal.normalize(); // a zero vector stays zero
 }
 
 } // namespace lacuna::sweep

@@ -10,8 +10,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// This number is higher than the core count of any supported machine, and far below the limit of an
-/// operating system.
+/// Larger than the core count of any supported machine, and far below the thread limit of an operating
+/// system.
 constexpr int kMostThreads = 1024;
 
 [[noreturn]] void refuse(const std::string& option, const Argument& must, const Argument& value)
@@ -20,7 +20,7 @@ constexpr int kMostThreads = 1024;
                        found(value));
 }
 
-/// Refuse a value in a table option.
+/// Refuse a value in a table of options.
 [[noreturn]] void refuse_member(const std::string& option, const char* member, const Argument& must,
                                 const Argument& value)
 {
@@ -37,8 +37,8 @@ void check_heights(const LayerSpec& spec)
                                    found(layers), found(spec.count))
                                .remedy("leave out the count, or the heights"));
     }
-    // Heights are often sums of steps, so the last height may differ from 1 by the rounding of that many
-    // additions.
+    // Heights are often sums of steps. The last height may therefore differ from 1 by as many rounding errors
+    // as there are layers.
     const double slack = 4 * layers * std::numeric_limits<double>::epsilon();
     double below = 0;
     for (int i = 0; i < layers; ++i) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Meshes of millions of cells have a hundred thousand quads on their skin, each with four points to compare,
-// so the usual point must cost only a few operations. Quads are stored in rows: the facet below the last
-// point, or a neighbour of it, is usually below the next point too (`FacetWalk`), and the quad nearest to one
-// point of a facet is usually nearest to the next. Such an answer is used only if it is certain; otherwise a
-// tree is searched.
+// Meshes of millions of cells have a hundred thousand quads on their skin, each with four points to compare.
+// The usual point must therefore cost only a few operations. Quads are stored in rows. The facet below the
+// last point, or a neighbour of it, is usually below the next point too (`FacetWalk`). Likewise, the quad
+// nearest to one point of a facet is usually nearest to the next point. An answer that is found in this way
+// is used only if it is certain; otherwise a tree is searched.
 #include <lacuna/sweep/detail/compare_face.h>
 
 #include <lacuna/core/shared/criteria.h>
@@ -25,11 +25,11 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Quads, facets or points per block; each block has its own sums. A smaller block adds overhead, a larger
-/// one leaves threads idle. Not measured.
+/// Quads, facets or points per block. Each block has its own sums. Smaller blocks add overhead, and larger
+/// blocks leave threads idle. Not measured.
 constexpr std::size_t kBlock = 1024;
-/// If a point is farther from the nearby quads than this many sides of the quad, its distance is searched in
-/// the tree, because another part of the skin may be nearer. A lower value searches the tree more often. Not
+/// If a point is farther from the nearby quads than this share of a quad's side, a tree is searched for its
+/// distance, because another part of the skin may be nearer. A lower value searches the tree more often. Not
 /// measured.
 constexpr double kFar = 0.25;
 
@@ -37,10 +37,10 @@ constexpr double kFar = 0.25;
 struct Sample {
     Vec3 point = Vec3::Zero();
     double area = 0;      ///< area that it represents
-    double side = 0;      ///< length of the quads' sides there, to which the allowed distance is proportional
+    double side = 0;      ///< length of the quads' sides there; the allowed distance is proportional to it
     std::size_t quad = 0; ///< index of the quad in the patch
     double distance = 0;
-    bool turned = false; ///< has the opposite orientation
+    bool turned = false; ///< the quad there has the opposite orientation of the face
 };
 
 /// Statistics of many samples.
@@ -48,7 +48,8 @@ struct Tally {
     double area = 0, sum = 0;
     double max_distance = -1;
     Vec3 place = Vec3::Zero();
-    Sample worst; ///< the sample that exceeds its allowed distance most; a turned sample takes precedence
+    /// The sample that exceeds its allowed distance by the largest factor; a turned sample takes precedence.
+    Sample worst;
     double allowed = 0; ///< allowed distance at that sample
 
     void add(const Sample& sample, double most)
@@ -81,7 +82,7 @@ private:
     }
 };
 
-/// A quad as triangles.
+/// A quad divided into triangles.
 struct QuadFacets {
     std::array<std::array<Vec3, 3>, 4> corners;
     std::size_t count = 0;
@@ -144,7 +145,7 @@ private:
 
     // --- quads against the face -----------------------------------------------------------------------
 
-    /// Each node once, with the first quad that has it.
+    /// Compare each node once. The sample has the data of the first quad with this node.
     Tally compare_nodes(const FacetWalk& walk)
     {
         facet_of_node_.assign(skin_.points.size(), -1);
@@ -165,8 +166,8 @@ private:
         });
     }
 
-    /// Compare a quad's centre and side midpoints. A midpoint on the border between two patches is compared
-    /// in one of them only. @return  the facet nearest to the centre
+    /// Compare a quad's centre and the midpoints of its sides. A midpoint between two patches is compared in
+    /// one of them only. @return  the facet nearest to the centre
     Index compare_quad(const FacetWalk& walk, std::size_t q, Tally& tally) const
     {
         const Quad& quad = quads_[q];
@@ -203,9 +204,9 @@ private:
             sample.distance = distance_to_face(sample.point, facet, reach);
         }
         // If the point is far from the face, as on a long quad in a bend, the nearest facet may belong to an
-        // opposite part of the face, and its orientation means nothing. A higher factor checks more of such
-        // points. Not measured.
-        constexpr double kNear = 0.1; // of the quad's width
+        // opposite part of the face. The orientation of that facet then proves nothing, so it is not checked.
+        // A higher factor checks more of such points. Not measured.
+        constexpr double kNear = 0.1; // share of the quad's width
         const auto found = static_cast<Index>(facet);
         sample.turned = limit_.folds && sample.distance * sample.side < kNear * across.norm() &&
                         sign_ * across.dot(walk.normal(found)) < 0;
@@ -214,17 +215,17 @@ private:
     }
 
     /// Distance of a point from the face; `facet` becomes the nearest facet.
-    /// @param reach  a facet is known to be within this distance.
+    /// @param reach  some facet is known to be within this distance.
     [[nodiscard]] double distance_to_face(const Vec3& point, std::size_t& facet,
                                           double reach = kInfinity) const
     {
         auto hit = face_tree_.closest(point, reach * reach);
-        // Rounding: the point may lie just outside the reach.
+        // The point may lie just outside the reach by rounding.
         if (hit.triangle < 0) hit = face_tree_.closest(point);
         facet = index(hit.triangle);
         Vec3 bulge = shape_.bulge_at(facet, hit.barycentric);
         // Beside a facet, the distance is to the exact edge, so the whole bulge counts. Above a facet, only
-        // the component of the bulge along the normal counts.
+        // the component of the bulge along the normal of the facet counts.
         if (hit.barycentric.minCoeff() > 0) {
             const Vec3 normal = shape_.normal(facet);
             bulge = bulge.dot(normal) * normal;
@@ -234,13 +235,14 @@ private:
 
     // --- the face against the quads -------------------------------------------------------------------
 
-    /// A point of the face whose distance was not settled by nearby quads.
+    /// A point of the face for which no nearby quad is certainly the nearest one.
     struct Left {
         Vec3 point;
         double area = 0;
     };
 
-    /// Compare corners of the facets, and side midpoints and centres on the exact face, with the quads.
+    /// Compare the face with the quads at the corners of its facets and, on the exact face, at the midpoints
+    /// of their sides and at their centres.
     void compare_facets(const FacetWalk& walk, const std::vector<Index>& facet_of_centre)
     {
         const mesh::Incidence over = mesh::incidence(walk.size(), [&](const auto& visit) {
@@ -281,7 +283,7 @@ private:
         compare_left(left);
     }
 
-    /// Compare the unsettled points, using a tree of all quads.
+    /// Compare the remaining points, using a tree of all quads.
     void compare_left(const std::vector<std::vector<Left>>& left)
     {
         std::vector<Left> rest;
@@ -293,7 +295,7 @@ private:
         }));
     }
 
-    /// For each facet, a nearby facet that some quads were projected onto.
+    /// For each facet, the nearest facet above which there are centres of quads.
     [[nodiscard]] static std::vector<Index> nearest_with_quads(const FacetWalk& walk,
                                                                const mesh::Incidence& over)
     {
@@ -310,15 +312,16 @@ private:
                 front.push_back(next);
             }
         }
-        // Facets of a component without quads get any facet that has some.
+        // A component of the face without quads gets any facet that has quads.
         for (Index& facet : near) facet = facet < 0 ? front.front() : facet;
         return near;
     }
 
-    /// The quad of a list nearest to a point, compared with at most `kMost` quads at even steps of the list.
+    /// The quad of a list that is nearest to a point. At most `kMost` quads, at even steps of the list, are
+    /// compared.
     [[nodiscard]] std::size_t nearest_of(std::span<const Index> quads, const Vec3& point) const
     {
-        // Limit of quads that are compared, to bound the time per point; not measured.
+        // Maximum number of quads that are compared, to bound the time per point. Not measured.
         constexpr std::size_t kMost = 16;
         const std::size_t step = (quads.size() + kMost - 1) / kMost;
         double best = kInfinity;
@@ -332,9 +335,9 @@ private:
         return index(nearest);
     }
 
-    /// Upper bound of the distance from a point to the quads, found by walking from quad to quad. Empty if it
-    /// is large.
-    /// @param quad  start of the walk.
+    /// Upper bound of the distance from a point to the quads, found by walking from quad to quad. Empty if
+    /// the bound is large.
+    /// @param quad  the quad where the walk starts.
     [[nodiscard]] std::optional<Sample> compare_near(const mesh::Incidence& round, const Vec3& point,
                                                      double area, std::size_t quad) const
     {
@@ -359,11 +362,11 @@ private:
         return sample;
     }
 
-    /// Walk to the quad below a point. Each step crosses the side that the point is farthest beyond.
+    /// Walk to the quad below a point. Each step crosses the side beyond which the point lies farthest.
     [[nodiscard]] std::size_t walk_across(const mesh::Incidence& round, const Vec3& point,
                                           std::size_t quad) const
     {
-        constexpr int kMostSteps = 64; // bound; longer walks end early. Not measured
+        constexpr int kMostSteps = 64; // longer walks end early, to bound the time. Not measured
         for (int step = 0; step < kMostSteps; ++step) {
             const Quad& q = quads_[quad];
             const std::array<Vec3, 4> c = corners(quad);
@@ -396,8 +399,8 @@ private:
         return box.squaredExteriorDistance(point);
     }
 
-    /// @param over  set to whether the foot point is nearer to the point than to the quad's sides. If so, no
-    ///         other quad is nearer, unless the skin folds back within that distance.
+    /// @param over  output: whether the point is nearer to its foot point than the foot point is to the
+    ///         quad's sides. If so, no other quad is nearer, unless the skin folds back within that distance.
     [[nodiscard]] double distance2_to_quad(const Vec3& point, std::size_t quad, bool& over) const
     {
         const std::array<Vec3, 4> c = corners(quad);
@@ -419,7 +422,7 @@ private:
 
     struct QuadTree {
         geometry::FacetTree tree;
-        std::vector<std::size_t> quad; ///< for each triangle
+        std::vector<std::size_t> quad; ///< quad of each triangle in the tree
     };
 
     [[nodiscard]] QuadTree tree_of_quads() const
@@ -448,10 +451,11 @@ private:
         tally.add(sample, allowed(sample));
     }
 
-    // --- what is kept ---------------------------------------------------------------------------------
+    // --- statistics and result
+    // ---------------------------------------------------------------------------------
 
-    /// Call `body(i, tally)` for all numbers below `count`, in blocks. Block sums are added in order, so the
-    /// result does not depend on the number of threads.
+    /// Call `body(i, tally)` for all numbers `i` below `count`, in blocks. The sums of blocks are added in
+    /// order, so that the result does not depend on the number of threads.
     template <class Body>
     Tally in_blocks(std::size_t count, const Body& body) const
     {
@@ -464,7 +468,7 @@ private:
         return all;
     }
 
-    /// Allowed distance of a sample; larger around a tip.
+    /// Allowed distance of a sample. It is larger around a tip.
     [[nodiscard]] double allowed(const Sample& sample) const
     {
         constexpr double kReach =
@@ -499,8 +503,8 @@ private:
             result_.misfit = Misfit::cut;
     }
 
-    /// Tell deviations by curvature from those by misplaced nodes: if the nodes of a quad lie on the face,
-    /// only the curvature of the face between them causes the deviation.
+    /// Decide whether curvature or misplaced nodes cause a deviation. If the nodes of a quad lie on the face,
+    /// only the curvature of the face between them can be the cause.
     void tell_straight_from_cut()
     {
         constexpr double kOnFace =
@@ -516,8 +520,9 @@ private:
             most = sag;
             result_.side = result_.source_side = (b - a).norm();
             if (mesh_ == nullptr) continue;
-            // Find the corresponding side of the mesh's quad. At order 2, quads are compared in four parts:
-            // take the side of the whole quad that contains this side as a half, or is parallel to it.
+            // Find the corresponding side of the mesh's quad. At order 2, quads are compared in four parts.
+            // The side of the whole quad is then the one that contains this side as a half, or the one
+            // parallel to this side.
             const Index row = mesh_->nodes_per_layer;
             const std::size_t own = mesh_->order() == 1 ? k : (worst_ + 3 * (k % 2)) % 4;
             const Quad whole = mesh::skin_quad(*mesh_, item_[worst_]).nodes;
@@ -560,7 +565,8 @@ Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std
     Skin skin;
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // Nodes of the first and last layer and the rim nodes in between, in the mesh's order, then middle nodes.
+    // Number the nodes of the first and the last layer and the rim nodes in between, in the mesh's order, and
+    // then the middle nodes.
     std::vector<Index> known;
     const Index row = mesh.nodes_per_layer;
     std::set<Index> rim;
@@ -631,7 +637,7 @@ Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::s
     skin.points.insert(skin.points.end(), mesh.middles.nodes.begin(), mesh.middles.nodes.end());
     skin.faces.resize(face_count);
     for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // At order 2 the allowed distance for the parts of a side is that of the whole side.
+    // At order 2 the parts of a side have the same allowed distance as the whole side.
     const auto add = [&](std::size_t i, const Quad& side) {
         SkinOfFace& face = skin.faces[faces[index(mesh.skin_patch[i])].index()];
         const Quad& whole = mesh.skin[i];

@@ -16,13 +16,13 @@ using namespace topology;
 
 namespace {
 
-/// Add positions of rows that end at the start of an edge, or at its end.
+/// Set the positions of the rows that end at one end of an edge.
 void add(RowsOfEdges& rows, EdgeId edge, bool at_end, std::vector<double> places, FaceId face)
 {
     rows[edge][at_end ? 1 : 0] = {std::move(places), face};
 }
 
-/// Add the rows along walls, on the edges of the source.
+/// Add the rows along walls. They end on edges of the source.
 void add_rows_of_walls(const OpenVolume& volume, const surface::LayerTables& tables, RowsOfEdges& rows)
 {
     const surface::RimRows rim = surface::rim_rows(volume, surface::linking_surfaces(volume), tables);
@@ -38,7 +38,7 @@ void add_rows_of_walls(const OpenVolume& volume, const surface::LayerTables& tab
     }
 }
 
-/// Add the rows along ends, on the side lines.
+/// Add the rows along ends. They end on the side lines.
 void add_rows_of_ends(const OpenVolume& volume, const surface::LayerTables& tables, RowsOfEdges& rows)
 {
     for (const Role role : {Role::source, Role::target}) {

@@ -14,14 +14,14 @@ using namespace topology;
 
 namespace {
 
-/// Two facets whose angle is larger than 60° (a cosine below this) count as adjacent, not as one covering the
-/// other. Coarse facets of a curved face differ from fine ones by about 30°. A lower value counts adjacent
-/// faces as overlapping. Not measured.
+/// If the normals of two facets differ by more than 60° (a cosine below this), the facets are adjacent and
+/// neither covers the other. Coarse facets of a curved face differ from fine ones by about 30°. With a lower
+/// value, adjacent faces would count as overlapping. Not measured.
 constexpr double kOver = 0.5;
-/// Pairs of facets between two checks for cancellation.
+/// Number of pairs of facets between two checks for cancellation.
 constexpr std::size_t kLook = 1 << 16;
 
-/// A polygon with heights over a plane, given by positions in the plane. Clipping a triangle by seven lines
+/// A polygon in a plane, with a height over the plane at each corner. Clipping a triangle by seven lines
 /// gives at most ten corners.
 class Clipped {
 public:
@@ -102,7 +102,7 @@ Eigen::AlignedBox3d box_of(const OpenVolume& volume, double margin)
     return box;
 }
 
-/// Distance limits of a pair of facets, in increasing order.
+/// Distance limits of one pair of facets, in increasing order.
 struct Bounds {
     double limit = 0, window = 0, around = 0;
 };
@@ -138,7 +138,7 @@ void add_overlap(const std::array<Vec3, 3>& one, const std::array<Vec3, 3>& othe
         overlap.b.*of += area / std::abs(cosine);
         return area;
     };
-    if (cosine < 0) { // only faces with opposite orientation can be a face that both volumes share
+    if (cosine < 0) { // only faces with opposite orientations can be shared by two volumes
         if (!(add(bounds.around, &OverlapAreas::around) > 0)) return;
         if (!(add(bounds.window, &OverlapAreas::within) > 0)) return;
         for (const Vec3& p : piece.corners()) {

@@ -12,11 +12,11 @@ namespace lacuna::sweep {
 namespace {
 
 /// Up to this height, as a share of the facet's minimum altitude, only adjacent facets can be nearer than the
-/// foot point, so their angles decide whether it is the nearest point. Above, facets at up to 90° are
-/// assumed. Not measured.
+/// foot point. Whether they are follows from their angles. For greater heights, facets at angles of up to 90°
+/// are assumed. Not measured.
 constexpr double kLow = 0.1;
-/// Maximum number of steps of a walk. For points in rows the next facet is one or two steps away. More steps
-/// help only after large jumps, for which a tree is faster. Not measured.
+/// Maximum number of steps of a walk. For points in rows, the next facet is one or two steps away. More steps
+/// would only help after large jumps, and there a tree is faster. Not measured.
 constexpr int kMostSteps = 32;
 
 } // namespace
@@ -86,7 +86,7 @@ std::optional<FacetWalk::Foot> FacetWalk::over(const Vec3& point, Index start) c
         const double height = std::abs(foot.height);
         if (least < -kRoundoff) {
             const Index next = across_[index(now)][(static_cast<std::size_t>(lowest) + 1) % 3];
-            // Beyond both facets, the point is above the edge between them.
+            // The point lies beyond the common side of both facets, so it is above the edge between them.
             if (next == before) return std::nullopt;
             before = now;
             now = next;

@@ -29,7 +29,7 @@ constexpr double kShareAtTip = 1;
 constexpr double kLeastOfModel = 1e-4, kLeastOfFace = 1e-2;
 
 /// Allowed relative difference between the mesh's volume and the sealed volume. A disc with six sides per
-/// turn, the fewest that the size alone permits, loses 17 %, so the value must be higher. Not measured.
+/// turn, the fewest that the size alone permits, loses 17 %, so the limit must be higher. Not measured.
 constexpr double kMostOfVolume = 0.2;
 
 /// The result for a face on which the skin has no quads.
@@ -73,7 +73,7 @@ DeviationLimit limit_of(const Model& model, FaceId face, const FidelityOptions& 
 
 std::string at_place(const Vec3& p) { return place_with_digits(p, 4); }
 
-/// A length a little below `value`, in two digits.
+/// A length a little below `value`, rounded to two digits.
 double rounded_down(double value)
 {
     const double step = std::pow(10, std::floor(std::log10(value)) - 1);
@@ -91,13 +91,13 @@ const FaceFidelity* worst_misfit(const Fidelity& fidelity)
     return worst;
 }
 
-/// Suggest the number of layers, or the size, with which straight sides follow the curvature of a face. The
-/// suggestion is a tenth finer than the sag requires, because side lengths vary.
+/// Suggest the number of layers, or the size, with which straight sides follow the curvature of a face. Side
+/// lengths vary, so the suggestion is a tenth finer than the sag requires.
 Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
                          const FidelityOptions& options)
 {
-    // The sag of a straight side grows with the square of its length; relative to the length, it grows
-    // linearly.
+    // The sag of a straight side is proportional to the square of its length. The ratio of sag and length is
+    // proportional to the length.
     constexpr double kBelow = 0.9;
     const double share = kBelow * face.allowed / face.found;
     const double by = options.max_deviation > 0 ? std::sqrt(share) : share;
@@ -116,9 +116,9 @@ Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
 
 namespace {
 
-/// Compare a skin with the sealed one.
+/// Compare the skin of a mesh with the sealed skin.
 /// @param mesh   as in compare_face()
-/// @param order  of the cells
+/// @param order  order of the cells
 Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order, const Skin& skin,
                  const std::set<FaceId>& kept, double volume_of_mesh, const FidelityOptions& options,
                  const RunContext& context)
@@ -136,7 +136,7 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
     }
     const double sign = result.sealed_volume < 0 ? -1 : 1;
     result.sealed_volume *= sign;
-    // Faces are compared in parallel, because a large face partly runs on one thread only.
+    // Faces are compared in parallel, because the comparison of one large face uses only one thread in part.
     RunContext quiet;
     quiet.threads = context.threads;
     quiet.cancel = context.cancel;
@@ -207,16 +207,17 @@ std::optional<Message> misfit(const Fidelity& fidelity, int layers, const Fideli
             "faces up to {:.2g}{}, may be left out. The sides of quads there are {:.2g} long",
             worst->entity, found(worst->found), place, needed(worst->allowed), limit, worst->side);
     if (worst->misfit == Misfit::folded)
-        return Message(code, "the skin of the mesh folds over on {}: a quad at {} faces into the volume",
+        return Message(code,
+                       "the skin of the mesh folds on {}: the normal of a quad at {} points into the volume",
                        worst->entity, place);
     if (worst->misfit == Misfit::straight)
         return with_finer_sides(
-            Message(code, "{}: the skin of the mesh is {:.2g} off it at {}, more than {:.2g}{}",
+            Message(code, "{}: the skin of the mesh is {:.2g} away from this face at {}, more than {:.2g}{}",
                     worst->entity, found(worst->found), place, needed(worst->allowed), limit),
             *worst, layers, options);
     return Message(code,
-                   "{}: the skin of the mesh is {:.2g} off it at {}, more than {:.2g}{}. The quads there run "
-                   "across an edge of the face; the sides of the largest are {:.2g} long",
+                   "{}: the skin of the mesh is {:.2g} away from this face at {}, more than {:.2g}{}. The "
+                   "quads there run across an edge of the face; the sides of the largest are {:.2g} long",
                    worst->entity, found(worst->found), place, needed(worst->allowed), limit, worst->side);
 }
 

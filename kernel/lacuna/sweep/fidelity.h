@@ -22,7 +22,7 @@ enum class Misfit {
     none,
     no_quads, ///< the face has no quads
     folded,   ///< a quad is inverted against the face
-    /// Nodes are off the face, or a part of the face is off the quads, such as an edge that they cut off.
+    /// Nodes are off the face, or a part of the face is off the quads because they cut off one of its edges.
     cut,
     straight, ///< nodes are on the face, but the face curves between them
 };
@@ -53,7 +53,7 @@ struct FaceFidelity {
 struct Fidelity {
     double volume = 0;        ///< volume of the mesh [model length³]
     double sealed_volume = 0; ///< inside the sealed skin, with exact faces [model length³]
-    /// Volume inside the sealed skin, with exact faces [model length³].
+    /// The largest distance of any face, and the mean over the area of all faces [model length].
     double max_distance = 0, mean_distance = 0;
     std::vector<FaceFidelity> faces; ///< in the model's order
 };
@@ -76,9 +76,9 @@ struct FidelityOptions {
 /// The quads of a face's patch are compared with the face at their nodes, midpoints of sides and centres. The
 /// face is compared with the patch at its facets' corners, midpoints of sides and centres. Faces with an
 /// exact surface are represented by quadratic patches over their facets (`surface::FaceShape`), whose error
-/// is of higher order than that of straight sides. If every patch lies on its face, no quad is inverted and
-/// the skin is closed, then the skin covers each face once. This finds an omitted face, a quad on a wrong
-/// face and a fold even if no distance shows them.
+/// is of higher order than that of straight sides. If every patch of quads lies on its face, no quad is
+/// inverted and the skin is closed, then the skin covers each face once. The comparison therefore finds an
+/// omitted face, a quad on a wrong face and a fold even if no distance shows them.
 /// @param faces   face of each patch of the mesh.
 /// @param kept    faces whose own quads are kept; they are exact and not compared.
 /// @param volume_of_mesh  of the hexahedra, as measured already [model length³].
@@ -100,8 +100,8 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::TetPart& mesh,
 /// the allowed distance. Empty if no face exceeds it.
 std::optional<Message> misfit(const Fidelity& fidelity, int layers, const FidelityOptions& options = {});
 
-/// Check the total volume. The distance check accepts chords over which a face turns by a right angle; this
-/// check finds them.
+/// Check the total volume. The distance check accepts straight sides across a bend of 90°. The volume shows
+/// the error of such sides.
 /// @throw NotSweepable "sweep.deviation"  the mesh's volume differs from the sealed volume by more than a
 ///         fifth.
 void require_volume(const Fidelity& fidelity, int layers);

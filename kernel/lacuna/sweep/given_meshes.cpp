@@ -15,8 +15,8 @@ using namespace topology;
 
 namespace {
 
-/// Points of a face that must become nodes: the points of its quads if they are kept, otherwise those of its
-/// rim.
+/// Points of a face that must become nodes: all points if the face keeps its quads, otherwise the points of
+/// its rim.
 std::set<Index> nodes_to_keep(const Model& model, const Face& face, bool whole)
 {
     std::set<Index> nodes;

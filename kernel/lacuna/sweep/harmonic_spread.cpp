@@ -15,7 +15,7 @@ namespace lacuna::sweep {
 
 NodeGraph node_graph(std::span<const Quad> quads, std::size_t nodes)
 {
-    // List each end of every side as a neighbour of the other end. A side of two quads is listed twice;
+    // List each end of every side as a neighbour of the other end. A side between two quads is listed twice;
     // duplicates are removed below.
     mesh::Incidence offered = mesh::incidence(nodes, [&](const auto& visit) {
         for (const Quad& quad : quads) {
@@ -58,7 +58,7 @@ std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> q
             const Index to = q[(i + 1) % 4];
             const double across = (middle - (at(from) + at(to)) / 2).norm();
             const double length = (at(to) - at(from)).norm();
-            // A quad without width, or a side without length, has no such ratio.
+            // This ratio is undefined for a quad of zero width or a side of zero length.
             const double weight = across > 0 && length > 0 ? across / length : 0.5;
             add(from, to, weight);
             add(to, from, weight);
@@ -76,8 +76,8 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
     for (std::size_t i = 0; i < nodes; ++i) {
         for (const Index next : graph.of(i)) parts.unite(index(next), i);
     }
-    std::vector<Index> position(nodes, -1); // of fixed nodes in `fixed`
-    std::vector<char> has_fixed(nodes, 0);  // for each component, by its root
+    std::vector<Index> position(nodes, -1); // for each fixed node, its index in `fixed`
+    std::vector<char> has_fixed(nodes, 0);  // for each component, by its root node
     for (std::size_t k = 0; k < fixed.size(); ++k) {
         position[index(fixed[k])] = static_cast<Index>(k);
         has_fixed[parts.find(fixed[k])] = 1;
@@ -122,9 +122,9 @@ HarmonicSpread::HarmonicSpread(const NodeGraph& graph, std::span<const double> w
 
 namespace {
 
-/// Forward substitution, division by the diagonal and backward substitution, for a block of right-hand sides,
-/// which is row-major in the factor's order with kPacks packs of numbers per row. The result for one number
-/// does not depend on the size of the block.
+/// Solve for a block of right-hand sides: forward substitution, division by the diagonal and backward
+/// substitution. The rows of the block are in the factor's order, and each row has kPacks packs of numbers.
+/// The result for one number does not depend on the size of the block.
 template <int kPacks>
 LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, const double* diagonal,
                                    double* block)
@@ -139,8 +139,8 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
         for (int k = 0; k < kPacks; ++k) known[k] = row(j)[k];
         int p = begin[j];
         const int end = begin[j + 1];
-        // A column often has the entries of the next column plus one more. Both are then applied in one pass
-        // through memory, with subtractions in the same order.
+        // Often a column of the factor has the entries of the next column plus one more. Both columns are
+        // then applied in one pass through memory. The order of the subtractions stays the same.
         if (p < end && inner[p] == j + 1 && end - p - 1 == begin[j + 2] - end) {
             Four next[kPacks];
             for (int k = 0; k < kPacks; ++k) row(j + 1)[k] = next[k] = row(j + 1)[k] - value[p] * known[k];
@@ -169,7 +169,8 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
     }
 }
 
-/// Solve rows of `kNumbers` with the widest vectors of the machine; bit-identical on every machine.
+/// Solve rows of `kNumbers` numbers with the widest vectors of the machine. The result is bit-identical on
+/// every machine.
 template <int kNumbers>
 void substitute(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXd& diagonal,
                 std::vector<double>& block)
@@ -215,7 +216,7 @@ void HarmonicSpread::add(std::span<const Vec3> values, std::size_t fields, Vec3*
 
 void HarmonicSpread::solve(std::span<Vec3> load) const
 {
-    constexpr Index width = 4; // the last number stays 0
+    constexpr Index width = 4; // three coordinates; the last number stays 0
     std::vector<double> block(static_cast<std::size_t>(lower_.cols()) * width);
     for (std::size_t i = 0; i < place_.size(); ++i) {
         if (place_[i] >= 0) Vec3::Map(&block[index(width * place_[i])]) = load[i];

@@ -11,7 +11,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Exponent of the bias in the height of layer `layer`: with 0 the height is 1, with 1 it is the bias.
+/// The exponent of the bias for the height of layer `layer`: 0 gives the height 1, and 1 gives the bias
+/// itself.
 double exponent(const LayerSpec& spec, int layer)
 {
     if (spec.spacing == Spacing::geometric) {

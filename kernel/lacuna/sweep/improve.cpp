@@ -16,25 +16,25 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Smallest ε of the barrier, relative to a cell's volume. It bounds how flat cells may stay after
-/// untangling. Smaller values make the minimisation ill-conditioned. Not measured.
+/// Smallest ε of the barrier, relative to a cell's volume. It limits how flat cells may stay after
+/// untangling. A smaller value makes the minimisation ill-conditioned. Not measured.
 constexpr double kLeastEpsilon = 1e-3;
-/// Maximum number of untangling rounds, each with a smaller ε, and maximum number of rounds without gain.
-/// Both bound the time spent on cells that cannot be unfolded. Not measured.
+/// Maximum number of untangling rounds, each with a smaller ε, and of consecutive rounds without gain. Both
+/// limit the time spent on cells that cannot be unfolded. Not measured.
 constexpr int kUntanglings = 40;
 constexpr int kPatience = 4;
 /// Minimum decrease of the total shortfall, as a share of it, that counts as a gain while untangling.
 constexpr double kGain = 0.01;
-/// Exponent k in each round of the second stage: low values weigh all poor corners, high values only the
-/// worst.
+/// Exponent k in each round of the second stage. With low values all poor corners have weight, with high
+/// values only the worst ones.
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 /// Weight of the shape energy in the second stage: enough to keep lengths and to prevent folds.
 constexpr double kShapeShare = 1e-3;
 /// Nodes are moved only if the minimum scaled Jacobian rises, or the total shortfall falls, by at least this
 /// share.
 constexpr double kWorthIt = 1e-4;
-/// Decrease of the mean scaled Jacobian that is accepted in return for a higher minimum; `improve()` promises
-/// it.
+/// Largest decrease of the mean scaled Jacobian that is accepted for a higher minimum; part of the contract
+/// of `improve()`.
 constexpr double kMeanGivenUp = 0.01;
 
 class Improver {
@@ -85,7 +85,8 @@ private:
 
     [[nodiscard]] bool out_of_time() const
     {
-        // A mesh that is still folded has the limit to itself, because it would be refused.
+        // A mesh that is still folded would be refused, so work on earlier meshes does not count against its
+        // limit.
         if ((best_quality_.least > 0 ? options_.spent->work : work_) > options_.work) return true;
         if (!(options_.seconds > 0)) return false;
         const auto now = std::chrono::steady_clock::now();
@@ -93,15 +94,16 @@ private:
         return std::chrono::duration<double>(now - *options_.spent->start).count() > options_.seconds;
     }
 
-    /// Whether a region is better: its minimum is higher or, with the same minimum, its shortfall is smaller.
+    /// Whether a region is better than before: its minimum is higher or, with the same minimum, its shortfall
+    /// is smaller.
     static bool is_better(const RegionQuality& found, const RegionQuality& before)
     {
         if (found.least > before.least + kWorthIt) return true;
         return found.least >= before.least && found.lacking < before.lacking * (1 - kWorthIt);
     }
 
-    /// One minimisation that starts from `x`. Every iterate is judged with its sliding nodes projected back
-    /// onto their surfaces; the best iterate is kept.
+    /// Run one minimisation, starting from `x`. Every iterate is judged after its sliding nodes are projected
+    /// back onto their surfaces, and the best iterate is kept.
     void descend(Eigen::VectorXd& x, double mean_floor)
     {
         energy_.set_planes(x);
@@ -175,7 +177,8 @@ private:
                                                                  0.04 * determinant * determinant);
             const double before = best_quality_.least;
             descend(x, -1);
-            // The worst cell may be the last to unfold, so progress of other cells counts as gain too.
+            // The worst cell may be the last to unfold. A smaller total shortfall therefore counts as a gain
+            // too.
             const double lacking = measure(region_, places_at(x), context_).lacking;
             const bool gain = best_quality_.least > before + kWorthIt ||
                               lacking < least_lacking * (1 - kGain);
@@ -187,7 +190,7 @@ private:
 
     void optimise(bool was_folded)
     {
-        // If the mesh was folded, its mean need not be kept.
+        // If the mesh was folded, its mean quality may decrease.
         const double floor = was_folded ? -1 : best_quality_.mean - kMeanGivenUp;
         Eigen::VectorXd x = variables(best_);
         for (const double sharpness : kSharpness) {

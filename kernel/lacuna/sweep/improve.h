@@ -29,8 +29,8 @@ struct ImproveOptions {
     double work = 4e7;        ///< maximum number of cell evaluations, > 0; about 20 seconds of one core
     double seconds = 0;       ///< no step begins after this time, >= 0; 0: only `work` limits
     // `work` counts evaluations instead of time, so that the result is the same on every machine.
-    /// For copies of these options that share the limits `work` and `seconds`; null: each has its own. Cells
-    /// that are folded are not subject to the shared `work`.
+    /// The work and time spent so far, shared by copies of these options; null: each copy has its own limits.
+    /// As long as a mesh has folded cells, only its own work counts.
     std::shared_ptr<ImproveSpent> spent{};
 };
 
@@ -66,7 +66,7 @@ struct Improved {
     double mean_before = 1, mean_after = 1; ///< mean scaled Jacobian of those cells
     bool untangled = false;                 ///< whether some of those cells were folded before
     bool unfinished = false;                ///< stopped by the limit of work or time
-    bool won = false;                       ///< whether nodes were moved in the end
+    bool won = false;                       ///< whether the result has moved nodes
     /// Set if a cell has no volume because of fixed nodes; then nothing was tried.
     std::optional<StuckCorner> stuck{};
 };
@@ -84,9 +84,9 @@ struct Improved {
 ///    and prevents folding.
 ///
 /// @post  the minimum scaled Jacobian is not smaller than before. If no cell was folded, the mean is not
-///         smaller by more than a hundredth. Without improvement nothing is changed. A cell that fixed nodes
-///         keep poor does not block others, because each cell is judged by the distance from its achievable
-///         quality. Sliding nodes lie on their surfaces.
+///         smaller by more than a hundredth. If nothing improves, no node moves. Each cell is judged by its
+///         distance from the quality that its fixed nodes allow, so a cell that cannot improve does not stop
+///         the improvement of others. Sliding nodes lie on their surfaces.
 /// @throw InvalidInput  an option that `check()` refuses.
 /// @note  Deterministic for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
 Improved improve(mesh::HexMesh mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},

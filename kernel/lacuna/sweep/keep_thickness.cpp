@@ -22,12 +22,12 @@ using namespace topology;
 namespace {
 
 /// Maximum number of rounds of moves. Each round corrects errors that the previous round left where cells
-/// bend. Tapered, twisted and bulging walls never needed more.
+/// bend. In tests with tapered, twisted and bulging walls, no more were needed.
 constexpr int kMostCorrections = 8;
 /// A row has converged if its relative thickness error is below this: a tenth of the tolerance.
 constexpr double kMet = kThicknessOff / 10;
 
-/// The required height of a node over one wall; nodes where rows cross have two of these.
+/// The height that a node must have over one wall. A node where rows cross has two of these.
 struct Hold {
     std::size_t column;
     double height;
@@ -110,7 +110,8 @@ private:
         }
     }
 
-    /// Find fixed columns and rows: at corners, on edges between walls, on given meshes.
+    /// Find the columns and rows that must not move: those at corners, on edges between walls, and on given
+    /// meshes.
     void find_still()
     {
         for (std::size_t b = 0; b < parts_.links.size(); ++b) {
@@ -160,8 +161,8 @@ private:
         return normal.stableNormalized();
     }
 
-    /// Mean of the unit normals of the walls at the base of a column. The height along this mean normal is
-    /// the mean of the heights over both walls.
+    /// Mean of the inward unit normals of the walls at the base of a column. The height along this mean
+    /// normal is the mean of the heights over both walls.
     [[nodiscard]] Vec3 normal_of(const RowColumn& column, std::size_t layer) const
     {
         const std::size_t n = parts_.size_of(column.link);
@@ -305,14 +306,14 @@ private:
         put_on_ends();
     }
 
-    /// Whether edges between faces of the source are also edges in this layer.
+    /// Whether edges between faces of an end are also edges of the mesh in this layer.
     [[nodiscard]] bool has_edges(std::size_t layer) const
     {
         return layer == 0 || (layer == layers_ && !parts_.target_edges.empty());
     }
 
-    /// Spread the moves of rims and rows over some layers: those in which edges between faces hold nodes, or
-    /// the others.
+    /// Spread the moves of rims and rows over the inside of some layers: those with mesh edges between faces,
+    /// or those without.
     void spread_moves(const std::vector<Vec3>& before, bool with_edges)
     {
         std::vector<std::size_t> layers;
@@ -342,7 +343,7 @@ private:
         }
     }
 
-    /// Move nodes of rows that end on edges between faces of an end, along these edges.
+    /// Where rows end on edges between faces of an end, move their nodes along these edges.
     void slide_on_inner_edges()
     {
         for (const auto& [edge, chain] : parts_.source.on_edge) {
@@ -365,14 +366,14 @@ private:
         }
     }
 
-    /// Move a node within its layer to its required heights. It keeps its distance from the layer's plane,
-    /// and along the rim it has the same position as on the source.
+    /// Move a node within its layer to its required heights. Its distance from the layer's plane stays the
+    /// same. Its offset along the rim becomes that on the source.
     void move_inside(std::size_t node, const std::vector<Hold>& holders, std::size_t layer)
     {
         const std::size_t holds = std::min<std::size_t>(holders.size(), 2);
         const RowColumn& own = columns_[holders[0].column];
         const Vec3& foot = at(layer, parts_.rim_node(own.link, own.node));
-        // The layer's normal is taken at the last row, where quads are larger than in thin rows.
+        // Take the layer's normal at the last row, where quads are larger than in thin rows.
         const Vec3 up = layer_normal(index(own.nodes.back()), layer);
         const Vec3 raised = up * up.dot(at(layer, node) - foot);
         if (holds == 1) {
@@ -400,14 +401,14 @@ private:
         const double a = normal[0].dot(within[0]), b = normal[0].dot(within[1]), c = normal[1].dot(within[0]),
                      d = normal[1].dot(within[1]);
         const double det = a * d - b * c;
-        // Two walls that form a smaller angle [radian] count as one wall; not measured.
+        // If the angle between two walls is smaller than this [radian], the walls count as one. Not measured.
         constexpr double kSameWay = 1e-3;
         if (!(a > 0 && det > kSameWay * a * d)) return;
         at(layer, node) += within[0] * ((d * off[0] - b * off[1]) / det) +
                            within[1] * ((a * off[1] - c * off[0]) / det);
     }
 
-    /// Move nodes of rows that end on other walls to the required heights, along the layer's rim. The nodes
+    /// Where rows end on other walls, move their nodes along the layer's rim to the required heights. Nodes
     /// beyond the rows move in proportion.
     void slide_on_walls()
     {
@@ -448,16 +449,16 @@ private:
         }
     }
 
-    /// Required heights at one end of a line of nodes.
+    /// Required heights at one end of a line of nodes, given by a table.
     struct HeightsOver {
-        int table = -1; ///< none
+        int table = -1; ///< index of the table; -1: none
         Vec3 normal = Vec3::Zero();
     };
     using Places = std::map<std::size_t, double>;
 
-    /// Positions on a line of nodes, in units of its sides: of its two ends, of the nodes in `still`, and of
-    /// nodes with required heights over its start or end. Empty if there is not enough room; the final check
-    /// of the thickness then reports it.
+    /// Positions on a line of nodes, in units of its sides, of three kinds of nodes: both ends, the nodes in
+    /// `still`, and nodes with required heights over either end. Empty if there is not enough room; the final
+    /// check of the thickness then reports the misfit.
     [[nodiscard]] std::optional<Places> places_at(const std::vector<Vec3>& line,
                                                   const std::array<HeightsOver, 2>& ends,
                                                   const std::set<std::size_t>& still = {}) const
@@ -483,7 +484,7 @@ private:
         return place;
     }
 
-    /// Positions on a line for the nodes of rows that end there, over the columns at both ends of the line.
+    /// Positions on a line for the nodes of rows that end on it, over the columns at both ends of the line.
     [[nodiscard]] std::optional<Places> row_places(const std::vector<Vec3>& line, std::size_t layer,
                                                    const RowColumn* low, const RowColumn* high) const
     {
@@ -493,8 +494,8 @@ private:
         return places_at(line, {over(low), over(high)});
     }
 
-    /// Move the nodes between two corners of the rim to new positions along it. On the rim of an end they
-    /// stay on the exact edges.
+    /// Move the nodes between two corners of the rim to new positions along the rim. On the rim of an end,
+    /// nodes stay on the exact edges.
     void move_along(std::size_t b, std::size_t first, std::size_t layer, const std::vector<Vec3>& line,
                     const std::vector<std::pair<std::size_t, double>>& moved)
     {
@@ -525,7 +526,7 @@ private:
         for (std::size_t i = 0; i < nodes.size(); ++i) at(layer, nodes[i]) = points[i];
     }
 
-    /// Project nodes of both ends that lie within one face back onto it.
+    /// Project the nodes of both ends that lie inside one face back onto that face.
     void put_on_ends()
     {
         for (const std::size_t end : {0, 1}) {
@@ -540,8 +541,8 @@ private:
                 const FaceId face = faces[index(around.front())];
                 const bool one = std::ranges::all_of(around,
                                                      [&](Index q) { return faces[index(q)] == face; });
-                // Facets of a void end do not reach its curved rim everywhere, so nodes of rows are not
-                // projected onto them.
+                // The facets of a void end may not reach its curved rim, so nodes of rows are not projected
+                // onto these facets.
                 const bool near_rim = model_[face].origin == Origin::made_void &&
                                       row_nodes_.contains(static_cast<Index>(node));
                 if (one && !near_rim && model_[face].kind != "plane") on_face[face].push_back(node);
@@ -575,8 +576,8 @@ private:
         put_on_walls();
     }
 
-    /// Nodes on walls moved along their columns: project them back onto the walls and the edges between
-    /// walls.
+    /// Project nodes on walls, which have moved along their columns, back onto the walls and the edges
+    /// between walls.
     void put_on_walls()
     {
         std::map<std::pair<FaceId, std::size_t>, std::vector<std::size_t>> on_wall;
@@ -617,7 +618,7 @@ private:
     std::vector<std::vector<char>> still_column_;
     std::set<std::size_t> still_layers_;
     mesh::Incidence quads_at_;
-    /// One for layers without inner edges, one for layers with them.
+    /// The first for layers without inner edges, the second for layers with inner edges.
     std::array<std::optional<HarmonicSpread>, 2> spread_;
     std::map<FaceId, surface::Projector> projectors_;
 };

@@ -9,8 +9,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Columns of a matrix that are multiplied with a node and added in this order: the first, second and third
-/// for x and y; the second, third and first for z. The fourth number is unused.
+/// The columns of a matrix. They are multiplied with the coordinates of a node and added in this order:
+/// first, second, third for x and y; second, third, first for z. The fourth number is unused.
 struct Columns {
     Four column[3];
 };
@@ -23,7 +23,7 @@ Columns columns_of(const Eigen::Matrix3d& matrix)
     return columns;
 }
 
-/// A layer's map, and the output position of its nodes.
+/// A layer's map, and the output position of its first node.
 struct Layer {
     Columns from_source, from_target;
     Four shift;
@@ -31,7 +31,7 @@ struct Layer {
 };
 using Layers = std::array<Layer, HarmonicSpread::kFields>;
 
-/// The factors with which the columns are multiplied.
+/// The coordinates with which the columns are multiplied.
 struct Factors {
     Four first, second, third;
 
@@ -44,7 +44,8 @@ struct Factors {
     }
 };
 
-/// Prefetch residuals, which are stored in another order than nodes.
+/// The residual of node `i`. Residuals are stored in another order than nodes, so that of a later node is
+/// prefetched.
 LACUNA_INLINE const double* residual_of(const HarmonicSpread::Fields* residuals, std::size_t i,
                                         std::size_t end)
 {

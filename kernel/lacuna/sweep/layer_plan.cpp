@@ -13,7 +13,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A plan and the data computed from it to place its nodes.
+/// A plan, and the data that are computed from it to place its nodes.
 struct Placed {
     std::shared_ptr<const LayerPlan> plan;
     std::vector<Index> on_rim; ///< for each source node, its index on the rim; -1: inside
@@ -46,7 +46,7 @@ void put_plan(A& with, Plan& plan)
     with(plan.options), with(plan.laid), with(plan.middles);
 }
 
-/// The layers, with the skin nodes that the plan moves.
+/// The layers, with the nodes of the skin at the positions to which the plan moves them.
 mesh::LayeredNodes laid_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<const LayerPlan>& plan)
 {
     if (plan->laid.empty()) return nodes;
@@ -113,7 +113,7 @@ mesh::LayeredNodes curved_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<
     return nodes;
 }
 
-/// Measure the share of the layers that belongs to one process of a team.
+/// Measure the share of the layers that this process of a team is responsible for.
 LayersFound find_in_share(const PlacedLayers& layers, double least, const Team* team,
                           const RunContext& context)
 {

@@ -148,7 +148,7 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
         return true;
     });
     const NodeGraph graph = node_graph(source_.quads, source_.nodes.size());
-    // Both ends contribute, so that the result does not depend on which one is the source.
+    // Both ends contribute to the weights, so that the result does not depend on which end is the source.
     const std::array<std::span<const Vec3>, 2> ends{source_.nodes, target_};
     std::array<std::vector<double>, 2> weights;
     parallel_each(context, 2, 1,
@@ -188,8 +188,8 @@ void LayerPlacer::place(int first, int last, std::span<Vec3> out, const RunConte
             });
         });
     } else {
-        // A chunk of both ends takes 24 kB. It stays in the first-level cache until all its layers are
-        // written.
+        // A chunk of nodes of both ends takes 24 kB. It stays in the first-level cache until the nodes of all
+        // layers are written.
         constexpr std::size_t kChunk = 512;
         parallel_for(context, nodes, kChunk, [&](std::size_t begin, std::size_t end) {
             each_group(0, index(groups), [&](Vec3* layer, std::size_t i, std::size_t count) {

@@ -29,8 +29,8 @@ LevelBlend::LevelBlend(const mesh::HexMesh& mesh)
 {
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads, mesh.nodes_per_layer);
     std::vector<std::uint8_t> seen(mesh.middles.sides.size(), 0);
-    // A side is directed as in its quad. The neighbouring quad has the side in the opposite direction, so it
-    // is reversed there, and directions stay parallel from quad to quad.
+    // A side has the direction that its quad gives it. The neighbouring quad has this side in the opposite
+    // direction, so the walk reverses it there. Directions thus stay parallel from quad to quad.
     const auto walk = [&](std::size_t start) {
         const std::size_t begin = steps_.size();
         bool closed = false;
@@ -60,7 +60,8 @@ LevelBlend::LevelBlend(const mesh::HexMesh& mesh)
                 walk(side);
 }
 
-/// For each chord with known sides, call `take` for its sides with the blended bend in local coordinates.
+/// For each chord with known sides, call `take` with each of its sides, the side's frame and the blended bend
+/// in that frame.
 template <class Take>
 void LevelBlend::each_chord(const Vec3* nodes, const std::vector<std::uint8_t>& known,
                             const std::vector<Vec3>& bend, const Take& take) const
@@ -90,7 +91,7 @@ void LevelBlend::each_chord(const Vec3* nodes, const std::vector<std::uint8_t>& 
         local.resize(knots.size());
         for (std::size_t k = 0; k < knots.size(); ++k)
             local[k] = frame(knots[k]).local(bend[index(step(knots[k]).side)]);
-        // From knot to knot; in a closed chord also from the last to the first.
+        // Interpolate from each known side to the next; in a closed chord also from the last to the first.
         const std::size_t spans = knots.size() - (chord.closed ? 0 : 1);
         for (std::size_t k = 0; k < knots.size(); ++k) take(step(knots[k]).side, frame(knots[k]), local[k]);
         for (std::size_t k = 0; k < spans; ++k) {
@@ -140,7 +141,7 @@ ColumnWindow column_window(int layers, int layer)
 
 Vec3 column_bend(std::span<const Vec3> column, std::size_t low)
 {
-    constexpr double kMost = 0.2; // of the side; beyond a quarter, cells invert
+    constexpr double kMost = 0.2; // share of the side's length; from a quarter on, cells invert
     const std::size_t count = column.size();
     std::array<double, ColumnWindow::kMost> t{};
     for (std::size_t i = 1; i < count; ++i) t[i] = t[i - 1] + (column[i] - column[i - 1]).norm();

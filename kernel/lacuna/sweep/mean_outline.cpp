@@ -23,8 +23,8 @@ namespace {
 /// Maximum corner angle of a quad on either end. It decides how many quads meet at a rim node. Not measured.
 constexpr double kWidest = 150 * kDegree;
 /// Amounts by which the angle at a node of the mean outline may be smaller than the right angles of its
-/// quads. From 45° on, one quad fewer would be made. A node that lacks more than the first value is moved
-/// inward until it lacks the second. Not measured.
+/// quads. If it is smaller by more than the first value, the node is moved inward until the difference is the
+/// second value. From 45° on, the paver would place one quad fewer there. Not measured.
 constexpr double kMayLack = 40 * kDegree, kLacks = 30 * kDegree;
 
 /// Interior angle at b [0, 2 π); the region lies to the left of a, b, c.
@@ -60,7 +60,8 @@ FlatRims flat_rims(const mesh::QuadMesh& source, const RimColumns& columns)
     return rims;
 }
 
-/// Move nodes of a loop inward where the mean outline has less room than the larger angle of both ends needs.
+/// Move nodes of a loop inward where the angle of the mean outline is too small for the larger of the two
+/// angles at the ends.
 void draw_in(const std::vector<Index>& loop, FlatRims& rims)
 {
     const std::size_t n = loop.size();
@@ -86,7 +87,7 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
                                  const quads::PlanarQuadMesher& mesher, const RunContext& context)
 {
     const std::vector<FaceId> faces = volume.faces(Role::source);
-    // The region consists of the rim nodes only, numbered like the columns.
+    // The region consists of the rim nodes only, in the order of the columns.
     FlatRims rims = flat_rims(source.quads, columns);
     quads::PlanarRegion region;
     double largest = 0;

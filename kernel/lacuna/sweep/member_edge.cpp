@@ -12,9 +12,9 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// The mean points of one closed curve, computed from two sets of chords, may differ by this share of the
-/// chords' sag. A higher value takes different curves for the same one; a lower value separates equal curves
-/// with different chords. Not measured.
+/// The mean points of one closed curve, computed from two different sets of chords, may differ by this share
+/// of the chords' sag. With a higher value, different curves would count as one; with a lower value, one
+/// curve with different chords would count as two. Not measured.
 constexpr double kSameCentre = 0.2;
 
 } // namespace
@@ -45,8 +45,8 @@ bool is_same(const MemberEdge& a, const MemberEdge& b, double tolerance)
     const double slack = tolerance + kSameMiddle * a.length;
     if (a.closed != b.closed || std::abs(a.length - b.length) > slack) return false;
     if (a.closed) {
-        // Two sets of chords of the same curve differ by at most their sag, and their mean points differ much
-        // less.
+        // Boxes around two sets of chords of one curve differ by at most the sag of the chords, and mean
+        // points by much less.
         const double off = tolerance + 2 * std::max(a.sag, b.sag);
         return (a.box.min() - b.box.min()).norm() <= off && (a.box.max() - b.box.max()).norm() <= off &&
                (a.centre - b.centre).norm() <= tolerance + kSameCentre * std::max(a.sag, b.sag);

@@ -31,7 +31,7 @@ SkinPlaces::SkinPlaces(const mesh::HexMesh& mesh) : layers_(index(mesh.layers))
     }
 }
 
-/// The corner nodes of some levels, generated if the mesh does not hold them.
+/// The corner nodes of some levels. They are generated if the mesh does not hold them.
 class MiddlePlacer::Corners {
 public:
     /// Corner nodes of levels [first, last).
@@ -83,8 +83,8 @@ std::vector<Vec3> MiddlePlacer::bends_of_end(int level, const Vec3* nodes) const
     return bends;
 }
 
-/// Blend the bends of the ends over the levels. A level's relative position follows from the mean of its
-/// nodes.
+/// Blend the bends of the ends over the levels. The relative height of a level is computed from the mean of
+/// its nodes.
 void MiddlePlacer::blend_ends(const RunContext& context)
 {
     for (const int level : {0, mesh_.layers}) {
@@ -121,7 +121,8 @@ void MiddlePlacer::bend_columns(const RunContext& context)
 {
     std::vector<Index> rim;
     for (const Segment& side : mesh_.rim) rim.push_back(side[0]);
-    // Maximum bend of the rim's columns relative to the side: in all, and without the cubics.
+    // Largest bend of a column of the rim relative to its side: the whole bend, and the bend minus that of
+    // the cubic.
     double most = 0, left = 0;
     beyond_.resize(index(mesh_.layers) * rim.size());
     for (int l = 0; l < mesh_.layers; ++l) {
@@ -154,7 +155,8 @@ void MiddlePlacer::place(int first, int last, std::span<Vec3> out, const RunCont
     const Corners corners(corners_, low.first, std::max(high.first + high.count, last + 1), context);
     const std::size_t period = places_.side(1, 0), on_level = places_.upright(0, 0);
     const auto layers = index(last - first);
-    // Call `visit` for each level or layer; its nodes begin `skip` places after those of its lower level.
+    // Call `visit` for each of `count` levels or layers, with the output position of its nodes. This is
+    // `skip` entries after the first entry of the level, or of the level below the layer.
     const auto each = [&](std::size_t count, std::size_t skip, const auto& visit) {
         parallel_each(context, count, 1,
                       [&](std::size_t i) { visit(first + static_cast<int>(i), &out[i * period + skip]); });
@@ -171,7 +173,8 @@ void MiddlePlacer::place(int first, int last, std::span<Vec3> out, const RunCont
     each(layers, 0, [&](int l, Vec3* at) { place_layer_centres(l, corners, at); });
 }
 
-/// Place the middles of sides on a level: rim sides as on the skin, the others blended from these.
+/// Place the middles of sides on a level. The middles of rim sides are those of the skin; the others are
+/// blended from the rim's.
 void MiddlePlacer::place_level(int level, const Corners& corners, Vec3* out) const
 {
     const Vec3* nodes = corners.level(level);
@@ -198,7 +201,7 @@ void MiddlePlacer::place_level(int level, const Corners& corners, Vec3* out) con
         if (rim_side_[s] == 0) out[s] += bends[s];
 }
 
-/// Place the middles of the upright sides of a layer.
+/// Place the middles of the sides that run from level to level in a layer.
 void MiddlePlacer::place_columns(int layer, const Corners& corners, Vec3* out) const
 {
     const auto [first, count] = column_window(mesh_.layers, layer);
@@ -236,8 +239,8 @@ void MiddlePlacer::place_level_centres(int level, const Corners& corners, Vec3* 
     }
 }
 
-/// Place the centres of the faces over the sides of a level, and of the cells. @param out  starts at the
-/// level below
+/// Place the centres of the faces that stand on the sides of a level, and of the cells above it. @param
+/// out  output position of the level below
 void MiddlePlacer::place_layer_centres(int layer, const Corners& corners, Vec3* out) const
 {
     const Vec3 *below = corners.level(layer), *above = corners.level(layer + 1);

@@ -19,7 +19,7 @@ namespace {
 
 /// A side of the skin. Its two quads may lie in different patches.
 struct SkinSide {
-    std::size_t place = 0; ///< index of its middle node
+    std::size_t place = 0; ///< index of the middle node of this side
     Index from = 0, to = 0;
     Index patch = -1, other = -1;
 };
@@ -49,7 +49,7 @@ std::vector<SkinSide> skin_sides(const mesh::HexMesh& mesh)
     return sides;
 }
 
-/// Whether the skin has the given quads of a face.
+/// Whether a face has given quads that the skin keeps.
 bool keeps_quads(const Face& face) { return face.keeps_nodes && !face.given_quads.empty(); }
 
 class SkinPlacer {
@@ -85,7 +85,7 @@ private:
     {
         return (corners_[side.from] + corners_[side.to]) / 2;
     }
-    /// The sides whose middles are not placed yet.
+    /// The wanted sides whose middles are not placed yet.
     template <class Wanted>
     [[nodiscard]] std::vector<const SkinSide*> open_sides(const Wanted& wanted) const
     {
@@ -94,7 +94,7 @@ private:
             if (skin_.state(side.place) == Middle::open && wanted(side)) open.push_back(&side);
         return open;
     }
-    /// Place sides on geometry. @param find  `middles_on_edges` or `middles_on_faces`
+    /// Place the middles of sides on geometry. @param find  `middles_on_edges` or `middles_on_faces`
     template <class Find>
     void place_on(const std::vector<const SkinSide*>& sides, const Find& find)
     {
@@ -138,7 +138,7 @@ private:
         place_on(open_sides(between), middles_on_edges);
     }
 
-    /// Keep the sides of a given mesh of order 1 straight.
+    /// Keep sides of faces with given quads straight if no middle node is given.
     void keep_straight()
     {
         for (const SkinSide& side : sides_)
@@ -147,7 +147,7 @@ private:
                 skin_.set(side.place, Middle::settled);
     }
 
-    /// The corner node over source node `node` on a level.
+    /// The corner node on a level that corresponds to source node `node`.
     [[nodiscard]] Vec3 corner(int level, Index node) const
     {
         return corners_[level * mesh_.nodes_per_layer + node];
@@ -178,8 +178,8 @@ private:
             if (known[s] == 0) skin_.node(place(s)) = between(s) + bends[s];
     }
 
-    /// Place sides along the rows of walls: their bend is blended from known rows above and below, in frames
-    /// that rotate with the wall.
+    /// Place the middles of sides that run around the walls. The bend of such a side is blended from known
+    /// sides above and below it, in frames that rotate with the wall.
     void blend_rows()
     {
         const auto levels = index(mesh_.layers) + 1;
@@ -230,7 +230,7 @@ private:
             }
     }
 
-    /// @param ends  whether to project onto the faces of source and target; otherwise onto walls.
+    /// @param ends  true: project onto the faces of source and target; false: onto walls.
     void project(bool ends)
     {
         const std::size_t first_on_walls = places_.upright(0, 0);
@@ -260,8 +260,8 @@ private:
         return found;
     }
 
-    /// Place the centres of the skin's quads: given centres, or the means from the middles of their sides,
-    /// projected if the face requires it.
+    /// Place the centres of the skin's quads. A centre is the given one, or it is interpolated from the
+    /// middles of the quad's sides and projected if the face requires it.
     void place_centres()
     {
         const std::vector<Vec3> given = given_centres();
@@ -292,7 +292,8 @@ private:
             for (const std::size_t place : places) points.push_back(skin_.node(place));
             surface::Projector(model_, {face}).project(points, context_);
             for (std::size_t i = 0; i < places.size(); ++i) {
-                constexpr double kRounding = 1e-14; // of the model; below it, flat quads stay exactly flat
+                // Of the model's size; smaller moves are left out, so that flat quads stay exactly flat.
+                constexpr double kRounding = 1e-14;
                 Vec3& at = skin_.node(places[i]);
                 if ((points[i] - at).norm() > kRounding * model_.diagonal) at = points[i];
                 skin_.set(places[i], Middle::settled);

@@ -15,14 +15,14 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// A mesh counts as being as good as the source if its worst quad is worse by at most this. A higher value
-/// smooths less often. Not measured.
+/// A mesh counts as equally good as the source if its worst quad is worse by at most this. With a higher
+/// value, smoothing runs less often. Not measured.
 constexpr double kSameQuality = 0.01;
 /// If the worst quad of the morphed mesh is below this share of the source's worst quad, other starting
 /// positions are tried. Not measured.
 constexpr double kStandsUp = 0.5;
 
-/// The mesh's graph, and its factorisation with the rim fixed.
+/// The graph of a mesh, and the factorisation of its Laplacian with the rim fixed.
 struct Spreader {
     NodeGraph graph;
     std::vector<double> weights;
@@ -35,7 +35,7 @@ struct Spreader {
     {
     }
 };
-/// Returns the spreader, which is created on first use: affine images on planes need none.
+/// Returns the spreader, which is created when it is first used: affine images on planes do not need it.
 using AskSpreader = std::function<const Spreader&()>;
 
 struct Guess {
@@ -50,8 +50,8 @@ void put_rim(const RimColumns& columns, std::vector<Vec3>& nodes)
     for (std::size_t k = 0; k < high.size(); ++k) nodes[index(columns.rim[k])] = high[k];
 }
 
-/// The source mapped by `base`. The distance of each mapped rim node from its required position is spread
-/// harmonically over the inside.
+/// The source mapped by `base`. The difference between each mapped rim node and its required position is
+/// spread harmonically over the inside.
 std::vector<Vec3> image_by(const std::function<Vec3(const Vec3&)>& base, const mesh::QuadMesh& source,
                            const RimColumns& columns, const AskSpreader& spreader, const RunContext& context)
 {
@@ -96,7 +96,7 @@ std::vector<Index> nodes_off_rim(const mesh::QuadMesh& source, const RimColumns&
     return result;
 }
 
-/// Nodes of a mesh, and its worst quad.
+/// Nodes of a mesh, and the quality of its worst quad.
 struct Candidate {
     std::vector<Vec3> nodes;
     double worst = -1;
@@ -109,8 +109,8 @@ double largest_move(std::span<const Vec3> from, std::span<const Vec3> to)
     return largest;
 }
 
-/// A membrane that is spanned by the rim and bulges under pressure; its height is the rim's radius. Empty if
-/// the rim encloses no area.
+/// A membrane that spans the rim and bulges under pressure, scaled so that its height is the rim's radius.
+/// Empty if the rim encloses no area.
 std::vector<Vec3> membrane(const mesh::QuadMesh& source, const RimColumns& columns,
                            const AskSpreader& spreader)
 {
@@ -157,8 +157,8 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
     result.worst_source = worst_quad(source.quads, source.nodes, context);
     result.report = guess.affine ? "affine image of the source" : "fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes, context)};
-    // If the map of the rims is affine, the quality it costs is due to the rims; smoothing can regain only
-    // the rest.
+    // If the map of the rims is affine, the quality lost by this map is due to the rims. Smoothing can only
+    // regain the quality that the projection loses.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
     if (project && !free_nodes.empty()) {
         Candidate projected{guess.nodes, -1};
@@ -183,20 +183,21 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
             start = std::move(unprojected);
             result.report += words;
         };
-        // Start from the source, displaced like its rim. This suits a skin far from its rims, such as a bent
-        // tube swept through its thickness. An affine fit of the rims alone means nothing there.
+        // Start from the source, with its nodes displaced like its rim. This suits a skin far from its rims,
+        // such as a bent tube that is swept through its thickness. There an affine fit of the rims does not
+        // describe the inside.
         if (before < good_enough && !guess.affine)
             start_from(image_by([](const Vec3& p) { return p; }, source, columns, spreader, context),
                        ", from the source moved with its rim");
-        // Start from the harmonic image, in which every inner node is the weighted mean of its neighbours. In
-        // this image, raised parts of the source (pockets, bosses, steps) lie side by side; in an affine one
+        // Start from the harmonic image, in which every inner node is the weighted mean of its neighbours.
+        // There, raised parts of the source (pockets, bosses, steps) lie side by side. In an affine image
         // they would overlap.
         if (found.worst < kStandsUp * good_enough && !columns.rim.empty())
             start_from(
                 image_by([](const Vec3&) { return Vec3(Vec3::Zero()); }, source, columns, spreader, context),
                 ", from its harmonic image");
-        // Start from a membrane. In a deep bowl above a flat rim, the points of the surface that are closest
-        // to a flat start crowd at the rim.
+        // Start from a membrane. With a flat start in a deep bowl above a flat rim, the closest points of the
+        // surface would crowd at the rim.
         if (found.worst < kStandsUp * good_enough) {
             const std::vector<Vec3> flat = start, bulge = membrane(source, columns, spreader);
             for (const double height : {0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0}) {

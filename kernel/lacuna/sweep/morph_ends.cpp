@@ -18,7 +18,8 @@ using namespace topology;
 
 namespace {
 
-/// Target positions of the source nodes that are known before any face is filled; empty for other nodes.
+/// Target positions of the source nodes on the rim and on imprinted edges; empty for other nodes. They are
+/// known before any face is filled.
 std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source, const RimColumns& columns,
                                               const surface::Seeds& seeds, const surface::Imprint& imprint)
 {
@@ -41,8 +42,8 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
 /// The quads on one target face as a separate mesh.
 struct Part {
     mesh::QuadMesh mesh;
-    std::vector<Index> node; ///< node of the whole mesh, for each node
-    RimColumns columns;      ///< one layer
+    std::vector<Index> node; ///< for each node, its number in the whole mesh
+    RimColumns columns;      ///< columns of one layer over the rim of the part
 };
 
 Part part_of(const mesh::QuadMesh& whole, const std::vector<Quad>& quads,

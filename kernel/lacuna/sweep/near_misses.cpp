@@ -23,29 +23,30 @@ using namespace topology;
 namespace {
 
 /// A gap wider than this share of the smaller member is intended, whatever the tolerance. The value is half
-/// of the largest tolerance that a model can have. A higher value reports more intended gaps. Not measured.
+/// of the largest tolerance that a model can have. With a higher value, more intended gaps would be reported.
+/// Not measured.
 constexpr double kWidest = 5e-3;
-/// Minimum share of the area closer than four windows that is also closer than one window. Between faces that
-/// diverge linearly the share is a quarter; between faces that curve away from a contact it is a half.
+/// Two faces stay near each other if at least this share of the area closer than four windows is also closer
+/// than one window. The share is a quarter between faces that diverge linearly, and a half between faces that
+/// curve away from a contact.
 constexpr double kStaysNear = 0.6;
-/// Minimum share of a face, or of an edge, that is near the other member. A smaller part counts only if it is
-/// wider on average than the window or, along an edge, longer than `kCorner` windows.
+/// Least share of a face, or of an edge, that must be near the other member. A smaller part counts if its
+/// mean width exceeds the window or, along an edge, if it is longer than `kCorner` windows.
 constexpr double kPart = 0.05;
-/// Vertices of two rims correspond if their distance is at most this many times the distance of the rims. At
-/// corners of 30°, vertices are nearly four times as far apart as the sides.
+/// Two vertices of two rims correspond if their distance is at most this many times the distance of the rims.
+/// At corners of 30°, corresponding vertices are nearly four times as far apart as the sides.
 constexpr double kCorner = 4;
-/// If more than this share of the area within the window is not within the tolerance, the faces coincide only
-/// in part.
+/// If a larger share of the area within the window is beyond the tolerance, the faces coincide only in part.
 constexpr double kApart = 0.05;
-/// Factor on the tolerance for parts that were split off faces: corners were moved onto the other face and
-/// along its rim, each time within the tolerance, so the total may reach √2 times the tolerance.
+/// Factor on the tolerance for parts that were split off faces. Their corners were moved onto the other face
+/// and then along its rim, each time within the tolerance, so the total may reach √2 times the tolerance.
 constexpr double kLaid = 1.5;
 /// A face counts as covered entirely if at least this share of it is covered.
 constexpr double kWhole = 0.98;
 /// Number of sample points on an edge.
 constexpr int kPlacesAsked = 64;
 
-/// Vertices of a face's rim, except those at which closed edges start.
+/// Vertices of a face's rim, without the start points of closed edges.
 std::vector<Vec3> corners_of(const Model& model, FaceId face)
 {
     std::vector<Vec3> corners;
@@ -123,7 +124,7 @@ public:
         }
     }
 
-    /// Find edges of either member that run along faces of the other.
+    /// Find edges of either member that run close to faces of the other.
     void find_edges(std::vector<NearMiss>& found, const RunContext& context)
     {
         find_edges(pair_.a, one_, pair_.b, other_, found, context);
@@ -260,7 +261,7 @@ private:
         }
     }
 
-    /// Whether a near miss was found between this face and a face of the other member.
+    /// Whether this face is in a near miss with a face of the other member.
     [[nodiscard]] bool is_near(std::size_t member, FaceId face) const
     {
         return std::ranges::any_of(near_, [&](const Faces& faces) {

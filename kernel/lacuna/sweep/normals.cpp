@@ -47,7 +47,8 @@ LayerNodes place_along_normals(const mesh::QuadMesh& source, std::span<const Vec
     result.nodes = layer;
     for (int l = 1; l < columns.layers; ++l) {
         check_cancelled(context);
-        // Spread the rim's steps along node normals over the inside; the first coordinate holds the step.
+        // Spread the rim's steps along node normals over the inside. The first coordinate of the vectors
+        // holds the length of the step.
         const std::vector<Vec3> normals = node_normals(source.quads, layer);
         const std::span<const Vec3> low = columns.row(l - 1), high = columns.row(l);
         std::vector<Vec3> steps(columns.rim.size()), step(count, Vec3::Zero());

@@ -23,7 +23,8 @@ using surface::FaceNames;
 
 namespace {
 
-/// Rounding error of a rotated point, in steps of the grid: about ten operations act on its coordinates.
+/// Rounding error of a rotated point, in steps of the grid. About ten operations are applied to its
+/// coordinates.
 constexpr double kRounding = 16;
 
 /// A face of a member.
@@ -36,7 +37,7 @@ struct MemberFace {
 struct Side {
     std::vector<MemberFace> faces;
     std::vector<MemberEdge> edges;
-    std::vector<Vec3> marks;    ///< ends and middles of edges, centres of closed ones
+    std::vector<Vec3> marks;    ///< ends and middles of edges; for closed edges, their centres
     Vec3 centre = Vec3::Zero(); ///< mean point of the edges
     Vec3 normal = Vec3::Zero(); ///< sum of the area vectors
     double area = 0, reach = 0; ///< total area; largest distance of a mark from the centre
@@ -151,7 +152,8 @@ private:
                                .remedy("name faces of the same shape, or give 'translate' or 'rotate'"));
     }
 
-    /// The image of each edge of the first side; empty if an edge has no image.
+    /// For each edge of the first side, the index of its image on the second side. Empty if an edge has no
+    /// image.
     std::vector<std::size_t> images(const Isometry3d& onto)
     {
         std::vector<std::size_t> image;
@@ -198,8 +200,8 @@ private:
         return std::abs(x.axis().dot(a.translation())) < std::abs(y.axis().dot(b.translation()));
     }
 
-    /// The rotations that take centre and normal of the first side to the centre and the reversed normal of
-    /// the other.
+    /// The rotations that move the centre of the first side to the centre of the second, and the normal of
+    /// the first side to the reversed normal of the second.
     [[nodiscard]] std::vector<Isometry3d> rotations() const
     {
         std::vector<Isometry3d> found;
@@ -215,8 +217,8 @@ private:
             found.push_back(motion);
         };
         add(tilt);
-        // Each axis is the normal through the centre. Take the mark farthest from the first axis to every
-        // mark that is equally far from the other axis.
+        // Both sides have an axis: the normal through the centre. Rotate the mark that is farthest from the
+        // first axis to each mark that is equally far from the other axis.
         const auto across = [](const Vec3& p, const Vec3& centre, const Vec3& normal) {
             return Vec3(p - centre - normal * normal.dot(p - centre));
         };
@@ -232,8 +234,8 @@ private:
         return found;
     }
 
-    /// Fit a motion to pairs of edges, by the ends and centres of edges and of their images under the given
-    /// motion. Empty unless the result maps all edges.
+    /// Improve a motion by a fit: the ends and centres of edges are fitted to those of their images under the
+    /// given motion. Empty if the result does not map all edges.
     std::optional<Isometry3d> refined(Isometry3d motion, bool turns)
     {
         std::vector<std::size_t> image = rough_images(motion);
@@ -251,11 +253,11 @@ private:
             points.push_back({own.to, along ? other.to : other.from});
         }
         if (!turns) {
-            // The difference of two vertices is exact more often than the difference of two means.
+            // The difference of two vertices is more often exact than the difference of two means.
             motion.translation() = points.front()[1] - points.front()[0];
         } else {
-            // If all points lie on one line or coincide, they leave the rotation undetermined; the normals
-            // fix it.
+            // If all points lie on one line or coincide, they do not determine the rotation. Points along the
+            // normals do.
             const Vec3 tip = a_.reach * a_.normal.normalized(), other = -b_.reach * b_.normal.normalized();
             points.push_back({a_.centre + tip, b_.centre + other});
             points.push_back({a_.centre - tip, b_.centre - other});
@@ -266,7 +268,7 @@ private:
                 to.col(static_cast<Eigen::Index>(i)) = points[i][1];
             }
             const Eigen::Matrix4d fit = Eigen::umeyama(from, to, false);
-            // With fewer points the given motion is as accurate as the fit.
+            // With fewer points, the fit would not be more accurate than the given motion.
             if (count > 4) motion.matrix() = fit;
         }
         if (!fits(motion)) return std::nullopt;
@@ -282,7 +284,7 @@ private:
         return image;
     }
 
-    /// Pair the faces by their edges, and compare their facets.
+    /// Pair the faces by their edges, and check that their facets coincide.
     void take(const Isometry3d& onto, std::size_t pair, std::vector<PeriodicFaces>& found)
     {
         for (const MemberFace& face : a_.faces) {
@@ -318,7 +320,7 @@ private:
         for (const EdgeId edge : edges) read.push_back(member_edge(model(face), face.member, edge, by));
         return read;
     }
-    /// The edges of two faces in pairs; empty if one has no image.
+    /// The corresponding edges of two faces, in pairs. Empty if some edge has no counterpart.
     [[nodiscard]] std::vector<std::pair<EdgeId, EdgeId>> same_edges(const std::vector<MemberEdge>& a,
                                                                     const std::vector<MemberEdge>& b) const
     {
@@ -333,7 +335,7 @@ private:
         return pairs;
     }
 
-    /// Check that corners of facets lie on the other face, as closely as facets lie on their surfaces.
+    /// Check that the corners of each face's facets lie on the other face, within the sag of both.
     void compare(const MemberFace& a, const MemberFace& b, const Isometry3d& onto) const
     {
         const Face &face_a = model(a)[a.face], &face_b = model(b)[b.face];
@@ -382,7 +384,8 @@ double grid_of(std::span<const AssemblyMember> members)
             largest = std::max(largest, p.cwiseAbs().maxCoeff());
     int exponent = 0;
     std::frexp(largest, &exponent);
-    // Three more bits than the coordinates need: two for four times the coordinates, and one for halves.
+    // Reserve three more bits than the coordinates need: two for values up to four times the coordinates, and
+    // one for halves.
     return std::ldexp(1.0, exponent + 3 - std::numeric_limits<double>::digits);
 }
 
@@ -401,7 +404,7 @@ void tie_points(std::vector<Vec3>& places, const std::vector<char>& fixed, std::
     const bool lattice = std::ranges::all_of(ties, [](const Tie& tie) { return is_translation(*tie.onto); });
     std::vector<char> done = fixed;
     const auto follow = [&](std::size_t first) {
-        // Translations before rotations: they are exact.
+        // Follow translations before rotations, because translations are exact.
         std::deque<const Way*> left;
         const auto add = [&](std::size_t from) {
             for (const Way& way : next[from]) {
@@ -418,8 +421,8 @@ void tie_points(std::vector<Vec3>& places, const std::vector<char>& fixed, std::
             if (done[way.to] != 0) continue;
             done[way.to] = 1;
             const Vec3 moved = way.onto * places[way.from];
-            // Nodes of edges may have been rotated in another order already. Keep them, so that neighbours
-            // have the same bits.
+            // The nodes of edges may have been rotated before, in another order. Keep their positions, so
+            // that neighbours have bit-identical nodes.
             if (is_translation(way.onto) || (moved - places[way.to]).norm() > kRounding * grid)
                 places[way.to] = moved;
             add(way.to);

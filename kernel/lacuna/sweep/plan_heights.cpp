@@ -20,21 +20,21 @@ using namespace topology;
 
 namespace {
 
-/// Number of points along each column at which the size is sampled; shorter variations of the size are
+/// Number of points along each column at which the size is evaluated. Variations between two points are
 /// missed. Not measured.
 constexpr int kSamples = 32;
 
-/// Number of chords that represent a column when its turning is measured: few enough to ignore local dents,
-/// and enough to resolve the bends of a sweep. Not measured.
+/// Number of chords that represent a column when its turning is measured. There are few enough of them to
+/// ignore local dents, and enough to resolve the bends of a sweep. Not measured.
 constexpr std::size_t kTurnChords = 8;
 
 /// Values averaged over the columns between both rims.
 struct Columns {
     double length = 0;
     double turning = 0; ///< total turning from the source to the target [radian]
-    double sides = 0;   ///< number of layers that the size in the middle of each column requires
-    /// Numbers of layers that the size requires from the source up to evenly spaced positions; empty: the
-    /// size is constant along the sweep.
+    double sides = 0;   ///< number of layers required by the size in the middle of each column
+    /// For evenly spaced positions, the number of layers that the size requires between the source and this
+    /// position; empty: the size is constant along the sweep.
     std::vector<double> wanted;
 };
 
@@ -104,7 +104,7 @@ std::vector<double> default_heights(const Columns& columns, LayerSpec spec, int 
     return layer_heights(spec);
 }
 
-/// Number of layers that the size requires from the source up to a share of the columns' length.
+/// Number of layers that the size requires between the source and a share of the columns' length.
 double wanted_at(const Columns& columns, double share)
 {
     const double at = share * kSamples;
@@ -112,7 +112,7 @@ double wanted_at(const Columns& columns, double share)
     return columns.wanted[i] + (at - static_cast<double>(i)) * (columns.wanted[i + 1] - columns.wanted[i]);
 }
 
-/// Heights of layers between two shares of the columns' length, spaced by the size.
+/// Heights of layers between two shares of the columns' length. Their spacing follows the size.
 std::vector<double> following_heights(const Columns& columns, double from, double to, int least)
 {
     const double low = wanted_at(columns, from), high = wanted_at(columns, to);
@@ -139,7 +139,7 @@ std::vector<double> end_table(const OpenVolume& volume, const surface::LayerTabl
     return {};
 }
 
-/// Whether heights prescribed by given meshes of walls already contain the boundary layers of the ends.
+/// Whether the heights given by meshes of walls already contain the boundary layers of the ends.
 bool has_rows(const std::vector<double>& heights, const std::vector<double>& low,
               const std::vector<double>& high, double length)
 {
@@ -184,9 +184,9 @@ std::vector<double> layers_between(const OpenVolume& volume, const SweepOptions&
     return heights;
 }
 
-/// Move the layer nearest to each corner of a path onto this corner, and the layers between corners in
-/// proportion.
-/// @throw NotSweepable  there are fewer layers than parts of the path.
+/// For each corner of a path, move the layer nearest to it onto the corner. Layers between corners are moved
+/// in proportion.
+/// @throw NotSweepable  the path has more parts than there are layers.
 std::vector<double> through_corners(const std::vector<double>& heights, const std::vector<double>& levels)
 {
     const std::size_t layers = heights.size() - 1, parts = levels.size() - 1;

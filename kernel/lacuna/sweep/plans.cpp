@@ -26,7 +26,8 @@ bool keeps_quads(const OpenVolume& volume, const SweepOptions& options)
     });
 }
 
-/// Whether the quads can be laid out in the mean outline of both ends, which then have one face each.
+/// Whether the quads can be laid out in the mean outline of both ends. This requires that each end has one
+/// face.
 bool can_lie_between(const OpenVolume& volume, const SweepOptions& options)
 {
     return (options.quads == Quads::automatic || options.quads == Quads::paved) && options.rows == 0 &&
@@ -34,8 +35,8 @@ bool can_lie_between(const OpenVolume& volume, const SweepOptions& options)
            volume.faces(Role::target).size() == 1;
 }
 
-/// Whether the walls leave the rotation between the ends undetermined for some loop, and several loops
-/// together may determine it.
+/// Whether some loop has walls that do not determine its rotation between the ends, and other loops may
+/// determine it.
 bool can_turn_together(const std::vector<surface::LinkingSurface>& links)
 {
     return links.size() > 1 &&
@@ -79,7 +80,7 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
 }
 
 /// Factor on the sides per full turn when the plans are repeated at order 2. A quad with two sides on a round
-/// rim has an angle of nearly 180° between these sides. With sides half as long, the quads are laid out
+/// rim has an angle of nearly 180° between these sides. With shorter sides on the rim, the quads are laid out
 /// differently there. Not measured.
 constexpr int kMoreSides = 2;
 

@@ -19,8 +19,8 @@ using namespace topology;
 
 namespace {
 
-/// For each node, the surface that it may slide on: skin nodes inside a face slide on the face. Nodes between
-/// faces and nodes of faces with given quads are fixed.
+/// For each node, the surface on which it may slide. Nodes of the skin inside a face slide on that face.
+/// Nodes between faces, and nodes of faces with given quads, are fixed.
 std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<FaceId>& faces,
                                  const std::set<FaceId>& kept)
 {
@@ -37,7 +37,7 @@ std::vector<Index> sliding_nodes(const mesh::HexMesh& mesh, const std::vector<Fa
     return surface;
 }
 
-/// The edge that leads from a vertex towards a point; invalid if there is none.
+/// The edge that leads from a vertex towards a point; invalid if there is no such edge.
 EdgeId edge_towards(const Model& model, VertexId vertex, const Vec3& to)
 {
     const Vec3 way = (to - model.at(model[vertex].point)).stableNormalized();
@@ -57,7 +57,7 @@ EdgeId edge_towards(const Model& model, VertexId vertex, const Vec3& to)
     return nearest;
 }
 
-/// Describe why a cell has no volume, and what to try.
+/// Describe why a cell has no volume, and suggest a remedy.
 Message in_words(const std::string& code, const StuckCorner& stuck, const mesh::HexMesh& mesh,
                  const Model& model)
 {
@@ -74,8 +74,8 @@ Message in_words(const std::string& code, const StuckCorner& stuck, const mesh::
     }
     return Message(
                code,
-               "at {}, {} lie in one line, and the cell that has both at one corner has no volume wherever "
-               "its other nodes are",
+               "at {}, {} lie in one line: a cell with both at one corner has no volume, whatever its other "
+               "nodes are",
                corner, sides)
         .remedy("name other faces as source and target, or cut the volume there");
 }

@@ -14,7 +14,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// The largest factor in [0, 1] on all bends of a cell for which the cell is valid.
+/// The largest factor in [0, 1] by which the bends of a cell can be multiplied so that the cell is valid.
 double valid_share(const std::array<Vec3, 27>& nodes)
 {
     const std::array<Vec3, 27> straight = mesh::as_hex27(std::span(nodes).first<8>());
@@ -67,8 +67,8 @@ void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mes
         face = entity_of(volume.model, faces[index(mesh::skin_quad(mesh, i).patch)]);
         break;
     }
-    // The relative bend of a side is proportional to its length. The suggested size is a tenth smaller than
-    // needed.
+    // The bend of a side relative to its length is proportional to the length. The suggested size is a tenth
+    // smaller than this requires.
     constexpr double kBelow = 0.9;
     const double share = kBelow * valid_share(quality::hex27_of(mesh, cell));
     constexpr std::size_t kFirstUpright = 16;
@@ -82,7 +82,7 @@ void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mes
         "The middle node of a side on {} must lie at {}, {:.2g} off a side of length {:.2g}",
         count, cells, own, layer, mesh.layers, face, place_in_short(mesh.node(index(nodes.node[*worst]))),
         found(most), side);
-    // A smaller size helps only if the bend is the cause, that is, if the cell is good with straight sides.
+    // A smaller size helps only if the bend is the cause. That is so if the cell is good with straight sides.
     if (straight < kPoorCell)
         throw NotSweepable(std::move(refusal).remedy(
             "the cell is already poor with straight sides: its scaled Jacobian is {:.2g}", found(straight)));

@@ -14,11 +14,11 @@ namespace lacuna::sweep {
 
 namespace {
 
-constexpr const char* kColumns = "sweep.columns"; // code of the errors of this file
+constexpr const char* kColumns = "sweep.columns"; // error code
 
 NamedEntity source_node(Index node) { return {"source node", node}; }
 
-/// The column over each source node; -1: none.
+/// For each source node, the column over it; -1: none.
 std::vector<Index> column_of_node(const mesh::QuadMesh& source, const RimColumns& columns)
 {
     std::vector<Index> column(source.nodes.size(), -1);
@@ -37,7 +37,7 @@ std::vector<Index> column_of_node(const mesh::QuadMesh& source, const RimColumns
     return column;
 }
 
-/// Check that the row has the nodes of the mesh at its end, up to projection errors.
+/// Check that a row coincides with the rim nodes of a mesh, up to projection errors.
 void check_row(const RimColumns& columns, int layer, std::span<const Vec3> nodes, const char* end)
 {
     const std::span<const Vec3> row = columns.row(layer);
@@ -143,8 +143,8 @@ RimFitter::RimFitter(std::span<const Vec3> rim, std::span<const Segment> sides, 
     if (points_.rank() < 3) return;
     double rim_reach = 0;
     for (const Vec3& p : rim) rim_reach = std::max(rim_reach, points_.reach(p));
-    // A map fitted to the rim alone is used only if all nodes are at most twice as far out as the farthest
-    // point of the rim. Beyond, it would extrapolate too far.
+    // A map that is fitted to the rim alone is used only if no node is more than twice as far out as the
+    // farthest point of the rim. Farther out, it would extrapolate too much.
     spans_inside_ = std::ranges::all_of(nodes,
                                         [&](const Vec3& p) { return points_.reach(p) <= 2 * rim_reach; });
 }

@@ -13,12 +13,13 @@ using namespace topology;
 
 namespace {
 
-/// Assumed relative error of an arc's height. It decides how far apart two rims may be and still approximate
-/// one curve. The height of a parabola differs by a tenth from that of a circle with seven chords, and by
-/// more if a curve bends unevenly. Not measured.
+/// Assumed relative error of an arc's height. It decides how far apart two rims that approximate one curve
+/// may be. Even for seven chords, the height of a parabola differs by a tenth from that of a circle; for
+/// curves that bend unevenly, heights differ more. Not measured.
 constexpr double kArcError = 0.25;
 
-/// Curvature vector at the point between two chords, pointing inward; empty at a corner.
+/// Curvature vector at the point between two chords, which points to the inside of the bend. Empty at a
+/// corner.
 std::optional<Vec3> curvature(const Vec3& before, const Vec3& after, double least_cosine)
 {
     const double a = before.norm(), b = after.norm();
@@ -26,8 +27,7 @@ std::optional<Vec3> curvature(const Vec3& before, const Vec3& after, double leas
     return Vec3((after / b - before / a) / ((a + b) / 2));
 }
 
-/// Add the chords of a closed loop. A point where an edge starts is a corner, unless the curve continues
-/// smoothly.
+/// Add the chords of a closed loop. The start of an edge is a corner, unless the curve is smooth there.
 void add_chords(const std::vector<Vec3>& points, const std::vector<bool>& starts,
                 std::vector<RimChord>& chords)
 {
@@ -110,7 +110,7 @@ double area_under_arcs(std::span<const RimChord> one, std::span<const RimChord> 
     const auto sum = [&](std::span<const RimChord> own, std::span<const RimChord> there) {
         double area = 0;
         for (const RimChord& chord : own) {
-            // Area under a parabola.
+            // The area under a parabola is two thirds of its chord times its height.
             const double whole = 2 * (chord.to - chord.from).norm() * chord.bulge.norm() / 3;
             if (whole > 0 && off_arcs(chord.from, there) <= tolerance &&
                 off_arcs(chord.to, there) <= tolerance)

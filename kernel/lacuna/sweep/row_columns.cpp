@@ -17,7 +17,7 @@ using namespace topology;
 
 namespace {
 
-/// Source nodes of the rows over the two ends of a rim side, in order from the rim.
+/// Source nodes of the rows over both ends of a side of the rim, in order from the rim.
 struct RowSide {
     int table = -1;
     std::vector<Index> before, after;
@@ -71,8 +71,8 @@ RowSide rows_over(const SweptParts& parts, const surface::LayerTables& tables, c
     return row;
 }
 
-/// Add one column for a rim node if the rows over both its sides have the same nodes above it; otherwise add
-/// one for each side.
+/// Add the columns of a rim node. If the rows over both its sides have the same nodes above it, there is one
+/// column; otherwise there is one for each side.
 void add_columns(std::size_t b, std::size_t i, const RowSide& before, const RowSide& after,
                  std::vector<RowColumn>& columns)
 {
@@ -138,9 +138,9 @@ Vec3 nearest_on(const Model& model, const surface::Chain& chain, const Vec3& p)
             arc += std::sqrt(squared);
         }
     }
-    // The exact curve differs slightly from its polyline. In all cases tried, two steps were enough.
+    // The exact curve differs slightly from its polyline. Two steps were enough in all cases tried.
     constexpr int kSteps = 4;
-    constexpr double kStep = 1e-5; // of the length, for the tangent; not measured
+    constexpr double kStep = 1e-5; // step for the tangent, as a share of the chain's length; not measured
     const double step = kStep * chain.length();
     Vec3 point = p;
     for (int i = 0; i < kSteps; ++i) {

@@ -23,7 +23,8 @@ void check_amount(const mesh::HexMesh& mesh)
                            .remedy("use a larger 'size' or fewer 'layers'"));
 }
 
-/// Try to generate nodes on demand. @return  the generator and the quality; empty if some cell is not valid
+/// Try to generate middle nodes on demand. @return  the generator and the quality; no generator if some cell
+/// is not valid
 Elevated leave_to_be_made(const PlacedLayers& layers, const mesh::HexMesh& mesh, const PlacedSkin& skin,
                           const Crew* crew, const RunContext& context)
 {

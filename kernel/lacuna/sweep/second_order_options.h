@@ -10,10 +10,11 @@
 
 namespace lacuna::sweep {
 
-/// The middle nodes that a deck has between pairs of positions; NaN where it has none.
+/// Returns the given middle node between each pair of positions; NaN where none is given.
 using GivenMiddles = std::function<std::vector<Vec3>(std::span<const Vec3> from, std::span<const Vec3> to)>;
 
-/// The centres that a deck has in quads, by the positions of the quads' corners; NaN where it has none.
+/// Returns the given centre of each quad, identified by the positions of its corners; NaN where none is
+/// given.
 using GivenCentres = std::function<std::vector<Vec3>(std::span<const std::array<Vec3, 4>> corners)>;
 
 struct SecondOrderOptions {

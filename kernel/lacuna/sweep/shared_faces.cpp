@@ -22,20 +22,20 @@ using namespace topology;
 
 namespace {
 
-/// Two faces whose rims agree are the same face if at least this share of either lies on the other. Less than
-/// the whole may be covered, because coarse chords of a rim cut off parts of a flat face, and facets of
-/// different fineness leave gaps next to the rim of a curved one.
+/// Two faces whose rims agree are the same face if at least this share of each lies on the other. Coverage
+/// may be incomplete: coarse chords of a rim cut off parts of a flat face, and facets of different fineness
+/// leave gaps next to the rim of a curved face.
 constexpr double kMostly = 0.5;
-/// If the common part is a smaller share of the faces, they only touch along their rims.
+/// If the common part is a smaller share of both faces, the faces only touch along their rims.
 constexpr double kNothing = 1e-3;
-/// The sag of chords is an estimate, so points of one rim may be off the chords of the other by this many
-/// times the sag.
+/// The sag of chords is only an estimate. Points of one rim may be off the chords of the other rim by this
+/// many times the sag.
 constexpr double kRimSag = 1.5;
-/// Two faces that touch along a rim and curve away from each other are close, within the error of their
-/// facets, over less than this share of their area.
+/// If two faces touch along a rim and curve away from each other, less than this share of their area is
+/// closer than the error of the facets.
 constexpr double kAlongRim = 0.5;
-/// A point counts as lying on a volume's skin within this share of the volume's diagonal, because facets of
-/// curved faces may differ from those of the neighbour.
+/// A point counts as lying on a volume's skin if it is within this share of the volume's diagonal. The facets
+/// of curved faces may differ by that much from those of the neighbour.
 constexpr double kInside = 5e-3;
 /// A face prepared for comparison.
 struct Side {
@@ -60,7 +60,7 @@ std::vector<std::vector<Vec3>> chains_of(const Side& side)
     return chains;
 }
 
-/// Maximum distance of a rim from another rim, and its place.
+/// Maximum distance of one rim from another rim, and the place where it occurs.
 struct RimOff {
     double distance = 0;
     Vec3 place = Vec3::Zero();
@@ -95,7 +95,7 @@ bool rim_lies_on(const Side& one, const Side& other, double tolerance)
 
 bool is_void(const Side& side) { return side.face_data().origin == Origin::made_void; }
 
-/// Whether the faces in two boxes can share more than a line, that is, whether the boxes overlap if each is
+/// Whether the faces in two boxes can share more than a line. This is so if the boxes overlap after each is
 /// widened by a limit.
 bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, double limit)
 {
@@ -106,22 +106,22 @@ bool share_area(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b, doub
 /// The relation of two faces of two members.
 struct InCommon {
     bool any = false, whole = false;
-    double limit = 0; ///< maximum distance of the facets of the same surface
-    /// The error for this pair: a face that is shared in part or, if no face is shared, overlapping volumes.
+    double limit = 0; ///< maximum distance between facets of one surface in the two members
+    /// The error for this pair: a face is shared only in part or, if no face is shared, the volumes overlap.
     std::optional<Message> refusal;
-    bool same_side = false; ///< both volumes are on the same side of it
+    bool same_side = false; ///< both volumes are on the same side of the common face
     double apart = 0;       ///< if the faces are the same: distance between the arcs of both rims
     double sag = 0;         ///< maximum distance of the rims' chords from these arcs
 };
 
-/// Compare the rims of a face that two members share. @return  whether it is one face although the rims
-/// differ
+/// Compare the rims of a face that two members share. @return  whether it is one face despite any difference
+/// of the rims
 bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
                 double tolerance, double window, InCommon& common)
 {
     RimOff off = rim_off(one, other);
     const RimOff back = rim_off(other, one);
-    // A rim that was projected onto facets is as far off its curve as these facets are.
+    // If a rim was projected onto facets, its distance from its curve is that of these facets.
     const double slack = std::max(tolerance + kRimSag * std::max(off.sag, back.sag), common.limit);
     if (back.distance > off.distance) off = back;
     if (off.distance <= tolerance) return true;
@@ -166,7 +166,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
                      whole_other = face_area(other.model(), other.face);
         const double there = overlap->a.on / whole, back = overlap->b.on / whole_other;
         if (there <= kNothing && back <= kNothing) return {};
-        // The two faces lie on opposite sides of one curve, which they approximate by different chords.
+        // The two faces may lie on opposite sides of one curve, which they approximate by different chords.
         if (std::max(there, back) < kMostly) {
             const double under = area_under_arcs(rim_chords(one.model(), one.face),
                                                  rim_chords(other.model(), other.face), tolerance);
@@ -174,7 +174,7 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
         }
         same = there >= kMostly && back >= kMostly && !refused &&
                rims_agree(a, one, b, other, tolerance, window, common);
-        // Faces that curve away from each other at a common rim are close only along it.
+        // Faces that touch along a common rim and curve away from each other are close only along that rim.
         if (!same && limit > tolerance && std::max(there, back) < kAlongRim) return {};
         percent_a = 100 * std::min(there, 1.0);
         percent_b = 100 * std::min(back, 1.0);
@@ -204,8 +204,8 @@ InCommon in_common(const AssemblyMember& a, const Side& one, const AssemblyMembe
     return common;
 }
 
-/// Report a shared face whose rims agree within the sag of their chords but do not lie on one curve. The
-/// meshes have no gap there.
+/// Report a shared face whose rims agree within the sag of their chords, but do not lie on one curve. Its
+/// meshes have no gap.
 NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFace& faces,
                 const InCommon& common, double area, double tolerance)
 {
@@ -229,10 +229,11 @@ NearMiss welded(const AssemblyMember& a, const AssemblyMember& b, const SharedFa
     return miss;
 }
 
-/// Number of facets of a volume whose midpoints are tested for lying inside another volume.
+/// Number of facets of a volume for which the program tests whether their midpoints are inside another
+/// volume.
 constexpr std::size_t kAsked = 64;
 
-/// The facets of a volume, if it has no free edges; otherwise an empty tree.
+/// A tree of a volume's facets. The tree is empty if the volume has free edges.
 geometry::FacetTree closed_skin(const OpenVolume& volume)
 {
     std::vector<Triangle> facets;
@@ -243,9 +244,9 @@ geometry::FacetTree closed_skin(const OpenVolume& volume)
     return {volume.model.points, facets};
 }
 
-/// Refuse a volume if part of its skin lies deeper inside another volume than the facet errors of both
-/// explain. An open volume has no inside and is not checked. @param skin_of_b  see `closed_skin()`; made when
-/// first needed
+/// Refuse a volume if part of its skin is inside another volume, deeper than the errors of both volumes'
+/// facets explain. An open volume has no inside and is not checked. @param skin_of_b  see `closed_skin()`;
+/// computed when first needed
 void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
                  const Eigen::AlignedBox3d& box_of_a, const AssemblyMember& b,
                  std::span<const Side> sides_of_b, const Eigen::AlignedBox3d& box_of_b,
@@ -284,9 +285,9 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
 struct MemberSides {
     std::vector<std::vector<Side>> sides;
     std::vector<Eigen::AlignedBox3d> box;
-    std::vector<std::optional<geometry::FacetTree>> skin; ///< see `closed_skin()`; made when first needed
+    std::vector<std::optional<geometry::FacetTree>> skin; ///< see `closed_skin()`; computed when first needed
 
-    /// @param sag  of the first faces of each member; the sag of the other faces is appended.
+    /// @param sag  the sag of the first faces of each member; the sag of the other faces is appended.
     MemberSides(std::span<const AssemblyMember> members, std::vector<std::vector<double>>& sag)
         : sides(members.size()), box(members.size()), skin(members.size())
     {
@@ -402,7 +403,8 @@ std::vector<FaceContact> faces_in_contact(std::span<const AssemblyMember> member
     std::vector<std::vector<double>> sag;
     MemberSides all(members, sag);
     std::vector<NearPair> pairs;
-    std::vector<std::vector<char>> covered; // faces that mostly lie on another member
+    // For each face of each member, whether most of it lies on another member.
+    std::vector<std::vector<char>> covered;
     for (const AssemblyMember& member : members) covered.emplace_back(member.volume->model.faces.size(), 0);
     const auto area = [&](std::size_t m, FaceId face) { return face_area(members[m].volume->model, face); };
     for (std::size_t a = 0; a < members.size(); ++a)
@@ -430,7 +432,7 @@ std::vector<FaceContact> faces_in_contact(std::span<const AssemblyMember> member
             const bool hidden = covered[pair.a][faces.first.index()] != 0 ||
                                 covered[pair.b][faces.second.index()] != 0;
             if (touch ? a.glue == b.glue : hidden) continue;
-            // A strip along a common rim is no contact, unless it is most of one of the faces.
+            // A strip along a common rim is not a contact, unless the strip covers most of one of the faces.
             const double limit = pair.tolerance + sag[pair.a][faces.first.index()] +
                                  sag[pair.b][faces.second.index()];
             const double strip = std::max(limit, pair.window) * overlap.box.diagonal().norm();

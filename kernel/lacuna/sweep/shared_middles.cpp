@@ -9,8 +9,8 @@
 
 namespace lacuna::sweep {
 
-/// Add the middles of a quad or triangle of the skin. @param wanted  whether the middle of a side is added,
-/// by the side's ends
+/// Add the middles of a quad or triangle of the skin. @param wanted  called with the ends of a side; returns
+/// whether its middle is added
 template <class Mesh, class Wanted>
 bool SharedMiddles::add_quad(const Mesh& mesh, std::size_t i, const Wanted& wanted)
 {
@@ -62,7 +62,7 @@ SharedMiddles::Key SharedMiddles::key_of(const Vec3& a, const Vec3& b)
     return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
 }
 
-/// The smallest corner and the one opposite to it.
+/// The key of a quad: its smallest corner and the opposite corner.
 SharedMiddles::Key SharedMiddles::key_of(const std::array<Vec3, 4>& corners)
 {
     const auto least = std::ranges::min_element(corners, before);

@@ -10,7 +10,7 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// The positions along an oblique line, sorted, each with the index of its place.
+/// The positions projected onto an oblique line, in increasing order, each with its index.
 std::vector<std::pair<double, Index>> along_line(std::span<const Vec3> places)
 {
     // Rows of a mesh are unlikely to have this direction.

@@ -15,7 +15,7 @@ using namespace topology;
 
 namespace {
 
-/// Measure each quad in the plane of its corners, and refuse a quad that is folded there.
+/// Measure each quad in the plane of its corners. Refuse a quad that is folded in this plane.
 void measure(const Model& model, ShellQuads& shell)
 {
     double sum = 0;
@@ -41,7 +41,8 @@ void measure(const Model& model, ShellQuads& shell)
     shell.mean_scaled_jacobian = sum / static_cast<double>(std::max<std::size_t>(1, shell.quads.size()));
 }
 
-/// Adds middle nodes: on edges at the middle between two nodes, elsewhere the nearest place on the face.
+/// Add middle nodes. On an edge they lie halfway between two nodes, elsewhere at the nearest position on the
+/// face.
 void add_middles(const Model& model, const surface::SourceMesh& source, const surface::Seeds& seeds,
                  bool centres, ShellQuads& shell, const RunContext& context)
 {
@@ -106,7 +107,7 @@ ShellQuads shell_quads(const Model& model, const SweepOptions& options, const Ru
         shell.report.push_back(formatted("size: {:.2g} [model length] by default, {}",
                                          sizes.by_default->length, sizes.by_default->why));
     for (const std::string& note : source.notes) shell.report.push_back(note);
-    std::vector<std::size_t> order(source.quads.quads.size()); // the order by faces; kept triangles are last
+    std::vector<std::size_t> order(source.quads.quads.size()); // order by faces; kept triangles are last
     for (std::size_t q = 0; q < order.size(); ++q) order[q] = q;
     std::ranges::stable_sort(order, {}, [&](std::size_t q) { return source.quads.face[q]; });
     for (const std::size_t q : order) {

@@ -18,7 +18,7 @@ using namespace topology;
 
 namespace {
 
-/// The edges of a model as curves, for finding positions on them.
+/// The edges of a model as curves, to find positions on them.
 class EdgeFinder {
 public:
     explicit EdgeFinder(const Model& model) : model_(model)
@@ -35,8 +35,8 @@ public:
         EdgeId edge;
         double fraction = 0; ///< share of its length
     };
-    /// The point of an edge halfway between two of its points. Empty if the two faces have no common edge, or
-    /// if the side does not lie on one.
+    /// The point of an edge halfway between the two ends of a side. Empty if the two faces have no common
+    /// edge, or if the side does not lie on such an edge.
     std::optional<Place> half_way(FaceId one, FaceId other, const Vec3& from, const Vec3& to)
     {
         const auto found = between_.find(std::minmax(one, other));
@@ -62,13 +62,13 @@ public:
     }
 
 private:
-    /// Largest distance of a side's nodes from an edge on which the side lies, as a share of the side's
-    /// length. Nodes on a curved edge are off its chords by the sag of the chords.
+    /// Largest distance of a side's nodes from the edge on which the side lies, as a share of the side's
+    /// length. Nodes on a curved edge may be off its chords by their sag.
     static constexpr double kNear = 0.1;
 
     struct Curve {
         geometry::FacetTree tree;
-        std::vector<EdgeId> edge; ///< for each side
+        std::vector<EdgeId> edge; ///< edge of each side in the tree
         std::vector<double> arc;  ///< for each edge, the running length at its start
     };
 
@@ -102,14 +102,14 @@ private:
     std::map<std::vector<EdgeId>, Curve> curves_;
 };
 
-/// The given position, or exactly the side's midpoint if the two differ only by rounding.
+/// The position `at`, or exactly the side's midpoint if the two differ only by rounding.
 Vec3 settled(const SideOfSkin& side, const Vec3& at)
 {
     const Vec3 straight = (side.from + side.to) / 2;
     return (at - straight).norm() < kRoundoff * (side.to - side.from).norm() ? straight : at;
 }
 
-/// Place the sides `members` on a face.
+/// Place the middles of the sides `members` on a face.
 void place_on_face(const Model& model, FaceId face, std::span<const SideOfSkin> sides,
                    const std::vector<std::size_t>& members, std::vector<std::optional<Vec3>>& middles,
                    SkinCounts& counts, const RunContext& context)
@@ -147,7 +147,8 @@ std::vector<std::optional<Vec3>> middles_on_edges(const Model& model, std::span<
         const auto found = finder.half_way(side.face, side.other, side.from, side.to);
         if (found) on_edge[found->edge].emplace_back(found->fraction, i);
     }
-    for (const auto& [edge, members] : on_edge) { // one call per edge: exact curves are evaluated in bulk
+    // One call for all sides of an edge, because exact curves are evaluated in bulk.
+    for (const auto& [edge, members] : on_edge) {
         check_cancelled(context);
         std::vector<double> fractions;
         for (const auto& [fraction, side] : members) fractions.push_back(fraction);
@@ -167,8 +168,8 @@ std::vector<std::optional<Vec3>> middles_on_faces(const Model& model, std::span<
     std::vector<std::optional<Vec3>> middles(sides.size());
     std::map<FaceId, std::vector<std::size_t>> of_face;
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        // A side between two faces that have no common edge is projected onto the face that has an exact
-        // surface.
+        // Two faces without a common edge may have a side between them. It is projected onto the face with an
+        // exact surface.
         const bool other = model[sides[i].face].surface == nullptr &&
                            model[sides[i].other].surface != nullptr;
         of_face[other ? sides[i].other : sides[i].face].push_back(i);

@@ -65,13 +65,13 @@ std::vector<std::string> sizes_in_words(const OpenVolume& volume, const OpenVolu
     if (!kept && (sizes.by_default || !finer.empty())) {
         std::string line = sizes.by_default ? formatted("size: {:.2g} [model length] by default, {}",
                                                         sizes.by_default->length, sizes.by_default->why)
-                                            : "size: as asked";
+                                            : "size: as requested";
         for (std::size_t i = 0; i < finer.size(); ++i)
             line += (i == 0 ? "; less where the shape needs it: " : "; ") + finer[i];
         if (sizes.too_narrow)
             line += formatted(
-                "; for {} quads across, which 'gap' asks for and would be too many in all, it would "
-                "be {}",
+                "; a size for {} quads across, as with 'gap', would give too many quads in total: it "
+                "would be {}",
                 kDefaultGap, width_in_words(volume.model, *sizes.too_narrow));
         lines.push_back(line);
     }

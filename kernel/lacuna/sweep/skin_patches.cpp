@@ -38,8 +38,8 @@ std::vector<FaceId> set_patches(const OpenVolume& volume, const surface::SourceM
     for (const FaceId face : ends.source) mesh.source_patch.push_back(patches.of(face));
     for (const FaceId face : ends.target) mesh.target_patch.push_back(patches.of(face));
 
-    // Find the linking surface and the side of each rim side by its two nodes, because linking surfaces may
-    // have the opposite direction.
+    // For each side of the rim, find its linking surface and its index there. Sides are looked up by their
+    // two nodes, because linking surfaces may run in the opposite direction.
     struct RimPosition {
         std::size_t link, side;
     };

@@ -24,17 +24,18 @@ using namespace topology;
 
 namespace {
 
-/// Maximum number of source quads that narrow places may cause by default; if there would be more, the places
-/// stay coarse. A ring whose width is a 200th of its radius needs some 8,000 quads for three quads across.
-/// Not measured.
+/// Maximum number of source quads that narrow places may cause by default. If there would be more, narrow
+/// places stay coarse. A ring whose width is a 200th of its radius needs some 8,000 quads for three quads
+/// across. Not measured.
 constexpr double kMostForWidth = 20000;
 
-/// Maximum number of cells unless both size and number of layers are given. With more, a solver would exceed
-/// the memory of a large workstation; often a length was given in the wrong unit. Not measured.
+/// Maximum number of cells if the size or the number of layers is not given. With more cells, a solver would
+/// exceed the memory of a large workstation; often a length has the wrong unit. Not measured.
 constexpr double kMostUnasked = 50e6;
 
-/// Expected number of quads on the faces of a role (`power` 2), or of sides across them (`power` 1). If some
-/// of the faces keep given quads, the others are assumed to be as dense; otherwise the size is used.
+/// Expected number of quads on the faces of a role (`power` 2), or of sides across these faces (`power` 1).
+/// If some of the faces keep given quads, the other faces are assumed to have the same density; otherwise the
+/// size is used.
 double sides_over(const OpenVolume& volume, Role role, const surface::SizeField& size, int power,
                   const SweepOptions& options)
 {
@@ -63,8 +64,9 @@ double sides_over(const OpenVolume& volume, Role role, const surface::SizeField&
     return given_area > 0 ? given * all_area / given_area : by_size;
 }
 
-/// Additional quads due to the curvature of the rims. Away from the rim, sides grow by 0.3 per length, as in
-/// the paver. The number of quads is the integral of the inverse square of the side.
+/// Additional quads due to the curvature of the rims. Away from the rim, the length of sides grows by 0.3 per
+/// unit of distance, as in the paver. The number of quads is the integral of the inverse square of the side
+/// length.
 double quads_by_turns(std::span<const surface::LinkingSurface> links, const Model& model,
                       const surface::SizeField& size, int per_turn)
 {
@@ -82,8 +84,8 @@ double quads_by_turns(std::span<const surface::LinkingSurface> links, const Mode
     return more / kGrading;
 }
 
-/// Estimate the number of cells from areas, lengths and given meshes. A mesh with more nodes than node
-/// numbers is refused here, before any memory is used.
+/// Estimate the number of cells from areas, lengths and given meshes. If the mesh would have more nodes than
+/// can be numbered, it is refused here, before any memory is used.
 ExpectedCells expected_cells(const OpenVolume& volume, const SourceSize& size, const SweepOptions& options,
                              KnownLinks& links, const RunContext& context)
 {
@@ -163,7 +165,7 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
     } else {
         size.by_default = surface::default_size(volume);
         const double part = links.plan.part;
-        if (part < 1) size.by_default->why += formatted(", of that {:.2g} for the bends of the ends", part);
+        if (part < 1) size.by_default->why += formatted(", times {:.2g} because the ends bend", part);
         size.asked = surface::even_size(size.by_default->length *= part);
     }
     const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;

@@ -15,11 +15,11 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Number of preconditioned steps, enough for the relaxation to converge. The best mesh on the way is kept.
+/// Number of preconditioned steps, enough for the relaxation to converge. The best mesh among them is kept.
 constexpr int kRelaxations = 20;
-/// Maximum number of rounds of trials. A round without gain is the last.
+/// Maximum number of rounds of trials. The trials end after a round without gain.
 constexpr int kPolishes = 20;
-/// Numbers of directions and of step lengths that are tried around a node. Not measured.
+/// Number of directions, and number of step lengths, that are tried around a node. Not measured.
 constexpr int kDirections = 8;
 constexpr int kLengths = 3;
 
@@ -32,8 +32,8 @@ Vec3 along(const Vec3& move, const Vec3& normal)
     return squared > 0 ? Vec3(move - normal * (normal.dot(move) / squared)) : move;
 }
 
-/// Change the weights of a node's neighbours so that their weighted mean, projected along the node's normal,
-/// is the node itself. The sum of the weights stays the same.
+/// Change the weights of a node's neighbours so that their weighted mean is the node itself, seen along the
+/// node's normal. The sum of the weights stays the same.
 void hold_in_place(std::span<const Vec3> nodes, std::span<const Index> neighbours, const Vec3& node,
                    const Vec3& normal, std::span<double> weights)
 {
@@ -183,7 +183,7 @@ double SurfaceSmoother::worst_around(std::size_t node, std::span<const Vec3> nod
     return worst;
 }
 
-/// Free nodes of poor quads, increasing.
+/// Free nodes of poor quads, in increasing order.
 std::vector<std::size_t> SurfaceSmoother::poor_nodes(std::span<const Vec3> nodes,
                                                      std::span<const Vec3> normals, double good_enough) const
 {

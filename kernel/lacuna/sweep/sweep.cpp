@@ -83,12 +83,12 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     quality::require(result.proof);
     report_progress(context, "shape of the skin");
     Swept& swept = result.swept;
-    // Quads copied from a neighbour are compared too, because they are not part of the sealed shape.
+    // Quads copied from a neighbour are compared too, because the sealed shape does not have them.
     const OpenVolume& shape = shape_of(volume, options);
     const std::set<FaceId> kept = options.beside.shape != nullptr ? std::set<FaceId>{} : result.kept;
     if (options.order == 2) raise_order(shape, result, options, context);
-    // A curved quad is compared as four straight ones, whose error is at most a quarter of that of a straight
-    // quad.
+    // A quad of order 2 is compared as four straight quads. Their error is at most a quarter of the error of
+    // one straight quad.
     swept.fidelity = compare(shape, swept.mesh, result.faces, kept, swept.quality.volume,
                              {options.max_deviation, options.beside.between}, context, swept.skin().layers);
     swept.report.push_back(in_words(swept.fidelity));
@@ -101,13 +101,13 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     return std::move(swept);
 }
 
-/// Maximum number of meshes tried for a volume: so many without wedges, and so many with them.
+/// Maximum number of meshes that are tried for a volume without wedges, and again with wedges.
 constexpr std::size_t kMostTried = 6;
 /// Error code for given triangles on an end. No plan may remesh them unless the user requests it.
 constexpr std::string_view kOwnTriangles = "surface.given_triangles";
 
-/// Meshes the plans in order, as long as the mesh is poor, and returns the best mesh that is valid and has
-/// the right shape.
+/// Meshes the plans in order until a mesh is good enough, and returns the best mesh that is valid and has the
+/// right shape.
 class Search {
 public:
     Search(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
@@ -117,8 +117,8 @@ public:
     }
 
     /// The mesh of the best plan. Its report names the plan and the results of the plans before it.
-    /// @throw NotSweepable  no plan works: the error of the first plan, with the errors of the others
-    ///     attached.
+    /// @throw NotSweepable  no plan works. This is the error of the first plan, with the errors of the others
+    ///         attached.
     Swept run(const std::vector<Plan>& plans)
     {
         for (const Plan& plan : plans) {
@@ -140,7 +140,8 @@ public:
     }
 
 private:
-    /// Whether the plan's common rotation of all loops equals the rotation that each loop's own walls give.
+    /// Whether a common rotation of all loops is the same as the rotation that each loop gets from its own
+    /// walls.
     [[nodiscard]] bool is_like_each(const Plan& plan)
     {
         if (plan.turning == surface::Turning::each) return false;
@@ -162,7 +163,7 @@ private:
         } catch (const NotSweepable& error) {
             const Message why = error.message().about(words);
             tried_.push_back(why.text());
-            // No plan without wedges could keep the given triangles.
+            // No plan without wedges can keep the given triangles.
             const bool own = error.code() == kOwnTriangles;
             if (own) left_[plan.wedges] = 0;
             refusal_ = refusal_ && !own ? refusal_->attempt(why) : error.message();
@@ -178,7 +179,7 @@ private:
     const Plan* plan_ = nullptr; ///< the best plan so far
     std::optional<Message> refusal_;
     std::vector<std::string> tried_; ///< a line for each plan
-    /// Plans still allowed, without wedges and with them.
+    /// Number of plans that may still be tried, without wedges and with wedges.
     std::array<std::size_t, 2> left_{kMostTried, kMostTried};
 };
 
@@ -226,7 +227,7 @@ Swept search(const OpenVolume& volume, const SweepOptions& asked, const RunConte
     return Search(volume, options, links, context).run(plans(volume, options, links, context));
 }
 
-/// Volume error at which the suggested sizes aim. It is below the limit of 1 % because on bends and barrels
+/// Volume error at which the suggested sizes aim. It is below the limit of 1 %, because on bends and barrels
 /// the actual error was up to 1.6 times the estimate.
 constexpr double kWanted = 0.006;
 

@@ -62,13 +62,13 @@ enum class Interior {
     automatic, ///< the best known method
     affine,    ///< for comparison: the affine fit alone
     residual,  ///< for comparison: the fit with the rim's residual spread over it
-    normals,   ///< for comparison: the paper's advance along local normals
+    normals,   ///< for comparison: the advance along local normals of Roca and Sarrate (2010)
 };
 
 /// Nodes of the skin that are moved onto coincident nodes of a neighbour, from which they differ by rounding.
 struct SettledNodes {
     std::set<FaceId> faces; ///< the faces that these nodes lie on; all nodes of these faces are then fixed
-    std::vector<std::pair<Index, Vec3>> nodes; ///< with the neighbour's positions; duplicates are allowed
+    std::vector<std::pair<Index, Vec3>> nodes; ///< node and new position; a node may occur more than once
 };
 
 /// Constraints from neighbouring volumes of an assembly.
@@ -81,7 +81,7 @@ struct Beside {
     const topology::OpenVolume* shape = nullptr;
     /// Faces between this volume and others, which are not part of the outer skin; see `FidelityOptions`.
     std::set<FaceId> between{};
-    /// Faces with quads copied from a neighbour: these are kept with any option `quads`.
+    /// Faces with quads copied from a neighbour. These quads are kept whatever the option `quads` is.
     std::set<FaceId> handed{};
     /// Whether the volume itself has given meshes, as far as known. Errors may then suggest to load it
     /// without them.
@@ -103,10 +103,10 @@ inline constexpr int kDefaultGap = 3;
 
 struct SweepOptions {
     LayerSpec layers;
-    surface::SizeField size; ///< null: `surface::default_size()`, reduced as for `kDefaultGap`
-    int curvature = 12;      ///< sides for a full turn where `size` is coarser, >= 0; 0: the size alone
-    /// If straight sides on bends change the mesh's volume by more than this share, bends get more sides, as
-    /// long as this helps [0, 1); 0: never.
+    surface::SizeField size; ///< null: `surface::default_size()`, smaller in narrow places; see `kDefaultGap`
+    int curvature = 12;      ///< least number of sides for a full turn, >= 0; 0: the size alone decides
+    /// If straight sides on bends change the mesh's volume by more than this share, bends get more sides as
+    /// long as this helps [0, 1). With 0, nothing is added.
     double volume_share = 0.02;
     /// Minimum number of quads across a narrow place of the source, >= 0; 0: no minimum, or 3 if no size is
     /// given.
@@ -114,9 +114,9 @@ struct SweepOptions {
     /// Allowed distance between the skins, >= 0 [model length]; 0: default of `FidelityOptions`.
     double max_deviation = 0;
     Quads quads = Quads::automatic;
-    /// Whether given triangles of an end are kept and swept to wedges. If all sides of a rim are given and
-    /// their number is odd, one triangle is added. If false, such triangles are an error, and one side of
-    /// such a rim is split.
+    /// Whether given triangles of an end are kept and swept to wedges. A rim whose sides are all given and
+    /// odd in number then gets one triangle. If false, given triangles are an error, and a side of such an
+    /// odd rim is split.
     bool wedges = false;
     Fallback fallback = Fallback::none;
     int rows = 0; ///< exact rows along every loop of the source, >= 0; only with `quads` automatic or paved
@@ -163,7 +163,7 @@ struct Swept {
     /// The lines of the report on default sizes and numbers of layers, and on poor cells that result from
     /// them. They are also logged once; in an assembly, the caller that sweeps the whole logs them.
     std::vector<std::string> defaults;
-    std::vector<std::string> notes;    ///< lines on a changed volume; logged in the same way, after "note: "
+    std::vector<std::string> notes;    ///< lines on a changed volume; logged like `defaults`, after "note: "
     std::vector<std::string> not_kept; ///< the lines of the report on given meshes that are not kept
 
     [[nodiscard]] mesh::SkinNodes skin() const { return {mesh, layers ? &*layers : nullptr}; }
@@ -174,9 +174,9 @@ struct Swept {
 ///
 /// Given meshes of faces are kept, node for node: the source's quads, rows of quads on walls, the target's
 /// quads if they are connected like the source's, and the nodes of the rims of all these. The report counts
-/// them. On a face with given quads, the given triangles are cells too. A face with triangles only is a shape
-/// and is remeshed inside; with `wedges`, its triangles are cells if the face keeps its nodes. With an
-/// explicit option such as `Quads::paved`, all faces are remeshed.
+/// them. On a face with given quads, the given triangles become cells too. The triangles of a face without
+/// quads only define its shape, and its inside is remeshed. With `wedges`, they become cells if the face
+/// keeps its nodes. With an explicit option such as `Quads::paved`, all faces are remeshed.
 ///
 /// Edges between the faces of an end, and edges around or up the walls, become chains of mesh edges. The
 /// sweep runs from source to target. If that gives poor cells, it runs from target to source, or the quads

@@ -40,8 +40,8 @@ using namespace topology;
 
 namespace {
 
-/// Whether walls are meshed in parallel with the source's quads. This saves time if the quads, which use one
-/// thread, take long. It is possible if the two do not need the same CAD process.
+/// Whether walls are meshed while another thread meshes the source's quads. This saves time if the quads,
+/// which use one thread, take long. It is possible if the two tasks do not need the same CAD process.
 bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
                   const std::vector<surface::LinkingNodes>& rim, const std::vector<double>& heights)
 {
@@ -53,9 +53,9 @@ bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
     if (!free || std::ranges::any_of(volume.model.faces, exact) ||
         std::ranges::any_of(volume.model.edges, on_curve))
         return false;
-    // The time for quads grows with the square of the rim, the time for walls with rim times layers. The
-    // walls get one thread here, so with many layers they would take longer than the quads. Measured: 4 µs
-    // per quad, 0.6 µs per wall node.
+    // The time for quads grows with the square of the number of rim sides. The time for walls grows with rim
+    // sides times layers, and the walls get one thread here. With many layers they would therefore take
+    // longer than the quads. Measured: 4 µs per quad, 0.6 µs per wall node.
     std::size_t round = 0;
     for (const surface::LinkingNodes& nodes : rim) round += nodes.source_at.size();
     return 2 * heights.size() <= round;
@@ -80,7 +80,7 @@ RimColumns columns_of(const std::vector<surface::LinkingSurface>& links, const s
     return columns;
 }
 
-/// Fix the nodes of columns along creases of the walls, like nodes on edges.
+/// Fix the nodes of columns along creases of the walls, as if they were on edges.
 void hold_creases(const std::vector<surface::LinkingSurface>& links, const surface::SourceMesh& source,
                   std::size_t rows, std::vector<char>& held)
 {
@@ -118,7 +118,7 @@ bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
     return true;
 }
 
-/// Layers generated on demand, and the quality of their cells; empty if the cells need improvement.
+/// Layers generated on demand, and the quality of their cells. Empty if the cells need improvement.
 struct GoodLayers {
     PlacedLayers layers;
     LayersFound found;
@@ -142,7 +142,7 @@ std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const M
     return good;
 }
 
-/// Sort moved nodes; if a node occurs more than once, keep its last position.
+/// Sort moved nodes. If a node occurs more than once, keep its last position.
 std::vector<std::pair<Index, Vec3>> in_order(std::vector<std::pair<Index, Vec3>> nodes)
 {
     std::map<Index, Vec3> once;
@@ -150,8 +150,8 @@ std::vector<std::pair<Index, Vec3>> in_order(std::vector<std::pair<Index, Vec3>>
     return {once.begin(), once.end()};
 }
 
-/// Move skin nodes onto the neighbours' nodes. If cells of generated layers become poor, the nodes of the
-/// layers are stored.
+/// Move skin nodes onto the neighbours' nodes. If this makes cells of generated layers poor, the nodes of the
+/// layers are stored instead.
 void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept,
                          std::optional<GoodLayers>& good, const SweepOptions& options,
                          const RunContext& context)
@@ -176,8 +176,8 @@ void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept
     good.reset();
 }
 
-/// Whether inner nodes follow from the placement of layers alone. Excluded at order 2 are members of an
-/// assembly, because neighbours look up each other's middle nodes in stored meshes.
+/// Whether the positions of inner nodes follow from the placement of layers alone. At order 2, members of an
+/// assembly are excluded, because neighbours look up each other's middle nodes in stored meshes.
 bool may_be_layered(const SweepOptions& options)
 {
     return options.layered && (options.order == 1 || !options.beside.settle) &&
@@ -193,7 +193,8 @@ bool came_with_mesh(const OpenVolume& volume, Role end, bool wedges)
     });
 }
 
-/// Refuse rows on a source whose quads are kept: given quads do not move, so they cannot have other heights.
+/// Refuse boundary layers along the rim of a source with kept quads. Given quads do not move, so their rows
+/// cannot get other heights.
 void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, const SweepOptions& options)
 {
     if (rows.empty() || options.quads != Quads::automatic) return;
@@ -210,15 +211,15 @@ void refuse_kept_source(const OpenVolume& volume, const surface::RimRows& rows, 
     }
 }
 
-/// The motion that made the walls, if the target has one face for each face of the source; else null.
+/// The motion that made the walls, if both ends have the same number of faces; else null.
 geometry::MotionPointer moving_faces(const OpenVolume& volume)
 {
     const bool alike = volume.faces(Role::source).size() == volume.faces(Role::target).size();
     return alike ? surface::swept_motion(volume) : nullptr;
 }
 
-/// Imprint of the target's inner edges on the source. Empty if the target has none. Also empty if both ends
-/// have given meshes: these may be connected alike.
+/// Imprint of the target's inner edges on the source. Empty if the target has no inner edges. Also empty if
+/// both ends have given meshes, which may have the same connectivity.
 std::optional<surface::Imprint> imprint_of(const OpenVolume& volume,
                                            const std::vector<surface::LinkingSurface>& links,
                                            const surface::SizeField& size, bool wedges)
@@ -307,7 +308,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const bool keeps_target = !given_target.face.empty();
     const bool moved = motion && !keeps_target;
     if (!keeps_target && !imprint && !moved && !surface::inner_edges(volume, Role::target).empty())
-        // Refuses faces that keep their quads, with their names.
+        // Raises an error that names the faces if they keep their quads.
         imprint = surface::imprint_target(volume, links, size);
     EndFaces ends = end_faces(volume, source, imprint, motion != nullptr);
     if (keeps_target) ends.target = std::move(given_target.face);
@@ -318,7 +319,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     Morphed morphed;
     if (keeps_target) {
         morphed.nodes = std::move(given_target.nodes);
-        morphed.report = "its own quads are laid out as the source's and stay";
+        morphed.report = "its given quads are connected like the source's and are kept";
     } else if (moved) {
         morphed = moved_by(*motion, source, columns);
     } else {

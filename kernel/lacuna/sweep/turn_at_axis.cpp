@@ -25,10 +25,10 @@ using namespace topology;
 
 namespace {
 
-/// Minimum number of layers of a full turn, as for hexahedra alone. With fewer layers a cell spans 120° or
-/// more.
+/// Minimum number of layers of a full turn, as for hexahedra alone. With fewer layers, a cell would span 120°
+/// or more.
 constexpr int kLeastPerTurn = 4;
-/// Angle of a layer at which its chords lose 1 % of the circle's area [radian].
+/// Angle of a layer [radian] at which a polygon with such chords has 1 % less area than the circle.
 const double kOnePercent = std::sqrt(0.06);
 
 class Turner {
@@ -70,7 +70,7 @@ private:
     /// The id of an imaginary face between two parts.
     [[nodiscard]] FaceId between() const { return FaceId(flat_.model.faces.size()); }
 
-    /// Take the quads of the source from the mesh of the flat volume, which may start at either end.
+    /// Take the quads of the source from the mesh of the flat volume. This mesh may start at either end.
     void take_source()
     {
         const mesh::HexMesh& mesh = base_.mesh;
@@ -89,7 +89,7 @@ private:
         }
     }
 
-    /// Orient the quads so that they face in the direction of the turn.
+    /// Orient the quads so that their normals point in the direction of the turn.
     void orient()
     {
         const double sense = turn_.angle < 0 ? -1 : 1;
@@ -166,7 +166,7 @@ private:
                 .remedy("use another 'size', or quads = \"paved\""));
     }
 
-    /// The strips along each segment of the axis, in order along it.
+    /// The strips along each segment of the axis, sorted in its direction.
     [[nodiscard]] std::vector<std::vector<Strip>> chains() const
     {
         std::map<Index, const Strip*> from;
@@ -257,7 +257,8 @@ private:
         mesh.volume_groups = base_.mesh.volume_groups;
     }
 
-    /// Make the wedges along one segment of the axis: triangles around the axis, swept along it.
+    /// Make the wedges along one segment of the axis. Their triangles form a mesh around the axis, which is
+    /// swept along it.
     void add_core(const std::vector<Strip>& chain)
     {
         Swept& part = result_.parts.emplace_back();
@@ -293,8 +294,7 @@ private:
         mesh.volume_groups = base_.mesh.volume_groups;
     }
 
-    /// Prove the parts. Compare their total volume with the volume that the source's facets sweep in the
-    /// turn.
+    /// Prove the parts. Compare their total volume with the exact volume that the source's facets sweep.
     void measure()
     {
         double exact = 0, all = 0;
@@ -342,7 +342,7 @@ private:
     std::vector<Quad> quads_;
     std::vector<char> on_axis_;      ///< for each source node, whether it is on the axis
     std::vector<Index> start_, end_; ///< patch of each quad at both ends of the turn
-    std::map<Segment, Index> wall_;  ///< patch of the wall of each side of the rim
+    std::map<Segment, Index> wall_;  ///< for each side of the rim, the patch of its wall
     std::vector<std::size_t> rest_;  ///< quads away from the axis
     std::vector<Strip> strips_;
     double radius_ = 0;

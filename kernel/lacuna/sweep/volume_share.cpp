@@ -23,37 +23,38 @@ using namespace topology;
 
 namespace {
 
-/// Allowed relative volume error with default numbers: in total, the share of it for the curvature of ends,
-/// and the share for curvature along the sweep. The last two are reserved only if there is such curvature.
-/// The total must stay below 1 %; the margin covers effects that the model ignores.
+/// Allowed relative volume error with default numbers of sides. The first value is the total. The others are
+/// the shares of it that are reserved for curvature of ends and for curvature along the sweep, if there is
+/// such curvature. The total must stay below 1 %; the margin covers effects that the model ignores.
 constexpr double kAllLost = 0.008, kLostByEnds = 0.002, kLostByLayers = 0.003;
 /// Maximum number of sides per full turn. An inscribed polygon of 100 sides lacks 0.07 % of the circle's
 /// area.
 constexpr int kMostPerTurn = 100;
-/// Creases across an end get nodes up to this many sides per turn. If they would need more, they are only the
-/// sides of fine facets, and a smaller size is enough.
+/// Creases across an end get nodes if this needs at most this many sides per turn. Otherwise they are only
+/// the sides of fine facets, and a smaller size is enough.
 constexpr int kMostForCreases = 40;
-/// The curvature of an end may reduce its size to the first value, as a share of the default. It may reduce
-/// it further as long as the end has at most as many quads as the second value. Not measured.
+/// Curvature of an end may reduce its size to the first value, as a share of the default. It may reduce the
+/// size further as long as the end has at most the second number of quads. Not measured.
 constexpr double kLeastPart = 0.25, kMostForEnds = 2000;
-/// Factor by which quads inside ends are longer than the size. Measured on domes with six to twelve sides:
-/// their number of quads is half to two thirds of the area divided by the squared size.
+/// Factor by which the sides of quads inside ends exceed the size. Measured on domes with six to twelve
+/// sides: they had half to two thirds as many quads as the area divided by the squared size.
 constexpr double kLonger = 1.35;
-/// Upper bound of the mean elongation of quads on an end, √(area / projected area). Steeper ends, such as
-/// most of a ball, are not paved in one plane.
+/// Upper bound of the mean elongation of quads on an end, √(area / projected area). Ends that are steeper,
+/// such as most of a ball, are not paved in one plane.
 constexpr double kSteepest = 2;
-/// An end may have fewer rim sides than the size requires, by this factor, so that its grid closes: for
-/// instance 16 instead of 24.
+/// An end may have fewer rim sides than the size requires, by this factor, so that its grid fits: for example
+/// 16 sides instead of 24.
 constexpr double kFewer = 1.5;
 /// Factor between the sizes that are tried.
 constexpr double kSmaller = 0.9;
 /// Maximum number of layers because of curvature along the sweep: enough for a spiral of five turns.
 constexpr int kMostLayers = 300;
-/// Resolution of the wall model: total number of columns along a rim, and number of rows from source to
+/// Resolution of the wall model: number of columns along a whole rim, and number of rows from source to
 /// target. A polygon of 128 sides lacks 0.04 % of the circle's area.
 constexpr double kColumns = 128;
 constexpr int kRows = 64;
-/// Walls count as straight from rim to rim if straight ones change the volume by at most this share.
+/// Walls count as straight from rim to rim if replacing them by straight ones changes the volume by at most
+/// this share.
 constexpr double kStraight = 1e-3;
 double lost_by(double turn, double side) { return turn * side * side / 12; }
 
@@ -64,7 +65,8 @@ double area_of(const OpenVolume& volume, Role end)
     return area;
 }
 
-/// The volume that an end loses by its own curvature. Creases that have nodes at both ends lose nothing.
+/// The volume that a mesh loses on an end because of the end's own curvature. Creases with nodes at both ends
+/// lose nothing.
 double lost_on_end(const OpenVolume& volume, Role end, double scale, const SweepOptions& options,
                    const surface::SizeField& size, const std::set<Index>& kept)
 {
@@ -72,8 +74,8 @@ double lost_on_end(const OpenVolume& volume, Role end, double scale, const Sweep
     double lost = 0;
     for (const FaceId id : volume.faces(end)) {
         const Face& face = model[id];
-        // Sides of order 2 lie on exact surfaces. On facets they may have been kept straight for better
-        // cells.
+        // Sides of order 2 lie on exact surfaces and lose nothing there. On facets they may have been kept
+        // straight for better cells.
         if (face.kind == "plane" || (options.order > 1 && face.surface != nullptr)) continue;
         // Quads are paved in the plane, so they are longer on a steep end.
         const double steep = std::sqrt(face_area(model, id) / face_area_vector(model, id).norm());
@@ -109,15 +111,16 @@ double lost_on_ends(const OpenVolume& volume, const SweepOptions& options, const
 /// Six times the volume of a tetrahedron with its fourth corner in the origin.
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
 
-/// The number of sides of a mesh, given by sides per full turn and by a factor on the requested size.
+/// The number of sides of a mesh, given by the sides per full turn and by a factor on the requested size.
 struct Sides {
     int per_turn = 0; ///< 0: as many as the wall model has columns
     double part = 1;
 };
 
 /// Rows of points on the walls of each linking surface, with many more columns and rows than a mesh has. The
-/// nodes of a mesh are interpolated between these points. The enclosed volume is that of the wall quads plus
-/// cones that close the ends. One apex serves all rims of the target, and the origin all rims of the source.
+/// nodes of a mesh are interpolated between these points. The enclosed volume is that between the wall quads
+/// and cones that close both ends. The cones of all rims of the target have one apex, and those of all rims
+/// of the source have their apex in the origin.
 class Walls {
 public:
     Walls(const OpenVolume& volume, std::vector<surface::LinkingSurface> links, const SweepOptions& options,
@@ -190,7 +193,8 @@ public:
         double sum = 0;
         for (const Ring& ring : rings_) {
             double own = enclosed(ring, sides, layers, 1);
-            // Splitting each side in two regains 3/4 of the volume that a parabola regains.
+            // A parabola through the middle of a side regains 4/3 of the volume that two straight halves
+            // regain.
             if (curved_) own += 4. / 3 * (enclosed(ring, sides, layers, 2) - own);
             sum += ring.sign * (own - ring.within);
         }
@@ -200,15 +204,16 @@ public:
 private:
     struct Segment {
         int first = 0, fine = 1; ///< index of its first column, and number of its columns
-        bool fixed = false;      ///< it stays a single side, even if more are requested
-        double by_size = 1;      ///< number of sides that the size asks for
+        bool fixed = false;      ///< whether it stays a single side even if more sides are requested
+        double by_size = 1;      ///< number of sides that the size requires
         double turn = 0;         ///< turning angle of the rim [radian]
 
         [[nodiscard]] int count(const Sides& sides, int parts) const
         {
             if (fixed || sides.per_turn == 0) return fine;
             const double bends = turn * sides.per_turn / (2 * std::numbers::pi);
-            const double most = fine; // more sides than columns gain nothing
+            // A mesh with more sides than the model has columns would not be more accurate.
+            const double most = fine;
             return parts * static_cast<int>(
                                std::lround(std::clamp(std::max(by_size / sides.part, bends), 1.0, most)));
         }
@@ -222,7 +227,8 @@ private:
     };
 
     /// Six times the volume that a mesh of the ring encloses.
-    /// @param layers  0: all rows. @param parts  subdivisions of each side and layer.
+    /// @param layers  0: all rows. @param parts  number of parts into which each side and each layer is
+    ///         divided.
     [[nodiscard]] double enclosed(const Ring& ring, const Sides& of, int layers, int parts) const
     {
         std::vector<double> places; // columns of the mesh, as positions among the columns of a row
@@ -266,7 +272,7 @@ private:
     const OpenVolume& volume_;
     std::vector<surface::LinkingSurface> links_;
     double whole_ = 0;
-    bool curved_ = false; ///< sides are of order 2 on exact walls; on facets they may stay straight
+    bool curved_ = false; ///< whether sides are of order 2 on exact walls; on facets, sides may stay straight
     Vec3 origin_, apex_;
     std::vector<Ring> rings_;
     bool straight_ = true;
@@ -289,13 +295,13 @@ public:
         const double least = std::min(kLeastPart, std::sqrt(quads / kMostForEnds));
         if (is_enough(sides) || is_enough({kMostPerTurn})) {
             while (!is_enough(sides)) ++sides.per_turn;
-            const int enough = sides.per_turn; // without creases across an end
+            const int enough = sides.per_turn; // enough if creases across an end get no nodes
             while (ends_ > kLostByEnds && sides.per_turn < std::max(enough, kMostForCreases)) {
                 ++sides.per_turn;
                 if (!is_enough(sides)) break;
             }
             if (ends_ > kLostByEnds) sides.per_turn = enough;
-        } else { // the walls bend more than their rims, so more sides on the rims do not help
+        } else { // the walls bend more than their rims, so more sides of the rims do not help
             while (sides.part > least && !is_enough(sides)) sides.part *= kSmaller;
         }
         is_enough(sides);
@@ -305,9 +311,9 @@ public:
         return {sides.per_turn, sides.part, layers(sides, kLostByLayers)};
     }
 
-    /// If the requested sides lose too much, choose sides that lose six tenths of the allowed share; the rest
-    /// is left for the layers. A polygon of n sides lacks 2 π² / (3 n²) of its circle's area. If that is not
-    /// enough, sides are added as long as each step clearly helps.
+    /// If the requested sides lose too much, choose sides that lose six tenths of the allowed share, which
+    /// leaves the rest for the layers. A polygon of n sides lacks 2 π² / (3 n²) of its circle's area. If that
+    /// is not enough, sides are added as long as each step clearly reduces the loss.
     VolumePlan by_numbers()
     {
         constexpr double kOfShare = 0.6, kHelps = 0.75;
@@ -332,15 +338,15 @@ public:
     }
 
 private:
-    /// Relative loss on the rims or, if it is larger, on the ends, whose quads are as long as the sides of
-    /// the rims.
+    /// The relative loss on the rims or on the ends, whichever is larger. The quads of the ends are as long
+    /// as the sides of the rims.
     double lost_by_numbers(int per_turn)
     {
         const double fewer = static_cast<double>(options_.curvature) / per_turn;
         return std::max(std::abs(rims_->off({per_turn, kFewer}, 0)), on_ends_ * fewer * fewer);
     }
 
-    /// Model the walls for a mesh that has nodes at the given breaks.
+    /// Compute the wall model of a mesh that has nodes at the given breaks.
     void follow(const surface::RimBreaks& breaks)
     {
         if (rims_ && breaks.pairs == pairs_ && breaks.on_crease == on_crease_) return;
@@ -355,7 +361,7 @@ private:
     /// The allowed error minus the share reserved for curvature along the sweep.
     [[nodiscard]] double left() const { return kAllLost - (rims_->straight() ? 0 : kLostByLayers); }
 
-    /// Whether the sides suffice on the rims and, if the walls bend between the rims, on the walls.
+    /// Whether these sides are enough for the rims and, if the walls bend between the rims, for the walls.
     bool is_enough(const Sides& sides)
     {
         const surface::RimBreaks breaks = facets_.breaks(sides.per_turn, size_);
@@ -378,8 +384,8 @@ private:
         walls_->follow(context_);
     }
 
-    /// A function that returns the number of layers, starting from `least`, with which curved walls lose at
-    /// most `share`.
+    /// A function that returns the number of layers with which curved walls lose at most `share`. It starts
+    /// at `least`.
     std::function<int(int)> layers(const Sides& sides, double share)
     {
         find_walls();
@@ -399,7 +405,7 @@ private:
     const surface::SizeField& size_;
     const RunContext& context_;
     surface::RimFacets facets_{volume_, links_};
-    /// The breaks for which the walls are modelled.
+    /// The breaks for which the wall model was computed.
     std::vector<std::vector<std::pair<double, double>>> pairs_;
     std::vector<char> on_crease_;
     double on_ends_ = 0, ends_ = 0; ///< volume lost on ends: without breaks, and with the current breaks

@@ -12,7 +12,7 @@
 
 namespace lacuna::quads::cleaning {
 
-/// How far a quad is from ideal.
+/// Deviation of a quad from an ideal one.
 struct QuadLoss {
     double jacobian = 1; ///< scaled Jacobian
     double loss = 0;     ///< 1 - jacobian, plus a penalty for a wrong area if a target size is given
@@ -28,20 +28,21 @@ public:
 
     /// Whether the quads of every point form one fan, and only fixed points lie on the boundary.
     [[nodiscard]] bool is_sound() const;
-    /// The remaining points and quads, the fixed points first.
+    /// The points and quads that were not removed, the fixed points first.
     [[nodiscard]] PlanarQuads result() const;
 
     [[nodiscard]] const QuadNet& net() const { return net_; }
     [[nodiscard]] const std::vector<Vec2>& points() const { return points_; }
     [[nodiscard]] const Vec2& at(Index p) const { return points_[index(p)]; }
-    /// Ideal number of quads at a point: four inside; on the boundary, as many as right angles fit in.
+    /// Ideal number of quads at a point: four inside; on the boundary, the number of right angles that fit
+    /// best in the point's angle.
     [[nodiscard]] int ideal_valence(Index p) const { return ideal_[index(p)]; }
     [[nodiscard]] bool is_irregular(Index p) const
     {
         return net_.is_used(p) && net_.valence(p) != ideal_valence(p);
     }
     [[nodiscard]] QuadLoss loss(Index q) const { return loss_of(points_, net_.quad(q), options_); }
-    /// Identifier of a quad. A later quad that reuses the quad's number gets another one.
+    /// Identifier of a quad. If a later quad reuses the number of a removed quad, it gets another identifier.
     [[nodiscard]] std::uint64_t name(Index q) const
     {
         return (static_cast<std::uint64_t>(q) << 32) + version_[index(q)] + 1;

@@ -10,17 +10,18 @@
 
 namespace lacuna::quads::cleaning {
 
-/// A patch of quads with one outline.
+/// A patch of quads with a single outline.
 struct QuadPatch {
     std::vector<Index> quads;
     std::vector<Index> touched;       ///< points, in the order in which they were added
-    std::vector<Index> loop;          ///< points of the outline, the patch on the left
+    std::vector<Index> loop;          ///< points of the outline; the patch is on the left
     std::vector<std::size_t> corners; ///< positions in the loop
-    /// Number of irregular points that a filling may change: inside the patch and on the mesh's boundary.
+    /// Number of irregular points that a filling may change: those inside the patch, and those of its outline
+    /// that are on the mesh's boundary.
     int irregular = 0;
 };
 
-/// Whether a template can fill a patch.
+/// Whether a template can fill a patch: yes; no; or not below the maximum number of quads.
 enum class PatchState { fine, hopeless, too_large };
 
 /// Grows patches one at a time, each from an irregular point to others nearby.
@@ -36,15 +37,15 @@ public:
     [[nodiscard]] const std::vector<Index>& others() const { return others_; }
     /// All points near the seed that the search visited.
     [[nodiscard]] const std::vector<Index>& seen_points() const { return seen_points_; }
-    /// Add the stars of all points on the way from `other` back to the seed. @return false if `other` is
-    /// inside already
+    /// Add the stars of all points on the path from `other` to the seed. @return false if `other` is already
+    /// inside
     bool grow_to(Index other);
     /// Add quads until no point of the outline is concave and none occurs twice.
     /// @return hopeless if the patch has a hole, touches itself at a point of the mesh's boundary, or
     ///         contains such a point that should have three quads or more; too large if it needs more than
     ///         `largest` quads.
     PatchState close(std::size_t largest);
-    /// Quads around the patch, in `layers` rings.
+    /// The quads around the patch, within `layers` rings.
     const std::vector<Index>& rings(int layers);
 
     [[nodiscard]] const QuadPatch& patch() const { return patch_; }
@@ -60,7 +61,7 @@ private:
     QuadPatch patch_;
     Marks in_patch_, in_rings_, passed_;
     Numbers count_;         ///< number of the patch's quads at each point
-    Numbers parent_;        ///< for each visited point, the next one on the way back to the seed
+    Numbers parent_;        ///< for each visited point, the next point on the path to the seed
     Numbers next_;          ///< for each point of the outline, its successor
     Index start_ = -1;      ///< a point on the outline
     std::size_t sides_ = 0; ///< number of sides of the outline

@@ -11,20 +11,21 @@ namespace lacuna::quads {
 
 struct CleanOptions {
     std::function<double(const Vec2&)> size; ///< target edge length [model length]; null: only shape counts
-    /// Scaled Jacobian [-]. No change may produce a quad that is worse than this and than the previous worst.
+    /// Scaled Jacobian [-]. A change is refused if it makes a quad that is worse than this and also worse
+    /// than the worst quad before.
     double least = 0.6;
     int largest_patch = 400; ///< maximum number of quads that are refilled at once, >= 4
     int passes = 4;          ///< number of passes over all irregular points, >= 1
-    /// Whether a third search with larger limits follows. The base budget is then 50,000 quads, otherwise
+    /// Whether a third search with larger limits follows. If so, the base budget is 50,000 quads, otherwise
     /// 15,000.
     bool thorough = true;
-    /// Budget of quads in all fillings that are tried: this multiple of the mesh's number of quads, plus the
-    /// base budget.
+    /// The budget limits the number of quads in all fillings that are tried. It is this multiple of the
+    /// mesh's number of quads, plus the base budget.
     double effort = 3;
 };
 
 /// Change the connections of quads so that more interior points have four quads, and more boundary points
-/// have as many quads as right angles fit in their angle. The boundary is not changed.
+/// have the number of quads that suits their angle. The boundary is not changed.
 ///
 /// Doublets are removed first. Then patches are grown around irregular points until no corner of their
 /// outline is concave. Each patch is filled with the template of two to six sides that has the fewest

@@ -16,7 +16,7 @@ namespace lacuna::quads::cleaning {
 enum class Verdict {
     hopeless, ///< rejected early
     poor,     ///< smoothed with its surroundings, but not good enough
-    good      ///< put into the mesh; the patch no longer exists
+    good      ///< put into the mesh; the quads of the patch are replaced
 };
 
 /// Smooths fillings of one patch with their surroundings, one after the other, and puts a good one into the
@@ -26,14 +26,14 @@ public:
     /// @param mesh, options  kept by reference
     Trial(CleanMesh& mesh, const CleanOptions& options);
 
-    /// Set the patch that the next fillings are for, and the surrounding quads to smooth with it. Both are
-    /// kept by reference.
+    /// Set the patch to which the next fillings belong, and the surrounding quads that are smoothed with each
+    /// filling. Both are kept by reference.
     void set_patch(const QuadPatch& patch, std::span<const Index> around);
 
-    /// Replace the patch by a filling if that is good.
+    /// Put a filling into the mesh in place of the patch, if the filling is good.
     ///
-    /// The filling is judged three times: as it is, after a few smoothing sweeps over its own points, and
-    /// after smoothing together with its surroundings.
+    /// The filling is judged three times: before smoothing, after a few smoothing sweeps over its own points,
+    /// and after it is smoothed together with its surroundings.
     /// @param hopeless  the first two judgements reject a filling whose loss exceeds this multiple of the
     ///                  allowed loss
     Verdict run(const TemplateMesh& filling, int sweeps, double hopeless);

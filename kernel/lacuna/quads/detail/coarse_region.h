@@ -9,15 +9,16 @@
 
 namespace lacuna::quads::paving {
 
-/// Whether a loop turns so sharply at its node at `place` that the node cannot be left out.
+/// Whether a loop turns so sharply at position `place` that the node there cannot be left out.
 bool stays(const PlanarRegion& region, const std::vector<Index>& loop, std::size_t place);
 
 /// A run: the part of a loop between two nodes that stay, or a whole loop without such nodes. Some of its
 /// sides are kept whole (not merged in pairs); their number is odd if the run has an odd number of sides.
 struct WholeRun {
     std::vector<Index> nodes; ///< nodes of the region, including the last one
-    Index first;              ///< first of its points in the coarse region, which are numbered consecutively
-    std::size_t whole;        ///< number of sides kept whole, > 0
+    /// Index of the run's first point in the coarse region; its points are numbered consecutively.
+    Index first;
+    std::size_t whole; ///< number of sides that are kept whole, > 0
 
     /// Number of the run's points in the coarse region: each pair of the other sides becomes one side.
     [[nodiscard]] std::size_t points() const { return (nodes.size() - 1 + whole) / 2; }

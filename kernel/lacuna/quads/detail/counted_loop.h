@@ -32,27 +32,28 @@ struct CountTask {
 /// Mean of the target size along the boundary [model length].
 double mean_size(const CountTask& task);
 
-/// Number of quads that the size requires. It is computed from the region's size if there is one, otherwise
-/// from the wanted numbers of sides.
+/// Number of quads that the size requires. It follows from the region's size or, if the region has none, from
+/// the wanted numbers of sides.
 double quads_asked(const CountTask& task);
 
 /// Range for the number of sides of a segment, relative to the wanted number.
 struct CountRange {
     double least, most;
 };
-/// kRing applies to the loops of a ring: edges may be 0.6 to 1.6 times as long as wanted, the range that
-/// `measure_plane()` counts as right. kSegment applies to other segments of four sides or more, and is the
-/// promised range of sizes. Segments of fewer sides may change by one side.
+/// kRing applies to the loops of a ring: edges may be 0.6 to 1.6 times as long as wanted, which is the range
+/// that `measure_plane()` accepts. kSegment applies to other segments with four or more sides, and is the
+/// range that `pattern_counts()` promises. Segments with fewer sides may change by one side.
 inline constexpr CountRange kRing{1 / kLongestOfSize, 1 / kShortestOfSize}, kSegment{1 / 1.25, 1.25};
-/// Rounding may exceed a ring's range by this factor, so that repeated segments of a loop still get equal
-/// numbers. A larger value preserves more symmetry, but the edges of one loop then miss their size.
+/// Rounding may exceed a ring's range by this factor, so that segments that repeat along a loop still get
+/// equal numbers. A larger value preserves more symmetry, but the edges of one loop then miss their size.
 inline constexpr double kRingRounding = 1.03;
 inline constexpr CountRange kRingSegment{kRing.least / kRingRounding, kRing.most* kRingRounding};
 
 /// Whether a number of sides is within a range of the wanted number, or differs from it by one.
 bool is_within(const CountRange& range, double wanted, int sides);
 
-/// (n − wanted)² / n. Too many and too few sides by the same ratio cost the same. Infinite for n = 0.
+/// (n − wanted)² / n. If two numbers are too large and too small by the same ratio, they cost the same.
+/// Infinite for n = 0.
 double cost_of_sides(double wanted, int sides);
 
 /// Numbers of sides of every segment, and their cost for comparison with those of other parts of a region.
@@ -75,13 +76,13 @@ struct CountedLoop {
     /// For headings 0 and 1: the number of sides along the heading minus the number in the opposite
     /// direction.
     std::array<int, 2> excess{};
-    std::array<int, 2> added{}; ///< sides along headings 0 and 1 that the loop's rows of quads add
+    std::array<int, 2> added{}; ///< numbers of sides that the loop's rows of quads add along headings 0 and 1
     double wanted = 0;          ///< total number of wanted sides
-    int soft = 0;               ///< turns made by the loop's rows of quads
+    int soft = 0;               ///< number of turns that the loop's rows of quads make
 };
 
-/// The runs of a loop with their wanted numbers of sides, rounded, and the loop's excess after its rows are
-/// placed.
+/// The runs of a loop with their wanted numbers of sides, rounded, and the excess of the loop after its rows
+/// are placed.
 /// @param share  factor on the wanted numbers.
 /// @return  empty if the loop fits no grid.
 std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop, double share = 1);
@@ -91,8 +92,8 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
 /// @throw Cancelled
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range);
 
-/// Add one side along a heading and one in the opposite direction, or remove one of each, whichever costs
-/// less. Nothing is done if neither is allowed.
+/// Add one side along a heading and one in the opposite direction, or remove one of each. The function
+/// chooses what costs less, and does nothing if neither is allowed.
 /// @param quarter  0 or 1
 void change_both(const CountTask& task, CountedLoop& loop, int quarter);
 

@@ -8,16 +8,16 @@
 
 namespace lacuna::quads {
 
-/// Fill a region with one grid, or a few, bent so that grid lines follow the boundary. All suitable ways are
-/// tried.
+/// Fill a region with one grid, or with a few. The grid is bent so that its lines follow the boundary. All
+/// suitable ways are tried.
 ///
 /// 1. Every boundary side gets one of four headings, by dynamic programming over its direction and the angles
 ///    at its ends. Directions are measured relative to circles around a hole, or to the region's main
 ///    direction.
 /// 2. If the headings turn at a node where the boundary does not, the turn is soft: one to three rows of
 ///    quads are placed along the boundary up to the next corners, and the grid turns behind these rows. It
-///    turns at a node of three quads where the region bulges, and of five quads where it is bent inward.
-///    Other irregular nodes do not occur, so there are as few as the boundary's corners allow.
+///    turns at a node of three quads where the region bulges, and at a node of five quads where the region is
+///    bent inward. Other irregular nodes do not occur, so there are as few as the boundary's corners allow.
 /// 3. Soft turns are moved along the loop until it closes in the grid. If that is not enough, other turns are
 ///    moved too, as long as no angle falls below 54° or exceeds 126°.
 /// 4. Holes are placed in the grid at the interpolated grid coordinates of their boundary.
@@ -31,15 +31,15 @@ namespace lacuna::quads {
 /// sides.
 ///
 /// For example, a disc gets a square within rows, and a ring whose loops have equal numbers of sides gets
-/// rows only. Slots, rounded rectangles, plates with holes, and flanges get one grid with four irregular
-/// nodes for each round loop.
+/// rows only. Slots, rounded rectangles, plates with holes, and flanges get one grid each, with four
+/// irregular nodes for each round loop.
 ///
 /// Ends of 135° are tried as soft turns first. Unless this gives a mesh of nearly square quads, they are
 /// tried as hard turns. After that, headings with fewer soft turns that fit almost as well are tried, as at
 /// the blunt end of a slit.
-/// @return  valid meshes, the most promising first: those with lines around a hole, then those with straight
-///         lines, by number of rows. The search stops after a mesh that cannot be improved much. Empty if the
-///         numbers of sides fit no grid, or quads would fold.
+/// @return  valid meshes, the most promising first: meshes with grid lines around a hole, then meshes with
+///         straight grid lines, both in order of their number of rows. The search stops after a mesh that
+///         cannot be improved much. Empty if the numbers of sides fit no grid, or quads would fold.
 /// @pre   loops as `pave()` requires them.
 /// @note  Deterministic. O(quads), plus O(outer nodes × hole nodes), for each way.
 std::vector<PlanarQuads> fill_patterns(const PlanarRegion& region, const RunContext& context = {});

@@ -7,14 +7,14 @@
 
 namespace lacuna::quads::paving {
 
-/// The sides of a loop, with bounding boxes of consecutive sides. It tests quickly whether a line crosses any
-/// of them.
+/// The sides of a loop, with a bounding box for each group of consecutive sides. With these boxes, the class
+/// tests quickly whether a line crosses a side.
 class LoopSides {
 public:
     /// @pre the mesh and the loop outlive this object; points may be added to the mesh.
     LoopSides(const PartialMesh& partial, const Cycle& loop);
 
-    /// Whether the open segment between two nodes meets no side.
+    /// Whether the segment between two nodes, without its ends, meets no side.
     [[nodiscard]] bool is_clear(Index a, Index b) const;
 
     [[nodiscard]] const Eigen::AlignedBox2d& box() const { return whole_; }

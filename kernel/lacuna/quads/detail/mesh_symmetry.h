@@ -10,8 +10,8 @@
 
 namespace lacuna::quads {
 
-/// The symmetries of a region, except the identity, that also map quads onto quads. Each has the images of
-/// all nodes, including inner nodes.
+/// The symmetries of a region, except the identity, that also map the quads of a mesh onto each other. Each
+/// symmetry lists the images of all nodes, including inner nodes.
 /// @pre  `find_fault()` finds no fault.
 std::vector<Symmetry> mesh_symmetries(const PlanarQuads& mesh, const PlanarRegion& region);
 

@@ -10,29 +10,30 @@
 
 namespace lacuna::quads {
 
-/// Numbers of sides for the part of a symmetric region between mirror axes, applied to all images of the
-/// part. If no grid fills the part, they are the wanted numbers, rounded, and the cost is infinite.
-/// @return empty if the region cannot be cut along any axis.
+/// Numbers of sides for the part of a symmetric region between mirror axes. They are then applied to all
+/// images of the part. If no grid fills the part, the result is the wanted numbers, rounded, with infinite
+/// cost. @return empty if the region cannot be cut along any axis.
 std::optional<Counts> mirror_counts(const CountTask& task);
 
 /// Give the axes of a part numbers of sides with which one grid fills the part, as `pattern_counts()` does.
 /// If there are no such numbers, use those that the size requires, with an even total around the part.
-/// @param few  whether numbers may deviate as much as those of a ring, if nothing else fits.
+/// @param few  whether numbers may deviate from the wanted ones as much as on a ring, if nothing else fits.
 /// @return  cost of the grid, for comparison with other parts; infinite if there is no grid.
 /// @throw Cancelled
 double count_axes(MirrorPart& part, const SizeField& size, bool few, const RunContext& context);
 
-/// Axes of a part are divided by a size that grows away from short given sides. Below this number of quads,
-/// the requested size is tried first, because the graded size would leave too few lines for the whole part.
+/// The axes of a part are divided by a size that grows away from short given sides. If there are fewer quads
+/// than this, the requested size is tried first, because the graded size would leave too few grid lines in
+/// the part.
 inline constexpr double kFewForGrading = 200;
 
-/// Maximum number of parts that are tried. Each lies between another pair of mirror axes; the best ranked
-/// pairs are used.
+/// Maximum number of parts that are tried. Each part lies between another pair of mirror axes, and the pairs
+/// with the best rank are used.
 inline constexpr std::size_t kMostChoices = 4;
 
 /// The cheapest result over parts between different pairs of axes.
-/// @param sizes  sizes for dividing the axes. The last one is used only if no grid fills a part with the
-///         others.
+/// @param sizes  sizes for dividing the axes. The last size is used only if no grid fills a part with any of
+///         the other sizes.
 /// @param make   makes a result from a part. The result has a cost, which is infinite if no grid fills the
 ///         part.
 /// @return empty if there are no parts.

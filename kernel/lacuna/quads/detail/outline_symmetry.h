@@ -12,8 +12,8 @@
 
 namespace lacuna::quads {
 
-/// Symmetries whose angles differ by less than this are the same [radian]. The value is far above the
-/// accuracy of nodes and far below the angle between two symmetries.
+/// Symmetries whose angles differ by less than this count as the same [radian]. The value is far above the
+/// accuracy of nodes, and far below the angle between two symmetries.
 inline constexpr double kSameAngle = 1e-5;
 
 /// A rotation about a centre. If `mirrors`, a reflection that reverses y is applied before it.
@@ -45,25 +45,28 @@ struct Symmetry {
 };
 
 /// The symmetries of a region's boundary nodes, except the identity. If there are more than 64 rotations,
-/// only a subgroup of at most 64 is returned, which contains the quarter turns, and mirror axes only if one
-/// of them passes through the first node of the outer loop.
-/// @note  O(nodes) for each node of the outer loop that is as far from the centre as the farthest one. Most
-///         candidates that are not symmetries fail at once.
+/// only a subgroup of at most 64 is returned. It contains the quarter turns. It contains mirror axes only if
+/// one of them passes through the first node of the outer loop.
+/// @note  O(nodes) for each node of the outer loop that has the largest distance from the centre. Most of
+///         these candidates are no symmetries and are rejected at once.
 std::vector<Symmetry> outline_symmetries(const PlanarRegion& region);
 
-/// The part of a symmetric region between two adjacent mirror axes, or on one side of its only axis. Its
-/// images about the centre make up the region.
+/// The part of a symmetric region between two adjacent mirror axes, or on one side of a single axis. The
+/// images of the part make up the region.
 struct MirrorPart {
     PlanarRegion region;
-    std::vector<Index> whole; ///< node of the whole region at each node; -1: a node only on an axis
-    /// For the side from each node to the next: the piece of an axis on which it lies; -1: none.
+    /// For each node, its number in the whole region; -1: the node is only on an axis.
+    std::vector<Index> whole;
+    /// For the side from each node to the next: the piece of an axis on which the side lies; -1: the side is
+    /// on no axis.
     std::vector<int> axis;
-    std::vector<char> ray;   ///< for each node: 0 if it is on no axis, 1 or 2 on that axis, 3 at the centre
-    bool has_centre = false; ///< whether the centre lies in the region
-    bool is_some = false;    ///< whether the region has more symmetries than those of the images
+    /// For each node: 0 if it is on no axis, 1 or 2 if it is on that axis, 3 if it is the centre.
+    std::vector<char> ray;
+    bool has_centre = false;    ///< whether the centre lies in the region
+    bool is_some = false;       ///< whether the region has other symmetries besides those of the images
     std::vector<double> wanted; ///< number of sides that the size requires on each piece of an axis
-    /// The images, in order about the centre. The first one is the part itself; the second, fourth and so on
-    /// are mirrored.
+    /// The images, in order around the centre. The first image is the part itself. The second, fourth and so
+    /// on are mirrored.
     std::vector<Symmetry> images;
 
     /// Add a node to the last loop.
@@ -82,12 +85,12 @@ struct MirrorPart {
 ///
 /// If the centre is outside the region or in a hole, up to eight axes are used. Otherwise two perpendicular
 /// axes are used, or one if no two are perpendicular: more axes would give the centre a valence of six or
-/// more. Pairs of axes that cut more loops rank first, because a loop that is cut need not be placed in the
-/// grid. Next come pairs that pass through the first node of the outer loop. Nodes are placed along the axes
-/// at the spacing of `size`.
-/// @param symmetries  symmetries of the region that may be used: all, or a subgroup.
+/// more. Pairs of axes are ranked. Those that cut the most loops come first, because a loop that is cut need
+/// not be placed in the grid. Of equal pairs, those through the first node of the outer loop come first.
+/// Nodes are placed along the axes at the spacing of `size`.
+/// @param symmetries  the symmetries of the region, or those of a subgroup; only these are used.
 /// @param size        spacing of the nodes on the axes.
-/// @param choice      rank of the perpendicular pair, from 0.
+/// @param choice      rank of the perpendicular pair of axes, from 0.
 /// @return  empty if there is no such axis, or `choice` is too large.
 std::optional<MirrorPart> mirror_part(const PlanarRegion& region, const std::vector<Symmetry>& symmetries,
                                       const SizeField& size, std::size_t choice);

@@ -21,7 +21,7 @@ struct CutWeights {
     double added = 1;         ///< quads that the cut adds at its ends
     double length = 1;        ///< length of the cut relative to the outline that it cuts off
     double mismatch = 1;      ///< unequal numbers of opposite sides in the parts
-    double bent = 0.5;        ///< bonus for ending where the outline turns inward
+    double bent = 0.5;        ///< bonus for a cut that ends where the outline turns inward
     double least_patch = 0.6; ///< quality from which a small part is filled without a cut [-]
     double most_patch = 0.9;  ///< quality from which a large part is filled without a cut [-]
 };
@@ -32,9 +32,8 @@ struct PartialMesh {
     std::vector<Quad> quads;
     std::size_t fixed = 0;
     SizeField size;
-    double flat = 0; ///< quads with a smaller sine count as folded [-]
-    /// Single edges drawn between existing nodes. A second edge between the same two nodes would make the
-    /// mesh invalid.
+    double flat = 0; ///< a quad counts as folded if the sine of a corner is smaller than this [-]
+    /// Edges drawn between existing nodes. Two edges between the same two nodes would make the mesh invalid.
     std::unordered_set<std::uint64_t> links{};
     CutWeights weights{};
 

@@ -26,39 +26,40 @@ struct SideCounts {
 /// The numbers of edges between the corners of a loop; corners are ascending positions in the loop.
 SideCounts side_counts(std::size_t loop, std::span<const std::size_t> corners);
 
-/// Where the grids of a patch of 3 or 5 sides meet on each side, in edges from the side's start.
+/// For each side of a patch of 3 or 5 sides, the position at which the grids meet on it, in edges from the
+/// start of the side.
 ///
 /// There is one grid at each corner. The grids are separated by spokes, lines that start at a node in the
 /// middle. The spoke that ends on side i has foot[i + 1] edges, and side i has foot[i] + foot[i + 2] edges.
 /// For an odd number of sides these equations have one solution.
-/// @param ends_in_cut  whether the last side is a cut. The first foot may then be 0; the grids meet on the
-///         cut.
+/// @param ends_in_cut  whether the last side is a cut. Then the first foot may be 0, and the grids meet on
+///         the cut.
 /// @return  false if the solution does not consist of integers above 0.
 bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMostSides>& foot);
 
-/// A straight line of edges across a patch; the parts on either side need no further cut.
+/// A straight line of edges across a patch. The parts on both sides of it need no further cut.
 struct TemplateCut {
     std::size_t from = 0, to = 0; ///< positions in the loop
     int edges = 0;                ///< number of edges along it; 0: the patch is filled without a cut
-    double fault = 0;             ///< deviation from straight and square, 0 is best [-]
+    double fault = 0; ///< deviation from a straight line that meets the sides at right angles; 0 is best [-]
 };
 
-/// The cuts with which a loop of two to six corners is filled with the fewest irregular nodes. The best comes
-/// first: straight, and square to the sides if possible. If no cut is needed, the result is one "cut" without
-/// edges. For three or five corners that cannot be filled with one irregular node, the result contains some
-/// of the cuts with three.
+/// The cuts with which a loop of two to six corners is filled with the fewest irregular nodes. The best cut
+/// comes first: it is straight, and meets the sides at right angles if possible. If no cut is needed, the
+/// result is one "cut" without edges. If a loop of three or five corners cannot be filled with one irregular
+/// node, the result contains some of the cuts that give three irregular nodes.
 ///
-/// @param loop     in order, the patch on the left.
+/// @param loop     points in order, with the patch on the left.
 /// @param corners  positions in the loop, ascending.
-/// @param most     maximum number of cuts; half as many if the cuts join opposite sides.
+/// @param most     maximum number of cuts. For cuts that join opposite sides, the maximum is half of it.
 /// @note  The numbers of edges determine which cuts exist. The positions of the points rank them, and exclude
 ///         cuts that are slanted or have far too many or too few edges. O(product of the numbers of edges of
 ///         two sides).
 std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const std::size_t> corners,
                                    std::size_t most);
 
-/// Upper bound of the number of irregular nodes with the cuts of `find_cuts()`, if it finds one; a large
-/// number if the number of corners is not two to six.
+/// Upper bound of the number of irregular nodes with the cuts of `find_cuts()`, if there are such cuts. A
+/// large number if the loop does not have two to six corners.
 int fewest_irregular(std::size_t loop, std::span<const std::size_t> corners);
 
 /// Quads that fill a loop.
@@ -80,11 +81,11 @@ bool can_fill(const SideCounts& counts);
 ///      2, 4 or 6 sides, with a cut: two parts of 3 and 3, 3 and 5 or 5 and 5 sides. Two irregular nodes.
 ///      3 or 5 sides, with a cut: parts of 3 and 4 or 4 and 5 sides. Three irregular nodes.
 ///
-/// The patch has one quad at a corner and two at other points of the loop. Grids are transfinite, so they
-/// follow the spacing of the loop.
-/// @param loop     in order, the patch on the left.
+/// There is one quad at each corner of the loop, and there are two quads at each other point of the loop.
+/// Grids are transfinite, so they follow the spacing of the loop.
+/// @param loop     points in order, with the patch on the left.
 /// @param corners  positions in the loop, ascending.
-/// @param cut      one of `find_cuts()`, or none.
+/// @param cut      one of the cuts of `find_cuts()`; by default, none.
 /// @pre   without a cut `can_fill()`.
 TemplateMesh fill_template(std::span<const Vec2> loop, std::span<const std::size_t> corners,
                            const TemplateCut& cut = {});

@@ -15,16 +15,16 @@ namespace lacuna::quads {
 struct RingWidths {
     double least = 0, most = 0; ///< [model length]
     std::size_t narrowest = 0;  ///< index of the outer loop's node where the ring is narrowest
-    /// Mean number of nodes from `narrowest` to the points where the width is halfway between `least` and
-    /// `most`.
+    /// Mean number of nodes between `narrowest` and the two points where the width is halfway between `least`
+    /// and `most`.
     std::size_t half = 0;
 
-    /// Number of rows that the rest of the ring should have in addition to those of its narrow part, so that
-    /// all rows are about as high as `height`. 0 if `measure_plane()` accepts the heights of a constant
-    /// number of rows.
+    /// Number of rows by which the rest of the ring should exceed its narrow part, so that all rows are about
+    /// as high as `height`. 0 if `measure_plane()` accepts the row heights of a ring with the same number of
+    /// rows everywhere.
     [[nodiscard]] int steps(double height) const;
-    /// Number of rows of this height that may change their number of quads: the mean number of rows minus
-    /// one.
+    /// Number of rows of this height that may change their number of quads. It is one less than the mean
+    /// number of rows.
     [[nodiscard]] int changing(double height) const;
 };
 
@@ -35,17 +35,18 @@ RingWidths ring_widths(std::span<const Vec2> points, const std::vector<Index>& o
 /// Whether a loop runs around without a turn.
 bool runs_round(const PatternLoop& loop);
 
-/// Let a loop without turns step inward by some rows on the part within `half` nodes of `middle`, and back
-/// out again, by two soft turns each. This reduces its length along the grid by twice as many sides.
+/// Let a loop without turns step inward by some rows on the part within `half` nodes of `middle`, and outward
+/// again, with two soft turns for each step. Its length along the grid decreases by twice as many sides.
 /// @return false if the part is too short.
 bool step_in(PatternLoop& loop, std::size_t middle, std::size_t half, int rows);
 
 /// Place rows along a loop without turns until its number of sides has changed by `by`.
 ///
 /// The first row has as many quads as the loop has sides, so no irregular node lies on the boundary. Each
-/// further row turns at `corners` evenly spaced nodes (the last row perhaps at fewer): an end of the grid
-/// there removes two sides, a corner adds two. The turns of successive rows lie above each other; each such
-/// column of turns leaves one node of three quads and one of five. The nodes of each row are evenly spaced.
+/// further row turns at `corners` evenly spaced nodes; the last row may turn at fewer. If the turn is an end
+/// of the grid, it removes two sides; if it is a corner, it adds two. The turns of successive rows lie above
+/// each other. Each such column of turns has one node of three quads and one node of five quads. The nodes of
+/// each row are evenly spaced.
 /// @param by  even number of sides to add (> 0) or remove (< 0), at least twice `corners`.
 /// @return false if `by` or `corners` is not allowed, if turns would be less than three sides apart, or if a
 ///         row would have fewer than three nodes.

@@ -7,14 +7,14 @@
 
 namespace lacuna::quads::paving {
 
-/// Which rows are placed along the boundary before a region is filled.
+/// The rows that are placed along the boundary before a region is filled.
 enum class RowStyle {
     by_shape,  ///< as many rows as suit each loop
-    no_rows,   ///< none; the region is cut as it is
-    triangles, ///< none; `quads_of_triangles()` fills the region
+    no_rows,   ///< no rows; the region is cut without them
+    triangles, ///< no rows; `quads_of_triangles()` fills the region
 };
 
-/// A mesh of one attempt at a region.
+/// The mesh of one attempt to fill a region.
 struct Attempt {
     PlanarQuads mesh;
     PaveReport report;
@@ -26,18 +26,18 @@ struct Attempt {
 /// Find the worst quad.
 void judge(Attempt& attempt);
 
-/// The input common to all attempts at a region.
+/// The inputs of all attempts to fill one region.
 struct AttemptSetting {
     const PlanarRegion& region;
     SizeField size;  ///< size in the region, graded from its boundary sides
-    double flat = 0; ///< quads with a smaller sine count as folded [-]
+    double flat = 0; ///< a quad counts as folded if the sine of a corner is smaller than this [-]
 };
 
-/// Fill a region in one way: by rows, cuts and patches, or by triangles. The mesh is not improved yet.
+/// Fill a region in one way: with rows, cuts and patches, or with triangles. The mesh is not improved yet.
 Attempt begin_attempt(const AttemptSetting& setting, RowStyle style, const CutWeights& weights,
                       const RunContext& context);
 
-/// Open folds, clean and smooth.
+/// Open the folds of a mesh, then clean and smooth it.
 /// @param thorough  whether cleaning is thorough, see `CleanOptions`
 void finish_attempt(Attempt& attempt, const AttemptSetting& setting, bool thorough,
                     const RunContext& context);

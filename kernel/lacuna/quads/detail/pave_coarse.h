@@ -9,8 +9,9 @@
 
 namespace lacuna::quads::paving {
 
-/// Pave the coarse region, coarsened repeatedly if it is large, cut its cells in four and smooth the quads.
-/// @param size  of the region, graded from its boundary sides.
+/// Pave the coarse region, cut its cells in four and smooth the quads. A large coarse region is itself
+/// coarsened first.
+/// @param size  size in the region, graded from its boundary sides.
 /// @return empty if there is no coarse region or it cannot be filled.
 /// @throw Cancelled
 std::optional<Paved> pave_in_four(const PlanarRegion& region, const SizeField& size,

@@ -6,8 +6,8 @@
 
 namespace lacuna::quads::paving {
 
-/// Fill the area between loops with quads. Holes are joined to the outer loop; then the loop is cut in two
-/// recursively, until every part is a good patch or a loop of six nodes or fewer.
+/// Fill the area between loops with quads. Holes are first joined to the outer loop. This loop is then cut in
+/// two recursively, until every part is a good patch or a loop of at most six nodes.
 /// @return whether `fill_patch()` filled everything as one part, without a cut.
 /// @pre   the total number of nodes of the loops is even.
 /// @throw Cancelled  by the context.

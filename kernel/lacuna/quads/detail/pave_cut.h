@@ -8,19 +8,20 @@
 
 namespace lacuna::quads::paving {
 
-/// A straight line across a part, between two nodes of its outline, or between two loops.
+/// A straight line across a part of the region, between two nodes of its outline or between two loops.
 struct Cut {
     std::size_t from = 0, to = 0; ///< positions in the cycle, or in the two loops that the line joins
     std::size_t edges = 1;        ///< mesh edges along the line
 };
 
-/// The cost of dividing an angle by a line: 0 if both parts suit whole numbers of quads and no quad is added.
+/// The cost of dividing an angle by a line. It is 0 if both parts of the angle suit whole numbers of quads
+/// and no quad is added.
 double end_cost(double whole, double part, const CutWeights& weights);
 
-/// The length of edges along a line between two points: the inverse of the mean of 1 / size.
+/// The length that edges along a line between two points should have: the inverse of the mean of 1 / size.
 double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b);
 
-/// The best line that divides a loop into two loops of even numbers of nodes, by the weights of
+/// The best line that divides a loop into two loops with even numbers of nodes, according to the weights of
 /// `PartialMesh`. A good line meets the outline at multiples of a right angle, is short relative to the part
 /// of the outline that it cuts off, leaves parts whose opposite sides have equal numbers of edges, and stays
 /// away from other nodes.
@@ -29,8 +30,8 @@ double local_size(const PartialMesh& partial, const Vec2& a, const Vec2& b);
 std::optional<Cut> best_cut(const PartialMesh& partial, const Cycle& cycle,
                             const std::vector<double>& angles);
 
-/// Cut one quad off a loop where this quad has the best shape. Used for loops in which `best_cut()` finds no
-/// line. Both parts have even numbers of nodes and are smaller than the loop.
+/// Cut one quad off a loop, at the place where this quad has the best shape. Used for loops in which
+/// `best_cut()` finds no line. Both parts have even numbers of nodes and are smaller than the loop.
 Cut blind_cut(const PartialMesh& partial, const Cycle& cycle);
 
 /// Add nodes along a line, spaced according to the size at its ends. @return  all nodes of the line,

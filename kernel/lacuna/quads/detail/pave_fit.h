@@ -7,7 +7,7 @@
 
 namespace lacuna::quads::paving {
 
-/// How well a loop can be filled as one patch.
+/// The quality with which a loop can be filled as one patch.
 struct PatchFit {
     std::vector<std::size_t> corners; ///< 3 to 5 positions in the cycle; empty if no patch fits
     /// 1 for a rectangle with equal numbers on opposite sides and quads of the right size; <= 0 if it folds

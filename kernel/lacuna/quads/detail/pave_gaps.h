@@ -9,18 +9,18 @@
 
 namespace lacuna::quads::paving {
 
-/// Finds the distance from a node to the next side of a loop in a direction. Sides are sorted into square
-/// cells.
+/// Finds the distance from a node to the next side of a loop in a given direction. The sides are stored by
+/// square cells.
 class GapFinder {
 public:
     GapFinder(const PartialMesh& partial, const std::vector<Cycle>& loops);
 
-    /// Distance from a node along a unit direction to the first side that does not end in one of the three
-    /// nodes; `reach` if there is none [length].
+    /// Distance from a node along a unit direction to the first side that has none of the three nodes as an
+    /// end. `reach` if there is no such side [length].
     [[nodiscard]] double ahead(Index before, Index node, Index after, const Vec2& direction,
                                double reach) const;
 
-    /// Diagonal of the box around all sides; no reach need be longer [length].
+    /// Diagonal of the box around all sides. A longer reach finds nothing more [length].
     [[nodiscard]] double diagonal() const { return diagonal_; }
 
 private:

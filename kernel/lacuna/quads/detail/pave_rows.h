@@ -7,14 +7,14 @@
 
 namespace lacuna::quads::paving {
 
-/// How strictly a row keeps its height.
+/// Where a row must have the requested height.
 enum class RowKind {
-    tall,  ///< as high as requested on most of the loop; otherwise the row is dropped
-    exact, ///< as high as requested everywhere; otherwise the row is dropped
+    tall,  ///< the row must be so high on most of the loop; otherwise it is dropped
+    exact, ///< the row must be so high everywhere; otherwise it is dropped
 };
 
-/// Whether a loop needs a row: the deviations of its angles from multiples of a right angle sum to more than
-/// 45°.
+/// Whether a loop needs a row. It does if the differences between its angles and multiples of a right angle
+/// sum to more than 45°.
 bool needs_row(const PartialMesh& partial, const Cycle& cycle);
 
 /// Place a row of quads inward from each wanted loop, and replace the loop by the row's inner side.
@@ -24,7 +24,8 @@ bool needs_row(const PartialMesh& partial, const Cycle& cycle);
 /// are lowered to a third of the gap, except exact rows. A row that would fold, run into another one or leave
 /// too few nodes is dropped.
 ///
-/// @param wanted  whether each loop should get a row; set to false for loops that got none.
+/// @param wanted  whether each loop should get a row. The function sets it to false for loops that got no
+///         row.
 /// @param height  height of the row over a boundary point [length].
 /// @return  number of rows placed.
 int lay_rows(PartialMesh& partial, std::vector<Cycle>& loops, std::vector<bool>& wanted,

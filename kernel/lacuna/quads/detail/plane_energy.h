@@ -15,7 +15,7 @@ namespace lacuna::quads {
 /// Target areas of the quads around each point.
 struct TargetAreas {
     struct Target {
-        double area = 0, inverse = 0; ///< target area and its inverse; 0: no target
+        double area = 0, inverse = 0; ///< target area and its inverse; both are 0 if there is no target
     };
     double weight = 0;
     std::vector<Target> asked; ///< for each point; empty: no targets
@@ -25,13 +25,13 @@ struct TargetAreas {
 /// position.
 ///
 /// The energy is the sum of f², with f = (|a|² + |b|²) / (2 det), over the corners that change if the point
-/// moves. The square gives bad corners more weight. If there is a target area h², (det / h² + h² / det) / 2
-/// is added for each of these corners.
+/// moves. The square gives bad corners more weight. If there is a target area h², a term (det / h² + h² /
+/// det) / 2 is added for each of these corners.
 struct StarEnergy {
     double value = 0;
     Vec2 slope{0, 0};
     double xx = 0, xy = 0, yy = 0;
-    double sides = 0; ///< squared lengths of the sides at the point; two for each quad
+    double sides = 0; ///< sum of the squared lengths of the sides at the point, two sides for each quad
 };
 
 /// One number for each of four quads.
@@ -44,7 +44,7 @@ LACUNA_INLINE bool all_positive(const Lanes& a, const Lanes& b, const Lanes& c)
     return (positive[0] & positive[1] & positive[2] & positive[3]) != 0;
 }
 
-/// Up to four quads of a star side by side.
+/// Up to four quads of a star, computed together by vector instructions.
 ///
 /// All functions are inlined into the caller and compiled for the caller's processor. No vector is passed by
 /// value, because the calling convention depends on the processor.
@@ -82,7 +82,8 @@ public:
         inverse_p_ = Lanes{} + areas.asked[p].inverse;
     }
 
-    /// Add the energy of these quads and its derivatives. @return  false if a corner is folded
+    /// Add the energy of these quads, and the derivatives of this energy. @return  false if a corner is
+    /// folded
     LACUNA_INLINE bool add_to(StarEnergy& around, const Vec2& x, double weight) const
     {
         const Lanes ax = nx_ - x.x(), ay = ny_ - x.y(), bx = rx_ - x.x(), by = ry_ - x.y();
@@ -107,7 +108,7 @@ public:
         return true;
     }
 
-    /// Add the energy alone. @return  false if a corner is folded, or the square of its sine is less than
+    /// Add only the energy. @return  false if a corner is folded, or if the square of its sine is less than
     /// `least`
     LACUNA_INLINE bool add_to(double& value, const Vec2& x, double weight, double least) const
     {
@@ -131,7 +132,8 @@ public:
         return true;
     }
 
-    /// Add `weight` times f - 1 for each corner that changes, quad by quad, until the value reaches a bound.
+    /// For each corner that changes, add `weight` times f - 1. Quads are added one by one until the value
+    /// reaches a bound.
     LACUNA_INLINE void add_shapes(double& value, const Vec2& x, double weight, double bound) const
     {
         Corners corners;
@@ -143,8 +145,8 @@ public:
     }
 
 private:
-    /// Squared lengths of a quad's sides, beginning with the two at the point, and twice the areas at the
-    /// corners that change.
+    /// Squared lengths of the sides of a quad, starting with the two sides at the point, and twice the areas
+    /// at the corners that change.
     struct Corners {
         Lanes aa, bb, cc, dd, det_p, det_n, det_r;
     };
@@ -166,9 +168,10 @@ private:
         Lanes value{}, gx{}, gy{}, xx{}, xy{}, yy{};
         Lanes det, over;
 
-        /// f² of a corner, f = sum / 2 det.
-        /// @param d    determinant; linear in the point, slope `dx`, `dy`
-        /// @param sum  squared lengths of its sides; slope `sx`, `sy`, curvature `curve` in x and in y
+        /// Add f² of a corner, with f = sum / (2 det).
+        /// @param d    determinant, a linear function of the point with the gradient `dx`, `dy`
+        /// @param sum  sum of the squared lengths of the corner's sides, with the gradient `sx`, `sy` and the
+        ///         second derivative `curve` in x and in y
         LACUNA_INLINE void add(const Lanes& d, const Lanes& dx, const Lanes& dy, const Lanes& sum,
                                const Lanes& sx, const Lanes& sy, double curve)
         {
@@ -184,7 +187,7 @@ private:
             xy += 2 * (fx * fy - f * (fx * dy + fy * dx) * over);
         }
 
-        /// Add the size term of the corner added last.
+        /// Add the size term of the corner that `add()` added last.
         LACUNA_INLINE void ask(const Lanes& area, const Lanes& inverse, double weight, const Lanes& dx,
                                const Lanes& dy)
         {
@@ -200,12 +203,12 @@ private:
     };
 
     Lanes nx_, ny_, ox_, oy_, rx_, ry_;
-    Lanes counts_; ///< 1; 0 in a lane that only repeats the last quad
+    Lanes counts_; ///< 1 for a quad; 0 in a lane that only repeats the last quad
     Lanes area_p_, inverse_p_, area_n_, inverse_n_, area_r_, inverse_r_;
     bool has_area_;
 };
 
-/// The star of one point, loaded once and then evaluated several times.
+/// The star of one point. It is loaded once and can be evaluated several times.
 class StarLanes {
 public:
     /// @pre the star is not empty
@@ -218,7 +221,7 @@ public:
             lanes_[i].set(points, star, i * SpokeLanes::kLanes, p, areas);
     }
 
-    /// The energy with its derivatives. @return  false if a corner is folded
+    /// Compute the energy and its derivatives. @return  false if a corner is folded
     LACUNA_INLINE bool differentiate(const Vec2& x, double weight, StarEnergy& around) const
     {
         around = {};
@@ -228,7 +231,7 @@ public:
         return true;
     }
 
-    /// The energy alone; infinite if a corner is folded, or the square of its sine is less than `least`.
+    /// The energy. It is infinite if a corner is folded, or if the square of its sine is less than `least`.
     LACUNA_INLINE double energy(const Vec2& x, double weight, double least) const
     {
         double value = 0;

@@ -59,7 +59,7 @@ inline std::vector<Index> valences(std::span<const Quad> quads, std::size_t poin
     return valence;
 }
 
-/// The smallest sine of the quads at a point if the point were at `x`; at most 1.
+/// The smallest sine of the corners of the quads around a point if the point were at `x`; at most 1.
 inline double worst_quad(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x)
 {
     double worst = 1;
@@ -81,13 +81,13 @@ inline double shortest_side(std::span<const Vec2> points, std::span<const Spoke>
 }
 
 /// If a point is moved to improve its worst sine, its shortest side keeps at least this share of its initial
-/// length. Sines do not depend on lengths: a needle has the sines of a square, and without a limit sides
-/// shrank to a millionth of their neighbours. A higher value prevents more of the improvements; a lower one
-/// allows shorter edges.
+/// length. Sines do not depend on lengths: a very thin rectangle has the same sines as a square. Without this
+/// limit, sides shrank to a millionth of the length of their neighbours. A higher value prevents more
+/// improvements; a lower value allows shorter edges.
 inline constexpr double kShortestKept = 0.25;
 
-/// The shortest side that each point must keep, by `kShortestKept`; 0 for the first `fixed` points and for
-/// points without quads.
+/// For each point, the length that its shortest side must keep (`kShortestKept`). 0 for the first `fixed`
+/// points and for points without quads.
 inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Stars& stars, std::size_t fixed)
 {
     std::vector<double> least(points.size(), 0);
@@ -96,10 +96,11 @@ inline std::vector<double> sides_to_keep(std::span<const Vec2> points, const Sta
     return least;
 }
 
-/// The smallest sine, at most 1, of the corners that change if a point moves to `x`, if this sine exceeds
-/// `floor`; otherwise any number up to `floor`. The search stops at the first corner that does not exceed the
-/// floor. In most trials this is the same corner as in the previous trial.
-/// @param first  position in the star at which the search begins; set to the position at which it stopped
+/// The smallest sine, at most 1, of the corners that change if a point moves to `x`. If this sine does not
+/// exceed `floor`, the result is any number up to `floor`: the search stops at the first corner that does not
+/// exceed the floor. In most trials this is the same corner as in the previous trial.
+/// @param first  position in the star at which the search begins. On return, the position at which it
+///         stopped.
 inline double least_sine_above(std::span<const Vec2> points, std::span<const Spoke> star, const Vec2& x,
                                double floor, std::size_t& first)
 {

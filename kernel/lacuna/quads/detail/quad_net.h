@@ -59,8 +59,8 @@ public:
         valence_.push_back(0);
         return static_cast<Index>(out_.size()) - 1;
     }
-    /// Replace quads by others with the same outline. @return  the numbers of the new quads. They reuse the
-    /// numbers of removed quads, the last removed first.
+    /// Replace quads by other quads with the same outline. @return  the numbers of the new quads. New quads
+    /// reuse the numbers of removed ones, starting with the quad that was removed last.
     std::vector<Index> replace(std::span<const Index> removed, std::span<const Quad> added);
 
 private:
@@ -69,7 +69,9 @@ private:
     std::vector<Quad> quads_; ///< a removed quad has -1 as its first corner
     std::vector<Index> opposite_;
     std::vector<Index>
-        out_; ///< a side that leaves each point; on the boundary the first counter-clockwise; -1: no quad
+        /// For each point, a side that starts there; on the boundary, the first one counter-clockwise; -1: no
+        /// quad.
+        out_;
     std::vector<int> valence_;
     std::vector<Index> free_;
 };

@@ -13,10 +13,10 @@
 
 namespace lacuna::quads {
 
-/// Node numbers in walking order, the region on the left. In a mesh with cuts a node may occur twice.
+/// Node numbers in walking order, with the region on the left. In a mesh with cuts, a node may occur twice.
 using Cycle = std::vector<Index>;
 
-/// A length as a function of the place: the size asked of quads, or the height of rows.
+/// A length as a function of the position: the requested size of quads, or the height of rows.
 using SizeField = std::function<double(const Vec2&)>;
 
 /// The point at a position of a loop. Positions past the end continue from the start.
@@ -62,25 +62,27 @@ void for_boundary_sides(const PlanarRegion& region, const Visit& visit)
                  [&](Index from, Index to) { visit(region.points[index(from)], region.points[index(to)]); });
 }
 
-/// A point at a height above a place of a loop, square to the mean of the directions to and from it.
+/// A point at a height above a position of a loop. The direction is perpendicular to the mean of the
+/// directions of the two sides there.
 Vec2 point_above(std::span<const Vec2> points, const Cycle& loop, std::size_t place, const SizeField& height);
 
 /// The region inside loops of a mesh.
 struct RegionWithin {
     PlanarRegion region;
-    std::vector<Index> own; ///< the mesh's number of each point of the region
+    std::vector<Index> own; ///< for each point of the region, its number in the mesh
 };
 RegionWithin region_within(std::span<const Vec2> points, const std::vector<Cycle>& loops,
                            const SizeField& size = {});
 
 /// Add quads over a region made by `region_within()` to the mesh.
-/// @param own    the mesh's numbers of the region's points.
+/// @param own    for each point of the region, its number in the mesh.
 /// @param inner  points inside the region; they are added to the mesh.
 void add_filling(std::vector<Vec2>& points, std::vector<Quad>& quads, const std::vector<Index>& own,
                  std::span<const Vec2> inner, std::span<const Quad> filling);
 void add_filling(PlanarQuads& mesh, const std::vector<Index>& own, const PlanarQuads& filling);
 
-/// Remove points that no quad uses, except the first `fixed` ones. Points are renumbered by first use.
+/// Remove points that no quad uses, except the first `fixed` ones. The other points are renumbered in the
+/// order of their first use.
 void drop_loose_points(PlanarQuads& mesh, std::size_t fixed);
 
 } // namespace lacuna::quads

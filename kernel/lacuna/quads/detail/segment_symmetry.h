@@ -18,19 +18,20 @@ struct SegmentSymmetry {
     std::vector<std::size_t> onto; ///< image of each segment
 };
 
-/// One more than the highest number of a segment.
+/// One more than the highest segment number.
 std::size_t segment_count(std::span<const int> segment);
 
-/// The symmetries of a region's boundary nodes that map segments onto segments. None maps the end of a
-/// segment into the inside of another.
+/// The symmetries of a region's boundary nodes that map segments onto segments. Such a symmetry never maps an
+/// end of a segment to the inside of another segment.
 /// @param segment  segment of the side from each node to the next, 0, 1, …
 std::vector<SegmentSymmetry> segment_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
-/// The symmetries of `segment_symmetries()` that also map the first node of each loop with a single segment
-/// onto the first node of such a loop. This is needed where nodes are counted from that node.
+/// The symmetries of `segment_symmetries()` that also keep the first node of loops with a single segment: it
+/// is mapped onto the first node of such a loop. This is needed where nodes are counted from the first node.
 std::vector<SegmentSymmetry> end_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
-/// Two segments that are mirror images of each other. A segment that is its own mirror image is given twice.
+/// Two segments that are mirror images of each other. If a segment is its own mirror image, both are this
+/// segment.
 using SegmentPair = std::array<std::size_t, 2>;
 
 /// For each reflection of `end_symmetries()`, its pairs of segments in the order of the loops.
@@ -39,7 +40,8 @@ std::vector<SegmentPair> mirrored_segments(const PlanarRegion& region, std::span
 /// Whether the segments of every pair have equal numbers of sides.
 bool are_alike(std::span<const int> counts, std::span<const SegmentPair> pairs);
 
-/// Number of pairs that have unequal numbers of sides, or an odd number if a segment is its own mirror image.
+/// Number of pairs whose segments have unequal numbers of sides. A segment that is its own mirror image
+/// counts if its number is odd.
 int unlike(std::span<const int> counts, std::span<const SegmentPair> pairs);
 
 } // namespace lacuna::quads

@@ -7,16 +7,16 @@
 
 namespace lacuna::quads::paving {
 
-/// Improve those quads of rows that are not good by the measure of `measure_plane()`, by moving their nodes
-/// and the nodes of the quads around them. Then, if fewer sides than promised have the requested size,
-/// improve the sides as well. Smoothing spreads the distortion of an irregular node evenly over all quads,
-/// but along the boundary even a few degrees off a right angle matter.
+/// Improve the row quads that `measure_plane()` does not count as good: move their nodes, and the nodes of
+/// the quads around them. If fewer sides than promised have the requested size, then improve the sides as
+/// well. Smoothing spreads the distortion of an irregular node evenly over all quads, but along the boundary
+/// even a few degrees off a right angle matter.
 ///
-/// Algorithm: pattern search for each such node. It minimises how far corners and heights of row quads, and
-/// lengths of sides, exceed their limits, plus a small multiple of the quads' own energy. No quad gets worse
-/// than the worst of the mesh, unless it remains good.
+/// Algorithm: pattern search for each such node. The search minimises the amounts by which corners and
+/// heights of row quads, and lengths of sides, exceed their limits, plus a small multiple of the quads' own
+/// energy. A quad may get worse than the worst quad of the mesh only if it remains good.
 /// @param symmetries  symmetries of the mesh, from `mesh_symmetries()`. They are preserved up to rounding:
-///         the search moves one node of each set of images, and the others with it.
+///         the search moves one node, and moves all images of this node accordingly.
 /// @post   The mesh changes only if the mean scaled Jacobian, plus half the share of good rows, plus half the
 ///         share of good sizes increases. The part of a share above 95 % counts only a quarter, and no share
 ///         falls from above 95 % to below.

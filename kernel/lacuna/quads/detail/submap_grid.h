@@ -18,7 +18,7 @@ using GridPosition = std::array<int, 2>;
 /// A heading modulo four right angles, from 0 to 3.
 constexpr int quarter_of(int heading) { return ((heading % 4) + 4) % 4; }
 
-/// The step from a grid point to the next along a heading.
+/// The step from a grid point to the next one in the direction of a heading.
 constexpr GridPosition grid_step(int heading)
 {
     const int quarter = quarter_of(heading), by = quarter < 2 ? 1 : -1;
@@ -42,11 +42,11 @@ struct GridLoop {
 /// @return empty if the loop has another total turn or does not close.
 std::optional<GridLoop> walk(const std::vector<Vec2>& points, const std::vector<Index>& loop, int turns);
 
-/// Grid coordinates at a point inside the outer loop, interpolated from its nodes by mean values (Floater
-/// 2003).
+/// Grid coordinates of a point inside the outer loop. They are interpolated by mean values from the
+/// coordinates of the loop's nodes (Floater 2003).
 Vec2 mean_value_position(const std::vector<Vec2>& points, const GridLoop& outer, const Vec2& p);
 
-/// Rotate and move a hole's grid coordinates so that they are as close to `goal` as possible.
+/// Rotate and move the grid coordinates of a hole so that they are as close to `goal` as possible.
 /// @param goal  coordinates of the outline, interpolated at the hole's nodes.
 void place_hole(const std::vector<Vec2>& goal, GridLoop& hole);
 
@@ -88,7 +88,7 @@ private:
 
     [[nodiscard]] int columns() const { return period_ > 0 ? width_ : width_ - 1; }
 
-    /// The cell that has corner k at a grid point; empty outside the grid.
+    /// The cell whose corner k is at a grid point; empty outside the grid.
     [[nodiscard]] std::optional<std::size_t> cell_at(int x, int y, std::size_t k) const;
     /// Find the cells inside, those of winding number 1. @return false if a cell has a winding number other
     /// than 0 or 1
@@ -96,15 +96,16 @@ private:
     /// Assign node i of a loop to the corners of the region's cells at its grid point.
     /// @return false if another node already has one of them.
     bool give_corners(const GridLoop& loop, std::size_t i);
-    /// The node at a grid point, for a cell that has one of the two given corners there; -1: none.
+    /// The node that is stored at a grid point for one of the two given corners of cells; -1: none.
     [[nodiscard]] Index node_at(int x, int y, const Sides& corners) const;
 
     GridPosition low_{};
     int period_ = 0;
     int width_ = 0, height_ = 0;
-    std::vector<Corners> corner_; ///< corners of the cell up and right of each grid point, from this point
-                                  ///< on; -1: none
-    std::vector<char> in_;        ///< whether that cell is inside
+    /// For each grid point, the four corners of the cell to its upper right, starting at this point; -1: no
+    /// node.
+    std::vector<Corners> corner_;
+    std::vector<char> in_; ///< whether that cell is inside
 };
 
 } // namespace lacuna::quads

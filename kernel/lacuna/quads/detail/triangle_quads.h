@@ -5,8 +5,8 @@
 
 namespace lacuna::quads {
 
-/// Fill a region with quads made from triangles. This always works if the loops are simple, so it is the last
-/// resort if rows and cuts give folded quads.
+/// Fill a region with quads made from triangles. This works for all simple loops, so it is the last resort if
+/// rows and cuts give folded quads.
 ///
 /// Constrained Delaunay triangles of the requested size are merged in pairs that form convex quads, the best
 /// pairs first. All cells are then split into quads (`split_cells()`). The quads are valid, but many and

@@ -11,11 +11,11 @@ namespace lacuna::quads {
 /// Untangle folded quads by moving the points around them (foldover-free maps, Garanzha et al. 2021, in two
 /// dimensions).
 ///
-/// L-BFGS minimises the foldover energy over the folded quads and a few rings around them; ε falls as the
-/// least determinant rises.
-/// @param fixed  number of points that stay; they come first.
-/// @return true if every corner is positive except those of three fixed points. On failure the points are
-///         unchanged.
+/// L-BFGS minimises the foldover energy over the folded quads and a few rings around them; ε decreases as the
+/// smallest determinant grows.
+/// @param fixed  number of points that do not move; they come first.
+/// @return true if every corner is positive, except corners whose three points are fixed. On failure no point
+///         is moved.
 bool untangle_plane(std::vector<Vec2>& points, std::span<const Quad> quads, std::size_t fixed);
 
 } // namespace lacuna::quads

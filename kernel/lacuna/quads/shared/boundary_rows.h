@@ -10,11 +10,11 @@
 
 namespace lacuna::quads {
 
-/// How a region's boundary turns at a node, for the rows along it.
+/// How the boundary of a region turns at a node. This decides how rows along the boundary continue there.
 enum class RowTurn : char {
     smooth, ///< rows of the same table continue past the node, however far the two sides turn
     inner,  ///< rows end there on the adjacent sides, which have nodes at the rows' heights
-    outer,  ///< rows end there on a new side of their own, square to the last boundary side
+    outer,  ///< rows end there on a new side of their own, perpendicular to the last boundary side
 };
 
 /// Rows of quads at given heights along some sides of a region.
@@ -23,9 +23,9 @@ struct BoundaryRows {
     std::vector<std::vector<double>> heights;
     /// For each boundary node, the table of the side from it to the next node of its loop; -1: no rows.
     std::vector<int> table;
-    std::vector<RowTurn> turn; ///< for each boundary node
-    /// Scale at a place: a length in the plane divided by the same length in the unit of `heights`. Empty: 1
-    /// everywhere.
+    std::vector<RowTurn> turn; ///< turn of the boundary at each of its nodes
+    /// The scale at a position: a length in the plane, divided by the same length in the unit of `heights`.
+    /// Empty: the scale is 1 everywhere.
     std::function<double(const Vec2&)> scale{};
 };
 
@@ -53,10 +53,11 @@ struct RowsFilling {
 /// Place rows of quads along sides of a region and fill the rest.
 ///
 /// Each node of a row is at the row's height above both boundary sides at its foot, measured perpendicular to
-/// them. Where rows end on existing boundary nodes (`RowTurn::inner`), these may be offset along the rows;
-/// the row's nodes near that corner get the same offset, which fades with distance. Where two sides with rows
-/// meet in such a corner, their rows cross. At an outer corner (`RowTurn::outer`), such as that of a square
-/// hole, the rows of one side continue along the ends of the other side's rows.
+/// them. Where rows end on existing boundary nodes (`RowTurn::inner`), these nodes may be offset along the
+/// rows. Nodes of the row near that corner then get the same offset, which decreases with the distance from
+/// the corner. Where two sides with rows meet in such a corner, their rows cross. At an outer corner
+/// (`RowTurn::outer`), such as that of a square hole, the rows of one side continue along the ends of the
+/// other side's rows.
 /// @param core  mesher for the region that the rows leave.
 /// @return  the quads of the rows first; if the rows do not fit, only the reason (`RowsFinding`).
 /// @throw   any exception of `core`.

@@ -8,7 +8,7 @@
 
 namespace lacuna::quads {
 
-/// How `pave()` filled a region.
+/// The method by which `pave()` filled a region.
 struct PaveReport {
     std::string used; ///< "mapped": one patch without rows; "submapped", "paved"
 };
@@ -16,8 +16,8 @@ struct PaveReport {
 /// Options of `pave()`.
 struct PaveOptions {
     /// Rows to place along every loop first, at the height `PlanarRegion::row_height`. They are not moved
-    /// afterwards. A loop without room for a row gets none, which `PlanarQuads::how` reports. All other rows
-    /// are placed as the region's shape requires, and may move.
+    /// afterwards. A loop without room for a row gets none, which `PlanarQuads::how` reports. Rows that are
+    /// not exact are placed where the region's shape requires them, and may move.
     int exact_rows = 0;
     bool grids = true; ///< whether one grid may fill the region
 };
@@ -28,15 +28,16 @@ struct Paved {
     PaveReport report;
 };
 
-/// Fill a region of the plane with quads by paving: rows are placed inward from the loops, and the rest is
-/// cut in two along the best line, recursively, until templates can fill the parts (CSALF-Q).
+/// Fill a region of the plane with quads by paving. Rows are placed inward from the loops. The rest is cut in
+/// two along the best line, recursively, until templates can fill the parts (CSALF-Q).
 ///
 /// 1. A region of right angles is submapped (`submap()`). Another region of up to 4000 quads is filled by one
 ///    bent grid if possible (`fill_patterns()`). If the grid is good, it is the result.
 /// 2. Rows are placed along loops that turn without corners and have room for them.
-/// 3. Cuts are straight. A cut meets the outline at right angles if possible, its nodes are spaced as the
-///    size asks, and its number of edges leaves even parts whose sides agree. A part that is a good patch of
-///    3 to 5 sides is filled with grids that meet in one or two irregular nodes.
+/// 3. Cuts are straight. A cut meets the outline at right angles if possible, and its nodes have the
+///    requested spacing. Its number of edges is such that both parts have even numbers of sides and opposite
+///    sides agree. A part that is a good patch of 3 to 5 sides is filled with grids that meet in one or two
+///    irregular nodes.
 /// 4. Boundary corners that lack a quad get one. Folded quads are opened. Irregular nodes are paired and
 ///    removed, nodes are smoothed, row heights are corrected.
 ///
@@ -55,18 +56,19 @@ struct Paved {
 /// cuts, and keeps the best by measured quality. Below about 1500 quads it makes three meshes without rows,
 /// with weightings of their own, and one with rows. It cleans and smooths the two with the fewest initial
 /// irregular nodes, and the other two only if the worst quad of the first two is below 0.75. It tries
-/// everything else only if these four are poor. Sizes are measured against the size that the given sides
-/// leave room for. The search ends when a mesh is good and its number of irregular nodes is near the minimum
-/// that topology allows (`least_irregular()`). Boundary nodes are kept, in order, bit for bit. Quads are
-/// counter-clockwise and convex. Flat quads remain only where the boundary's sides are long compared with the
-/// gap between them; the log reports this.
+/// everything else only if these four are poor. Sizes are compared with the size that the given sides permit.
+/// The search ends when a mesh is good and its number of irregular nodes is near the minimum that topology
+/// allows (`least_irregular()`). Boundary nodes are kept, in order, bit for bit. Quads are counter-clockwise
+/// and convex. Flat quads remain only where the boundary's sides are long compared with the gap between them;
+/// the log reports this.
 ///
-/// @throw InvalidInput "surface.pave_loops"   a loop that is too short, repeats a node, crosses another or
-///                                            lies outside the first.
-/// @throw InvalidInput "surface.pave_parity"  an odd number of boundary sides.
-/// @throw InvalidInput "surface.pave_rows"    exact rows below 0, or of a region without a row height.
-/// @throw NotSweepable "surface.pave"         no valid quads were found; names the place. Not seen for
-///                                            regions that pass the checks above.
+/// @throw InvalidInput "surface.pave_loops"   a loop is too short, repeats a node, crosses another loop or
+///         lies outside the first one.
+/// @throw InvalidInput "surface.pave_parity"  the number of boundary sides is odd.
+/// @throw InvalidInput "surface.pave_rows"    the number of exact rows is negative, or there are exact rows
+///         but no row height.
+/// @throw NotSweepable "surface.pave"  no valid quads were found; names the place. This has not been observed
+///         for regions that pass the checks above.
 /// @note  Deterministic. Near linear in the number of quads.
 Paved pave(const PlanarRegion& region, const PaveOptions& options = {}, const RunContext& context = {});
 

@@ -9,7 +9,7 @@
 
 namespace lacuna::quads {
 
-/// Move the nodes of quads over a symmetric region so that the mesh is as symmetric as its connections are.
+/// Move the nodes of quads over a symmetric region so that the positions are as symmetric as the connections.
 ///
 /// The region's symmetries are the rotations and reflections that map its boundary nodes onto each other.
 /// Only those that also map quads onto quads are used. Every inner node moves to the mean of its position and
@@ -17,15 +17,15 @@ namespace lacuna::quads {
 /// itself, to rounding.
 /// @return number of symmetries of the mesh afterwards, including the identity. 1 if the mesh is unchanged:
 ///         it has no symmetry, or its least scaled Jacobian would fall by more than 0.01.
-/// @pre   `find_fault()` finds none.
-/// @note  Deterministic. O(boundary nodes · quads) at worst; most candidates that are no symmetry fail at
-///        once.
+/// @pre   `find_fault()` finds no fault.
+/// @note  Deterministic. At worst O(boundary nodes · quads); most candidates are no symmetries and are
+///         rejected at once.
 std::size_t symmetrise(PlanarQuads& mesh, const PlanarRegion& region);
 
-/// Which segments of a region's boundary its symmetries map onto each other.
+/// Find the segments of a region's boundary that its symmetries map onto each other.
 ///
-/// @param segment  segment of the side from each node to the next, 0, 1, …; segments mapped onto each other
-///                 get equal node spacing.
+/// @param segment  segment of the side from each node to the next, 0, 1, …. Segments that are mapped onto
+///         each other get equal node spacing.
 /// @return  for each segment, the lowest number among its images, itself included.
 /// @note    A symmetry that maps the end of a segment into the inside of another does not count.
 std::vector<std::size_t> segments_alike(const PlanarRegion& region, std::span<const int> segment);

@@ -10,11 +10,13 @@
 
 namespace lacuna::surface {
 
-/// Corresponding entities of source and target, if both ends are split in the same way.
+/// vertices of the rims at which inner edges end, in pairs
 struct AlikeEnds {
     std::vector<RimPair> pairs; ///< vertices of the rims at which inner edges end
     std::map<topology::EdgeUse, topology::EdgeUse>
-        edges; ///< for each inner edge use of a source face, the use of the target in the same direction
+        /// For each use of an inner edge by a source face, the use of the target's edge in the same
+        /// direction.
+        edges;
     std::map<FaceId, FaceId> faces; ///< target face of each source face
 };
 

@@ -16,7 +16,7 @@ struct ChainNode {
     Index point = -1;
 };
 
-/// Points of a closed chain in order, restricted to edges for which `wanted` holds.
+/// Points of a closed chain in order, without those on edges for which `wanted` is false.
 template <class Wanted>
 std::vector<ChainNode> chain_nodes(const topology::Model& model, const Chain& chain, const Wanted& wanted)
 {
@@ -33,7 +33,7 @@ std::vector<ChainNode> chain_nodes(const topology::Model& model, const Chain& ch
     return nodes;
 }
 
-/// The node within rounding distance of a running length of a closed chain; -1 if there is none.
+/// The index of the node at a running length of a closed chain, within rounding; -1 if there is none.
 inline Index node_at(std::span<const ChainNode> nodes, const Chain& chain, double place)
 {
     const double slack = kSamePlace * chain.length();

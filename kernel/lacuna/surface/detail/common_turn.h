@@ -11,7 +11,8 @@
 
 namespace lacuna::surface {
 
-/// How a linking surface without side lines is placed if all loops rotate as one rigid body.
+/// How the target end of a linking surface without side lines is rotated if all loops rotate as one rigid
+/// body.
 struct CommonTurn {
     double start = 0; ///< image of the source chain's start on the target chain [running length]
     /// Position s at which the shortest path up the walls ends on the target rim, counting whole turns: see
@@ -26,17 +27,18 @@ inline constexpr std::size_t kRingPoints = 96;
 /// `kRingPoints` points at even steps of a closed chain.
 std::vector<Vec3> round_points(const Chain& chain);
 
-/// The shift of the target's points relative to the source's, in turns [0, 1), that minimizes the distance
-/// between the two rings after rotating them about their centres.
+/// The shift of the target's points relative to the source's, in turns [0, 1). It minimizes the distance
+/// between the two rings after both are moved to a common centre and the source's ring is rotated by `turn`.
 /// @pre  both have `kRingPoints` points at even steps.
 double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eigen::Matrix3d& turn);
 
-/// The rotation of each linking surface without side lines; empty entries for those with side lines.
+/// For each linking surface without side lines, its rotation; empty for linking surfaces with side lines.
 ///
 /// The rotation is that of the rigid motion that best fits the loops' centres and the points paired by side
-/// lines. Whole turns are added so that it differs as little as possible from the rotation that the loop's
-/// own walls give. No rotation is returned if it is undetermined, that is, for a single loop, for concentric
-/// loops, for a loop with corresponding vertices, or if all linking surfaces have side lines.
+/// lines. Whole turns are added to the rotation of each loop, so that it differs as little as possible from
+/// the rotation that the loop's own walls give. No rotation is returned if it is undetermined, that is, for a
+/// single loop, for concentric loops, for a loop with corresponding vertices, or if all linking surfaces have
+/// side lines.
 std::vector<std::optional<CommonTurn>> common_turns(std::span<const LinkingSurface> links);
 
 } // namespace lacuna::surface

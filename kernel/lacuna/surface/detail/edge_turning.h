@@ -9,9 +9,9 @@ namespace lacuna::surface {
 
 /// The turn of an edge, or of a chain of edges, along its length.
 ///
-/// The bend at each point of the polyline is spread over the adjacent halves of its two sides, so that a
-/// polyline cut from a curve turns as evenly as the curve. Sharp bends are corners; they are ignored, and so
-/// are the vertices between edges.
+/// The bend at a point of the polyline is spread over the adjacent halves of both its sides. A polyline that
+/// is cut from a curve therefore turns as evenly as the curve. Sharp bends count as corners. Corners, and the
+/// vertices between edges, add nothing to the turn.
 class EdgeTurning {
 public:
     EdgeTurning(const topology::Model& model, EdgeId edge);

@@ -23,14 +23,15 @@ struct FaceGrids {
 /// @throw NotSweepable "surface.not_four_sided"  a face cannot be mapped although the style requires it.
 FaceGrids choose_grids(const SeedTask& task, Seeds& seeds);
 
-/// Whether a face is neither mapped nor submapped nor keeps its quads.
+/// Whether a face is free: it is neither mapped nor submapped, and it does not keep its own quads.
 bool is_free(const FaceGrids& grids, const Seeds& seeds, FaceId face);
 
-/// Whether all normals of a face lie within a half space around `normal`, so that the face can be projected
-/// onto a plane without folds.
+/// Whether all facet normals of a face are so close to `normal` that the face can be projected along it
+/// without folds.
 bool faces_one_way(const topology::Model& model, FaceId face, const Vec3& normal);
 
-/// Make faces free whose opposite sides still have different numbers of sides because these are fixed.
+/// Turn mapped faces into free faces if opposite sides still have different numbers of sides, because these
+/// numbers are fixed.
 /// @throw NotSweepable "surface.kept_side"  the style requires such a face to be mapped.
 void free_unequal(const SeedTask& task, FaceGrids& grids, Seeds& seeds);
 

@@ -10,24 +10,26 @@
 
 namespace lacuna::surface {
 
-/// The edges of two opposite sides of a face's grid; both sides are divided into the same number of
-/// intervals.
+/// A pair of opposite sides of a face's grid, each given by its edges. Both sides get the same number of mesh
+/// sides.
 using SidePair = std::array<std::vector<EdgeId>, 2>;
 
 /// Inner angle of a face at the start of use i of its loop [degrees].
 double inner_angle(const topology::Model& model, FaceId face, const topology::Loop& loop, std::size_t i);
 
-/// The indices of edge uses that start a side, that is, after a corner; empty if the face has several loops
-/// or a reentrant vertex.
+/// The indices of the edge uses that come right after a corner, where a side of the face starts. Empty if the
+/// face has several loops or a reentrant vertex.
 std::optional<std::vector<std::size_t>> corners_of(const topology::Model& model, FaceId face);
 
-/// The edges of a face's sides between corners; empty if it has several loops or a reentrant corner.
+/// The edges of each side of a face, from corner to corner. Empty if the face has several loops or a
+/// reentrant corner.
 std::vector<std::vector<EdgeId>> sides_by_corners(const topology::Model& model, FaceId face);
 
 /// Total length of some edges [model length].
 double length_of(const topology::Model& model, const std::vector<EdgeId>& edges);
 
-/// The indices of the edge uses that start the four sides of a face; empty if it does not have four sides.
+/// The indices of the edge uses with which the four sides of a face start. Empty if the face does not have
+/// four sides.
 std::optional<std::vector<std::size_t>> four_corners(const topology::Model& model, FaceId face);
 
 /// The two pairs of opposite sides of a four-sided face.
@@ -35,10 +37,10 @@ std::optional<std::vector<std::size_t>> four_corners(const topology::Model& mode
 std::vector<SidePair> side_pairs(const topology::Model& model, FaceId face,
                                  const std::vector<std::size_t>& corners);
 
-/// The pairs of sides of a rectilinear face, that is, of a face whose loops turn by multiples of a right
-/// angle at vertices. One half of a pair holds the edges of a loop that run in one direction, the other half
-/// the edges that run back. Empty if the angle at a vertex does not fit a grid, or if a loop does not turn
-/// exactly once.
+/// The pairs of sides of a rectilinear face. The loops of such a face turn by multiples of a right angle at
+/// its vertices. The first half of a pair holds the edges of a loop that run in one direction, the second
+/// half the edges that run back. Empty if the angle at a vertex does not fit a grid, or if a loop does not
+/// turn exactly once.
 std::vector<SidePair> grid_sides(const topology::Model& model, FaceId face);
 
 /// Whether the lengths of opposite sides are similar.

@@ -11,16 +11,17 @@ namespace lacuna::surface {
 /// Curvature of a face at a vertex of its facets.
 struct PointCurvature {
     Vec3 point;
-    double most = 0;       ///< larger absolute principal curvature; 0: too flat to affect any size
+    /// Larger absolute principal curvature [1 / model length]; 0: too small to affect any size.
+    double most = 0;
     double sum = 0;        ///< sum of the absolute principal curvatures [1 / model length]
-    double area = 0;       ///< a third of the facets at the point [model length²]
+    double area = 0;       ///< a third of the area of the facets at the point [model length²]
     double least_size = 0; ///< lower bound of the size: half the shortest facet side at the point; 0 for a
                            ///< face with an exact surface
 };
 
-/// The facets' curvature tensor (@cite cohensteiner_2003_tensor) at each vertex, over the facets at the
-/// vertex and at its neighbours, in the order of `corner_points()`. Empty for a plane. The angle between two
-/// facets does not count if it is larger than `crease` [radian].
+/// The curvature at each vertex of a face's facets, in the order of `corner_points()`. It is computed from
+/// the curvature tensor (@cite cohensteiner_2003_tensor) of the facets at the vertex and at its neighbours.
+/// Empty for a plane. An angle between two facets that is larger than `crease` [radian] does not count.
 std::vector<PointCurvature> facet_curvature(const topology::Model& model, FaceId face,
                                             double crease = kInfinity);
 

@@ -20,11 +20,13 @@ struct FineFacets {
 
     /// A point on an edge of the face.
     struct OnEdge {
-        double at = 0; ///< number of the segment of the edge's polyline, plus the position within it [0, 1]
+        /// Index of the segment of the edge's polyline, plus the position within this segment [0, 1].
+        double at = 0;
         Index point = -1; ///< index in `points`
     };
-    std::map<EdgeId, std::vector<OnEdge>> edges; ///< in the direction of each edge, from end to end
-    /// Distance from the midpoint of each side to the exact face; only with `FineFacetOptions::bulges`.
+    std::map<EdgeId, std::vector<OnEdge>> edges; ///< points of each edge from its start to its end
+    /// For each side of each facet, the vector from its midpoint to the exact face. Only with
+    /// `FineFacetOptions::bulges`.
     std::vector<std::array<Vec3, 3>> bulge;
 };
 
@@ -40,8 +42,8 @@ struct FineFacetOptions {
 /// The facets of a face, refined where they deviate too far from the exact face for quads of the given size.
 ///
 /// Facets made for display are large compared with fine quads: rim nodes, which lie on the exact edge, would
-/// be off the facets by up to the height of a row. Midpoints of bisected sides lie on the exact edges and the
-/// exact surface. A facet with one bisected side is split in two. If two sides are bisected, the third is
+/// be off such facets by up to the height of a row. Midpoints of bisected sides lie on the exact edges and
+/// the exact surface. A facet with one bisected side is split in two. If two sides are bisected, the third is
 /// bisected as well and the facet is split in four. Without exact geometry the facets are not refined.
 FineFacets fine_facets(const topology::Model& model, FaceId face, const SizeField& size,
                        const FineFacetOptions& options = {});

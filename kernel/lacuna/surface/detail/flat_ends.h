@@ -12,13 +12,14 @@
 namespace lacuna::surface {
 
 struct FlatEnds {
-    std::vector<FlatEdge> source, target; ///< `target` lacks closed edges that the source has too
-    std::vector<Vec2> place;              ///< for each node
-    std::vector<VertexId> vertex;         ///< for each node; invalid if it is not a vertex of the source
-    std::vector<EdgeId> rim;              ///< edges of the source's rim
+    /// `target` has no closed edges that coincide with closed edges of the source.
+    std::vector<FlatEdge> source, target;
+    std::vector<Vec2> place;      ///< position of each node in the plane
+    std::vector<VertexId> vertex; ///< for each node; not valid if the node is no vertex of the source
+    std::vector<EdgeId> rim;      ///< edges of the source's rim
 };
 
-/// The distance at a position within which nodes and edges are merged.
+/// For a position in the plane: the distance within which nodes and edges are merged.
 using Reach = std::function<double(const Vec2&)>;
 
 /// An edge of either end in the plane of a map, without cuts.
@@ -26,15 +27,15 @@ FlatEdge flat_edge(const topology::Model& model, const EndsMap& map, EdgeId id, 
 
 /// Map the inner edges of both ends to the plane. Nearby vertices and edges are merged, and edges are cut
 /// where they cross.
-/// @param pairs   vertices of the rims that coincide.
-/// @param closed  edges that coincide.
+/// @param pairs   vertices of both rims that coincide in the plane.
+/// @param closed  closed edges of both ends that coincide in the plane.
 /// @param inner   edges inside the target.
 FlatEnds lay_flat(const topology::OpenVolume& base, const EndsMap& map, std::span<const RimPair> pairs,
                   std::span<const ClosedPair> closed, std::span<const EdgeId> inner, const Reach& reach);
 
 /// A part of a flat edge between two consecutive cuts.
 struct FlatPiece {
-    std::size_t edge = 0; ///< number of the flat edge
+    std::size_t edge = 0; ///< index of the edge in `FlatEnds`
     double from_at = 0, to_at = 1;
     std::size_t from = 0, to = 0; ///< nodes
     std::vector<Vec2> line;

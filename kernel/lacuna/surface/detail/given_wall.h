@@ -11,17 +11,17 @@ namespace lacuna::surface {
 struct GivenWall {
     static constexpr Index kNotGiven = -1, kBetweenGiven = -2;
 
-    std::size_t count = 0;   ///< number of nodes in a row
-    std::vector<Index> node; ///< model point of each node, by layer · count + node; or one of the constants
-                             ///< above
-    std::vector<char> side;  ///< whether each quad is given, by layer · count + node
+    std::size_t count = 0; ///< number of nodes in a row
+    /// For node i of a layer, at layer · count + i: its point of the model, or one of the constants above.
+    std::vector<Index> node;
+    std::vector<char> side; ///< for the quad after that node: whether it is given
 
     [[nodiscard]] bool has_node(std::size_t layer, std::size_t at) const
     {
         return node[layer * count + at % count] != kNotGiven;
     }
     [[nodiscard]] bool has_sides() const;
-    /// Whether all quads between two nodes of the rim are given.
+    /// Whether all quads between two nodes of the rim are given, in all rows.
     [[nodiscard]] bool has_all(std::size_t first, std::size_t last) const;
 };
 

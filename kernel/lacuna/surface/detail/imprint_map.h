@@ -20,8 +20,8 @@ struct SourcePlace {
 /// Closed edges of both ends that are swept to each other.
 struct ClosedPair {
     EdgeId source, target;
-    /// Positions on the target edge at the source edge's ends, as fractions; they may exceed 1 for a closed
-    /// edge.
+    /// Positions on the target edge of the two ends of the source edge, as fractions. They may exceed 1 on a
+    /// closed edge.
     double from = 0, to = 1;
 };
 
@@ -36,11 +36,12 @@ public:
 
     /// Whether both ends are mapped one to one.
     [[nodiscard]] bool one_to_one() const { return one_to_one_; }
-    /// Plane positions of model points as part of the source and of the target; a rim point may have both.
+    /// Positions in the plane of a model point: as a point of the source, and as a point of the target. A rim
+    /// point may have both.
     [[nodiscard]] const Vec2& source(Index point) const { return source_[static_cast<std::size_t>(point)]; }
     [[nodiscard]] const Vec2& target(Index point) const { return target_[static_cast<std::size_t>(point)]; }
     [[nodiscard]] SourcePlace on_source(const Vec2& place) const;
-    /// The position on the facets of one face.
+    /// The position on the facets of one face of the source.
     [[nodiscard]] FacetPosition on_face(FaceId face, const Vec2& place) const;
 
 private:
@@ -49,7 +50,7 @@ private:
                     std::span<const KnownLine> known);
 
     const topology::OpenVolume& volume_;
-    std::vector<Vec2> source_, target_; ///< for each model point
+    std::vector<Vec2> source_, target_; ///< plane position of each model point
     FacetSet source_facets_;
     geometry::PlanarLocator locator_;
     std::map<FaceId, geometry::PlanarLocator> face_locator_;

@@ -12,8 +12,8 @@
 /// The rims of both ends before an imprint. Internal to this folder.
 namespace lacuna::surface {
 
-/// Find a vertex on the source's rim for every vertex of the target's rim at which an inner edge ends. It is
-/// a vertex nearby, or a new one that splits the rim.
+/// For every vertex of the target's rim at which an inner edge ends, find a vertex of the source's rim. This
+/// is an existing vertex nearby, or a new vertex that splits the rim.
 /// @param inner  edges inside the target.
 /// @throw NotSweepable "surface.not_imprinted"  the rim cannot be split there.
 std::vector<RimPair> pair_rims(topology::Model& model, std::span<const LinkingSurface> links,
@@ -23,7 +23,8 @@ std::vector<RimPair> pair_rims(topology::Model& model, std::span<const LinkingSu
 /// @throw NotSweepable "surface.not_imprinted"  the edge cannot be split there.
 topology::EdgeSplit split_at(topology::Model& model, EdgeId edge, double fraction, EdgeId because);
 
-/// The linking surfaces with the paired rims; a linking surface without a pair keeps its rotation.
+/// The linking surfaces of a volume whose rims have paired vertices. A linking surface without such a pair
+/// keeps the rotation that it has in `given_links`.
 std::vector<LinkingSurface> link_anew(const topology::OpenVolume& volume,
                                       std::span<const LinkingSurface> given_links,
                                       std::span<const RimPair> pairs);

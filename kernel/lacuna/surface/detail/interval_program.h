@@ -17,7 +17,8 @@ struct IntervalVariable {
 
 /// Equal sums over two lists of variables.
 struct IntervalEquation {
-    std::vector<std::size_t> one, other; ///< indices of variables; a variable that occurs twice counts twice
+    /// Indices of variables; a variable that occurs twice in a list counts twice.
+    std::vector<std::size_t> one, other;
 };
 
 /// Lower bound of a wanted number, so that the objective stays finite. Heuristic.
@@ -50,13 +51,13 @@ struct IntervalProgram {
 /// in proportion to the excess.
 ///
 /// Independent sets of equations are solved separately. Each set is brought to reduced row echelon form in
-/// integers with sparse rows, as in @cite mitchell_2021_intervals. An equation that contradicts earlier ones
-/// is left out. Each free variable gives a vector along which all equations stay satisfied. A local search
-/// starts from the rounded wishes and moves along these vectors, singly and in pairs, by steps of powers of
-/// two. It always takes the step with the largest gain. If a set has more than 64 free variables, vectors are
-/// not paired. The result may be slightly above the minimum: in one of 143 random programs with solutions it
-/// was, by a tenth (tests/surface/test_interval_program.cpp).
-/// @return  a number for each variable; 0 for all variables of a set if its equations contradict a floor, or
+/// integers with sparse rows, as in @cite mitchell_2021_intervals. An equation that contradicts earlier
+/// equations is left out. Each free variable gives a vector along which all equations stay satisfied. A local
+/// search starts from the rounded wishes and moves along these vectors, singly and in pairs, by steps of
+/// powers of two. It always takes the step with the largest gain. If a set has more than 64 free variables,
+/// vectors are not paired. The result is not always the minimum: among 143 random programs with solutions,
+/// one result was a tenth above it (tests/surface/test_interval_program.cpp).
+/// @return  a number for each variable. All variables of a set are 0 if its equations contradict a floor, or
 ///         if it has no integer starting point.
 /// @note    Deterministic. O(equations · entries of the rows) per set, and O(free² · wishes) per step.
 std::vector<int> solve_intervals(const IntervalProgram& program);

@@ -20,7 +20,7 @@ public:
     struct Side {
         Index from = -1; ///< node
         Index twin = -1;
-        Index line = -1;            ///< the line that the side lies on; -1: inside a face
+        Index line = -1;            ///< the line that contains the side; -1: the side is inside a face
         double s = 0;               ///< position of `from` on that line
         Vec3 normal = Vec3::Zero(); ///< unit normal of the face at `from`
     };
@@ -34,7 +34,7 @@ public:
     };
     struct Owner {
         FaceId face;
-        bool kept = false; ///< part of a given mesh
+        bool kept = false; ///< whether the triangle is part of a given mesh
     };
 
     /// @param corners  nodes of each triangle; closed and oriented. A node at which several fans of triangles
@@ -73,8 +73,8 @@ public:
     /// Whether a collapse keeps the surface a manifold.
     [[nodiscard]] bool can_collapse(Index s) const;
 
-    /// Quality of a triangle: the tangent of its smallest angle; negative if it is turned away from the
-    /// normals at its corners by more than 60°.
+    /// Quality of a triangle: the tangent of its smallest angle. It is negative if the triangle's normal
+    /// deviates from the face normals at its corners by more than 60°.
     [[nodiscard]] double quality(Index side) const;
     /// The quality that the triangle would have with node `moved` at `place`.
     [[nodiscard]] double quality(Index side, Index moved, const Vec3& place) const;
@@ -83,14 +83,16 @@ public:
     /// side.
     /// @return  the node.
     Index split(Index s, Node node, const std::array<Vec3, 2>& normals);
-    /// Remove the start node of a side; its other triangles get the end node instead. @pre can_collapse(s)
+    /// Remove the start node of a side. The triangles that remain around this node get the end node of the
+    /// side instead. @pre can_collapse(s)
     void collapse(Index s);
-    /// Replace a side by the other diagonal of its two triangles. @pre this diagonal is not a side yet
+    /// Replace a side by the other diagonal of its two triangles. @pre this other diagonal is not a side of
+    /// the mesh
     void flip(Index s);
 
     std::vector<Node> nodes;
     std::vector<Side> sides;
-    std::vector<Owner> owners; ///< for each triangle
+    std::vector<Owner> owners; ///< owner of each triangle
 
 private:
     void set_twins(Index a, Index b);

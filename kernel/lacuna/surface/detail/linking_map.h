@@ -19,8 +19,8 @@ struct WallPosition {
     FacetPosition at;
 };
 
-/// Points at positions, on the exact faces or on the facets. There is one request for each face, because
-/// exact surfaces are in another process.
+/// Points at positions, on the exact faces or on the facets. One request is made for each face, because exact
+/// surfaces are in another process.
 std::vector<Vec3> points_at(const topology::Model& model, std::span<const WallPosition> places,
                             bool exact = true);
 
@@ -31,10 +31,11 @@ std::vector<Vec3> points_at(const topology::Model& model, std::span<const WallPo
 /// segments, and on the side lines, which are upright. The map is therefore one to one (Tutte) for any
 /// arrangement of wall faces: stacked, side by side, or with seams that do not line up.
 ///
-/// Lines of constant harmonic s crowd on the inner side of a bend. If the walls are not straight, s is
-/// therefore redefined as the share of the length around a section (a line of constant t) or, with side
-/// lines, of the length from one side line to the next. Without side lines, sections are rotated relative to
-/// each other by rotation-minimizing transport of a frame. If the rims prescribe another rotation, the
+/// On the inner side of a bend, lines of constant harmonic s lie close together. If the walls are not
+/// straight, s is therefore redefined as a share of the length of a section (a line of constant t). With side
+/// lines, it is the share of the length from one side line to the next. Without side lines, sections are
+/// rotated relative to each other by rotation-minimizing transport of a frame. If the rims prescribe another
+/// rotation, the
 /// difference is spread evenly over the length.
 class LinkingMap {
 public:
@@ -65,11 +66,8 @@ public:
     /// maximum over all sections.
     [[nodiscard]] double turn() const { return turn_; }
     [[nodiscard]] double most_turned() const { return most_turned_; }
-    [[nodiscard]] bool bends() const
-    {
-        return bends_;
-    } ///< whether the line through the sections' centres
-      ///< bends
+    /// Whether the line through the centres of the sections bends.
+    [[nodiscard]] bool bends() const { return bends_; }
 
     /// A piece of an edge in the strip.
     struct Piece {

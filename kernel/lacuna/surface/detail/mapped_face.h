@@ -17,14 +17,14 @@ public:
     /// @param corners  from `four_corners()`.
     MappedFace(const topology::Model& model, FaceId face, const std::vector<std::size_t>& corners);
 
-    /// Numbers of sides that the size requires on evenly spaced lines inside the face: lines parallel to
-    /// sides 0 and 2, and lines parallel to sides 1 and 3.
+    /// Number of sides that the size requires on each of some evenly spaced lines inside the face: first for
+    /// lines parallel to sides 0 and 2, then for lines parallel to sides 1 and 3.
     [[nodiscard]] std::array<std::vector<double>, 2> wanted_inside(const SizeField& size) const;
 
     struct Shape {
         double mean_scaled_jacobian = 1; ///< in space
-        /// Share of grid sides in one direction whose length relative to the size is 0.6 to 1.6 times the
-        /// root mean square of this ratio; the smaller value of both directions.
+        /// Share of the grid's sides in one direction whose length relative to the size is 0.6 to 1.6 times
+        /// the root mean square of this relative length. The smaller share of both directions.
         double even_share = 1;
     };
     /// Quality of the best grid with any number of columns and rows.

@@ -7,16 +7,17 @@
 namespace lacuna::surface {
 
 enum class Pairing {
-    in_order, ///< if both sides have equally many breaks, all are paired, whatever their positions
-    near,     ///< only breaks close to each other are paired; the walls determine the others
+    /// Breaks are paired in order; if both sides have equally many, all are paired, whatever their positions.
+    in_order,
+    near, ///< only breaks close to each other are paired; the walls determine where the others end
 };
 
 /// Corresponding breaks of two segments.
 using BreakPairs = std::vector<std::pair<double, double>>;
 
-/// Pair breaks of two segments in order, minimizing the difference of their relative positions without
-/// crossings. A break that stays unpaired has -1 for the other side.
-/// @param a, b  breaks as shares of either segment, increasing, in (0, 1).
+/// Pair breaks of two segments in order, so that their relative positions differ as little as possible. Pairs
+/// do not cross. A break without a partner is paired with -1.
+/// @param a, b  breaks of the two segments, as shares of the segment's length, increasing, in (0, 1).
 /// @note  Dynamic programming; time and memory a.size() × b.size().
 BreakPairs paired_breaks(const std::vector<double>& a, const std::vector<double>& b,
                          Pairing pairing = Pairing::in_order);

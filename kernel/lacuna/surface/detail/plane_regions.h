@@ -11,9 +11,10 @@ namespace lacuna::surface {
 
 /// A chain in the plane between two nodes. Chains meet only at nodes.
 struct PlaneChain {
-    std::vector<Vec2> line;         ///< from node to node, at least two points
-    std::size_t from = 0, to = 0;   ///< numbers of its nodes
-    bool left = true, right = true; ///< whether the region on that side is part of the result
+    std::vector<Vec2> line;       ///< points from node to node, at least two
+    std::size_t from = 0, to = 0; ///< numbers of its nodes
+    /// Whether the region on the left, and the region on the right, is part of the result.
+    bool left = true, right = true;
 };
 
 /// A chain in a loop, and its direction there.

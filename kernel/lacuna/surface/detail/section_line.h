@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-/// An edge of the source in several sections of the volume. Internal to this folder.
+/// A line of the source and its images in several sections of the volume. Internal to this folder.
 namespace lacuna::surface {
 
 /// Number of sections of a line, evenly spaced from source to target. Heuristic.
@@ -21,20 +21,22 @@ inline double height_of(std::size_t section)
     return static_cast<double>(section) / static_cast<double>(kSections - 1);
 }
 
-/// A piece of an edge as a curve in several sections. Its parameter u counts sides, from 0 at its start.
+/// A piece of an edge as a curve in several sections. The parameter u of the curve counts mesh sides, from 0
+/// at the start of the piece.
 struct SectionLine {
     SeedPiece* piece = nullptr;
-    /// At even steps of the sides; may be empty except for the source.
+    /// For each section, points at even steps of the sides. Empty for sections that are not known; the source
+    /// is always known.
     std::array<std::vector<Vec3>, kSections> points;
-    std::vector<double> at;            ///< positions of the nodes, ends included [sides]
-    std::vector<double> above;         ///< positions of the nodes on the target; empty: as on the source
+    std::vector<double> at;    ///< positions of the nodes, ends included [sides]
+    std::vector<double> above; ///< positions of the nodes on the target; empty: the same as on the source
     std::vector<std::size_t> variable; ///< for each node, its variable in a solver
     std::vector<std::size_t> variable_above;
-    /// At each node, the length of a side divided by the length of the column; used with `above`.
+    /// At each node, the length of a side divided by the length of the column. Set if `above` is set.
     std::vector<double> steep;
     bool on_rim = false;
 
-    /// Position of a node's column in a section: linear from the source to the target.
+    /// Position of a node's column in a section, interpolated linearly between source and target.
     [[nodiscard]] double column(std::size_t section, std::size_t node) const
     {
         if (section == kSource || above.empty()) return at[node];
@@ -62,7 +64,8 @@ struct SectionLine {
                 per_side * (a + f * (2 * (3 * c - 2 * a - b) + 3 * f * (a + b - 2 * c)))};
     }
     [[nodiscard]] Vec3 place(std::size_t section, double u) const { return spot(section, u).at; }
-    /// Direction along the edge, taken over half a side in both directions, and its derivative by u.
+    /// Direction along the edge at u, and the derivative of this direction by u. The direction is taken from
+    /// half a side before u to half a side after it.
     [[nodiscard]] Spot tangent(std::size_t section, double u) const
     {
         const Spot before = spot(section, u - 0.5), after = spot(section, u + 0.5);
@@ -79,7 +82,7 @@ struct SectionLine {
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<double>(i);
         return places;
     }
-    /// At each node, the length of a side divided by the length of the column, for evenly spaced nodes.
+    /// For evenly spaced nodes: at each node, the length of a side divided by the length of the column.
     [[nodiscard]] std::vector<double> steepness() const
     {
         std::vector<double> steep_at;

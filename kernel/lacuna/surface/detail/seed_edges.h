@@ -11,8 +11,8 @@
 namespace lacuna::surface {
 
 /// Divide all edges into pieces (`SeedPiece`), and give each piece the number of sides that size and
-/// curvature require. Edges of faces that keep their own quads keep their nodes, and so do edges inside the
-/// source that have given nodes.
+/// curvature require. Two kinds of edges keep their given nodes: edges of faces that keep their own quads,
+/// and edges inside the source that have given nodes.
 /// @param lengths  as for `seed_source()`.
 /// @param kept     faces that keep their own quads, whatever the style.
 /// @return  seeds of which only `pieces`, `kept` and `notes` are set.

@@ -16,10 +16,10 @@ std::set<EdgeId> solve_together(const SeedTask& task, const FaceGrids& grids, co
                                 Seeds& seeds);
 
 /// Change the numbers of sides as little as possible, so that opposite sides of grids have equal numbers and
-/// the total of each free face is even. One program covers all edges. Where given numbers do not permit this,
-/// it is left as it is.
-/// @param alike    edges that a symmetry of a face maps onto each other; they are changed last.
-/// @param settled  edges with the numbers of sides of a grid; they are changed last too.
+/// the total of each free face is even. One program covers all edges. Where given numbers make this
+/// impossible, the numbers stay as they are.
+/// @param alike    edges that a symmetry of a face maps onto each other; these are changed last.
+/// @param settled  edges with the numbers of sides of a grid; these are also changed last.
 void make_even(const SeedTask& task, const FaceGrids& grids, const AlikeEdges& alike,
                const std::set<EdgeId>& settled, Seeds& seeds);
 

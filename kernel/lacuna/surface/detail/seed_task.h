@@ -23,7 +23,7 @@ struct SeedTask {
     ShapeSizing sizing;
     bool wedges;
     std::vector<FaceId> faces; ///< faces of the source
-    /// For each edge of these faces or of the rim, its source faces.
+    /// For each edge of these faces or of the rim, the source faces that have it.
     std::map<EdgeId, std::set<FaceId>> users;
     std::set<EdgeId> rim; ///< edges with walls
 };
@@ -43,7 +43,8 @@ double quads_asked(const topology::Model& model, const Seeds& seeds, FaceId face
 /// Whether all pieces of an edge are fixed.
 bool is_fixed(const Seeds& seeds, EdgeId edge);
 
-/// Add sides one at a time, always where sides are longest. @return  false if all edges are fixed
+/// Add `by` sides, one at a time, each on the edge that has the longest sides. @return  false if all edges
+/// are fixed
 bool raise(Seeds& seeds, const std::vector<EdgeId>& edges, int by);
 
 } // namespace lacuna::surface

@@ -37,12 +37,13 @@ private:
     std::vector<Index> flip_from(std::vector<Index> open);
     [[nodiscard]] Vec3 centre_around(Index node) const;
     [[nodiscard]] const FaceShapeTree& shape_at(Index node) const;
-    /// A move fails if it makes an angle smaller than both `least` and the smallest angle at the node before
-    /// the move. Angles are given by their tangents.
+    /// Move a node to a place. The move fails if it makes an angle that is smaller than `least` and also
+    /// smaller than the smallest angle at the node before. Angles are given by their tangents.
     bool move_to(Index node, const Vec3& place, double least);
     bool move_along_line(Index node, double least);
     void smooth(double least);
-    /// @param moves  whether nodes may move, although they have reached their exact positions.
+    /// Improve triangles with small angles. @param moves  whether nodes may be moved. False after nodes were
+    /// moved to their exact positions.
     void improve(bool moves);
     bool improve(Index side, bool moves);
     void make_exact(const topology::Model& model);

@@ -14,9 +14,9 @@ namespace lacuna::surface {
 /// Whether a face has a given mesh.
 bool keeps_cells(const topology::Face& face);
 
-/// Unit normals of a face at the corners of its facets. Each is the mean of those facet normals at the point
-/// that are close to the facet's own normal, so that tips and creases stay sharp. A facet without area gets
-/// the mean of all normals at the point.
+/// Unit normals of a face at the corners of its facets. A corner's normal is the mean over those facets at
+/// the point whose normals are close to the facet's own normal, so that tips and creases stay sharp. For a
+/// facet without area, it is the mean over all facets at the point.
 std::vector<std::array<Vec3, 3>> corner_normals(std::span<const Vec3> points,
                                                 std::span<const Triangle> triangles);
 
@@ -31,7 +31,7 @@ public:
     };
     /// The closest point of the facets.
     [[nodiscard]] Place closest(const Vec3& p) const;
-    /// Move points to the exact surface; nothing happens without one.
+    /// Move points to the exact surface. Points of a face without an exact surface do not move.
     void make_exact(std::span<Vec3> points, const RunContext& context) const;
 
 private:
@@ -41,14 +41,14 @@ private:
     bool plane_ = false;
 };
 
-/// A line that the nodes on it never leave: an edge of the model, or a crease between facets of one face.
+/// A line whose nodes stay on it: an edge of the model, or a crease between facets of one face.
 struct SkinLine {
     EdgeId edge;               ///< not valid for a crease
-    std::vector<Index> points; ///< of the model, from end to end
-    std::vector<double> arc;   ///< running length at each of them
+    std::vector<Index> points; ///< points of the model, from end to end
+    std::vector<double> arc;   ///< for each point, the running length up to it
     bool kept = false;         ///< whether its points are nodes that must stay
-    std::vector<double> s{};   ///< running lengths of `at`
-    std::vector<Vec3> at{};    ///< points, on the exact curve if there is one
+    std::vector<double> s{};   ///< running lengths of the points `at`
+    std::vector<Vec3> at{};    ///< sample points, on the exact curve if there is one
 
     /// Set `s` and `at`. @param size  size of the triangles; exact curves are sampled at a fraction of it.
     void sample(const topology::Model& model, const SizeField& size);

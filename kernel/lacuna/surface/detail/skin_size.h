@@ -14,10 +14,10 @@ namespace lacuna::surface {
 /// and adapted to given nodes nearby.
 ///
 /// - Curvature: a full turn has n sides, where n >= 12 is the smallest number with which the skin loses at
-///   most half of `kSameVolume` of its volume. A side of length h along a curvature k is off by k h² / 12 on
-///   average.
+///   most half of `kSameVolume` of its volume. On average over its length h, a side along a curvature k is k
+///   h² / 12 away from the curve.
 /// - Width: faces and edges are treated as in `shape_size()`, down to a tenth of the requested size.
-/// - Thin places: if the opposite skin is at a distance w, sides sag by at most a quarter of w.
+/// - Thin places: if the opposite skin is at a distance w, the sag of a side is at most a quarter of w.
 /// - Short edges have one side.
 ///
 /// @param given  midpoints and lengths of the sides of given meshes.

@@ -17,7 +17,7 @@ struct StripTask {
     const LinkingSurface& link;
     const LinkingNodes& nodes;
     std::span<const double> heights; ///< layers + 1, from 0 to 1
-    std::span<const int> line_of;    ///< side line of each node of the rim; -1: none
+    std::span<const int> line_of;    ///< for each node of the rim, its side line; -1: none
     const BegunWall& begun;
 };
 
@@ -25,15 +25,15 @@ struct StripGrid {
     struct Pinned {
         EdgeId edge;
         double share; ///< fraction of the edge's length
-        Vec2 place;   ///< in the strip
+        Vec2 place;   ///< position in the strip
     };
-    std::vector<Vec2> place;               ///< for each node, by layer · nodes + node
-    std::map<std::size_t, Pinned> on_edge; ///< for nodes on an edge, their positions on it
-    std::vector<std::size_t> stops;        ///< node at each stop of the net
+    std::vector<Vec2> place;               ///< position of each node, at layer · nodes + node
+    std::map<std::size_t, Pinned> on_edge; ///< for each node on an edge: the edge and the position on it
+    std::vector<std::size_t> stops;        ///< for each stop of the net, its node
 };
 
-/// Position of each node in the strip. At first, columns are vertical and layers follow the plain rings. Then
-/// nodes are moved onto the net's stops; the displacement of the other nodes is harmonic over the grid.
+/// Lay the grid into the strip. At first, columns are vertical and layers follow the plain rings. Then nodes
+/// are moved onto the net's stops, and the displacement of the other nodes is harmonic over the grid.
 /// @param map  map of the linking surface; null if the side lines alone determine the positions.
 /// @throw NotSweepable "surface.too_few_layers", "surface.wall_edge", "surface.wall_rows"  as `mesh_walls()`.
 StripGrid lay_strip(const StripTask& task, const LinkingMap* map, const WallNet& net,

@@ -11,25 +11,25 @@
 
 namespace lacuna::surface {
 
-/// A point after projection onto a face: its closest point on the facets and its present position, which is
-/// the caller's.
+/// A point that was projected onto a face.
 struct Projected {
     const geometry::FacetTree::Hit* from = nullptr; ///< the closest point on the facets
     Index triangle = -1;                            ///< index of that facet in the face
-    Vec3* at = nullptr;                             ///< present position, on the exact surface
+    Vec3* at = nullptr; ///< the point after projection, on the exact surface; `keep_inside()` moves it
 };
 
 /// The border of a face with exact geometry. The exact surface extends beyond the border.
 ///
 /// Seams and poles are not part of the border. The nearest side of the border's polyline decides whether a
 /// point is inside or outside. At a corner of the polyline, the sum of the inward directions of both sides
-/// decides (Bærentzen and Aanæs 2005). Within the curve's bulge, the exact curve decides.
+/// decides (Bærentzen and Aanæs 2005). If the point is closer to the polyline than the bulge of the curve,
+/// the exact curve decides.
 class Trimming {
 public:
     Trimming(const topology::Model& model, FaceId face);
 
-    /// Move every point outside the face to the nearest point of its trimming curves. The other points stay
-    /// bit for bit. A point well inside costs one comparison.
+    /// Move every point outside the face to the nearest point of the face's border curves. Other points stay
+    /// bit-identical. A point well inside costs one comparison.
     void keep_inside(std::span<const Projected> points, const RunContext& context = {}) const;
 
 private:
@@ -39,7 +39,7 @@ private:
         std::size_t segment = 0; ///< segment of the edge, in the direction of the edge
         Vec3 normal = Vec3::Zero(), inward = Vec3::Zero();
         Vec3 inward_at_start = Vec3::Zero(), inward_at_end = Vec3::Zero();
-        double bulge = 0; ///< maximum distance to the curve [model length]
+        double bulge = 0; ///< largest distance of the exact curve from this side [model length]
     };
     /// A point that is outside, or so close to the border that the exact curve must decide.
     struct Near {
@@ -51,7 +51,7 @@ private:
     /// Lower bounds of the distance from points of a facet to the border.
     struct Clearance {
         double facet = 0;            ///< lower bound for the whole facet [model length]
-        Vec3 heights = Vec3::Zero(); ///< heights of the facet over each side [model length]
+        Vec3 heights = Vec3::Zero(); ///< height of each corner over the opposite side [model length]
     };
 
     void add_loop(const topology::Loop& loop, const std::vector<Index>& facet_of_side);

@@ -9,33 +9,35 @@
 namespace lacuna::surface {
 
 /// The edges inside a linking surface, as a net that the walls' nodes follow. Long edges run along the sweep
-/// and become columns; cross edges run around it and become levels. A node lies wherever such edges meet,
-/// turn or end.
+/// and become columns; cross edges run around it and become levels. A node lies where such edges meet, turn
+/// or end.
 ///
-/// Side lines and rims are not part of the net. An edge that ends on one of them ends in one of its nodes.
+/// Side lines and rims are not part of the net. If an edge ends on a side line or rim, it ends there in a
+/// node.
 struct WallNet {
     /// A vertex with a node.
     struct Stop {
         VertexId vertex;
         Vec2 place = Vec2::Zero(); ///< in the strip
         std::size_t column = 0;
-        int level = -1; ///< kSource, kTarget or a number of `levels`
+        int level = -1; ///< kSource, kTarget or an index of `levels`
     };
     static constexpr int kSource = -1, kTarget = -2;
 
     /// Consecutive long edges, or a single vertex at which cross edges turn or end.
     struct Column {
-        double at = 0;                                ///< s in [0, 1)
-        double low = 1, high = 0;                     ///< extent in t
-        std::optional<std::size_t> line;              ///< the side line it coincides with
-        std::optional<double> source_at, target_at{}; ///< running lengths of its ends on the rims
-        EdgeId edge;                                  ///< an edge of the column, for messages
+        double at = 0;                   ///< s in [0, 1)
+        double low = 1, high = 0;        ///< extent in t
+        std::optional<std::size_t> line; ///< the side line with which it coincides
+        /// Running lengths of its ends on the source's and the target's rim.
+        std::optional<double> source_at, target_at{};
+        EdgeId edge; ///< an edge of the column, for messages
     };
     /// Connected cross edges, or a single vertex between long edges.
     struct Level {
         double height = 0;               ///< mean t
         std::optional<std::size_t> ring; ///< index of the ring in the map
-        /// Whether it is a ring that turns and ends only on side lines and meets no long edge.
+        /// Whether the level is a ring that meets no long edge, and that turns and ends on side lines only.
         bool plain = false;
         std::vector<std::size_t> stops;
         std::vector<std::size_t> lines; ///< side lines that the ring meets
@@ -44,7 +46,7 @@ struct WallNet {
     struct LongEdge {
         const LinkingMap::Upright* upright;
         std::size_t low, high; ///< stops
-        bool reversed;         ///< whether the edge runs from target to source
+        bool reversed;         ///< whether the edge is directed from target to source
     };
 
     std::vector<Stop> stops;
@@ -63,8 +65,8 @@ struct WallNet {
 /// The largest number of levels above each other. @param below  from `WallNet::levels_below()`
 int most_levels(const std::vector<std::vector<std::size_t>>& below);
 
-/// @throw NotSweepable "surface.wall_edge"  an edge is neither long nor cross, because it is round or
-///         slanted, or it ends on a rim or between two side lines where it must not end; names the edge.
+/// @throw NotSweepable "surface.wall_edge"  an edge runs neither along the sweep nor around it, or it ends on
+///         a rim or between two side lines where it must not end; names the edge.
 /// @note  O(edges² + facets of rings) of the linking surface.
 WallNet wall_net(const topology::Model& model, const LinkingSurface& link, const LinkingMap& map);
 

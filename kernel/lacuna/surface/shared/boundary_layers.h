@@ -14,25 +14,25 @@
 
 namespace lacuna::surface {
 
-/// Heights of the rows over the face, increasing [model length].
+/// Heights of the rows' upper borders over the face, increasing [model length].
 std::vector<double> row_heights(const BoundaryLayer& layer);
 
-/// The faces of a volume that the user named.
+/// The faces of a volume that have the given tags and names.
 /// @throw InvalidInput "surface.no_such_face"  no face of the volume has the tag or name.
 std::vector<FaceId> faces_named(const topology::OpenVolume& volume, const FaceNames& names,
                                 const std::string& option);
 
-/// The wall beside an edge; invalid if there is none.
+/// The wall next to an edge; invalid if no wall has the edge.
 FaceId wall_on(const topology::OpenVolume& volume, EdgeId edge);
 
 /// Whether a face of the volume has a tag, or one of the names of `FaceNames`.
 bool has_face(const topology::OpenVolume& volume, int tag);
 bool has_face(const topology::OpenVolume& volume, const std::string& name);
 
-/// The boundary layers on the faces of one volume.
+/// for each table, the heights of its rows
 struct LayerTables {
     std::vector<std::vector<double>> heights; ///< heights of the rows of each table
-    std::map<FaceId, int> of;                 ///< table of each face that has one
+    std::map<FaceId, int> of;                 ///< for each face with boundary layers, the index of its table
 
     [[nodiscard]] int at(FaceId face) const
     {
@@ -44,9 +44,9 @@ struct LayerTables {
 /// @throw InvalidInput "surface.two_layers"  a face is in two tables; names it.
 LayerTables layer_tables(const topology::OpenVolume& volume, std::span<const BoundaryLayer> layers);
 
-/// Rows along the rims of the source, which the boundary layers of the adjacent walls require.
+/// Rows along the rims of the source that follow from the boundary layers of the adjacent walls.
 struct RimRows {
-    std::vector<std::vector<double>> heights; ///< heights of the rows of each table [model length]
+    std::vector<std::vector<double>> heights; ///< for each table, the heights of its rows [model length]
     /// A part of an edge of the source's rim, in the direction of the edge, and its table.
     struct Part {
         double from = 0, to = 1; ///< fractions of the edge's length
@@ -54,7 +54,7 @@ struct RimRows {
         FaceId wall; ///< the wall that the table belongs to
     };
     std::map<EdgeId, std::vector<Part>> parts;
-    /// One end of an edge at which rows end that follow the adjacent edge of the loop.
+    /// An end of an edge where rows end. These rows run along the adjacent edge of the loop.
     struct End {
         int table = -1;
         FaceId wall;
@@ -62,28 +62,28 @@ struct RimRows {
         Vec3 inward;  ///< perpendicular to `along`, in the face
         VertexId corner;
     };
-    /// The edges on which rows end. The key tells the edge, and whether the rows are at its end (true) or its
-    /// start.
+    /// The edges on which rows end. The key is the edge, with true if the rows are at the edge's end and
+    /// false if they are at its start.
     std::map<std::pair<EdgeId, bool>, End> ends;
 
     [[nodiscard]] bool empty() const { return heights.empty(); }
-    /// The part of an edge at a fraction of its length; null: the edge has no rows there.
+    /// The part of an edge that contains a fraction of its length; null: the edge has no rows.
     [[nodiscard]] const Part* part_at(EdgeId edge, double fraction) const;
 };
 
 /// Find the parts of the source's rim that have rows, and the edges on which the rows end.
 ///
-/// The table of a wall that touches only the target's rim applies to the part of the source's rim that is
-/// swept there.
+/// If a wall with a table touches only the target's rim, its table applies to the part of the source's rim
+/// that is swept to that wall.
 /// @throw NotSweepable "surface.layers_unreached"  a wall with a table touches neither end;
 ///         "surface.layers_meet"  rows of two tables end on one edge at the same corner.
 RimRows rim_rows(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,
                  const LayerTables& tables);
 
-/// Positions of rows on the edge where they end: fractions of the edge's length in its direction, increasing.
-/// If the edge is too short, there are fewer positions than heights.
-/// @param at_end   whether the rows are at the edge's end; otherwise at its start.
-/// @param heights  heights of the rows over the edge that they follow, increasing [model length].
+/// Positions of rows on the edge where they end: increasing fractions of the edge's length in the direction
+/// of the edge. If the edge is too short for all rows, there are fewer positions than heights.
+/// @param at_end   whether the rows are at the end of the edge; false: at its start.
+/// @param heights  heights of the rows over the edge along which they run, increasing [model length].
 std::vector<double> row_places(const topology::Model& model, EdgeId edge, bool at_end,
                                const RimRows::End& end, std::span<const double> heights);
 

@@ -28,10 +28,10 @@ public:
 
     [[nodiscard]] double length() const { return start_.back(); }
     [[nodiscard]] const std::vector<topology::EdgeUse>& uses() const { return uses_; }
-    /// A running length on a closed chain that is at most one turn too long, brought back into the chain's
-    /// length.
+    /// For a closed chain: subtract one turn from a running length that exceeds the length of the chain.
+    /// @pre  the running length is below two turns
     [[nodiscard]] double wrapped(double s) const { return s >= length() ? s - length() : s; }
-    /// Running length at the start of use i; with i = number of uses, the length of the chain.
+    /// Running length at the start of use i. If i is the number of uses, the length of the chain.
     [[nodiscard]] double start(std::size_t i) const { return start_[i]; }
 
     /// Edge and fraction at a running length.

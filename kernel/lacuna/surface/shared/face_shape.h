@@ -10,16 +10,17 @@
 namespace lacuna::surface {
 
 /// The shape of a face for comparisons: its facets, and the bulge of the exact face over each of their sides.
-/// A facet with its bulges is a quadratic patch, so chords of facets do not hide or imitate a deviation.
+/// A facet with its bulges is a quadratic patch. Comparisons with it neither hide a deviation nor report the
+/// chords of facets as one.
 struct FaceShape {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
-    std::vector<std::array<Vec3, 3>> bulge; ///< at the middle of the side from each corner; empty: none
+    std::vector<std::array<Vec3, 3>> bulge; ///< for each side of each facet, at its middle; empty: no bulges
     /// For faces without an exact surface: maximum distance of the facets from the edges that the face shares
     /// with exact faces [model length].
     double slack = 0;
 
-    /// Displacement from a point of a facet to the patch.
+    /// Displacement from a point of a facet to the quadratic patch over this facet.
     [[nodiscard]] Vec3 bulge_at(std::size_t triangle, const Vec3& barycentric) const;
     /// Unit normal of a facet; zero if it has no area.
     [[nodiscard]] Vec3 normal(std::size_t triangle) const;

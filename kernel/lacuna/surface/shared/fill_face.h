@@ -15,7 +15,7 @@ namespace lacuna::surface {
 
 /// A node on the boundary of a face.
 struct RimNode {
-    Vec3 point;          ///< on the exact edge
+    Vec3 point;          ///< position on the exact edge
     EdgeId edge;         ///< edge of the face
     double fraction = 0; ///< fraction of the edge's length, in the direction of the edge
 };
@@ -25,14 +25,15 @@ struct FaceQuads {
     std::vector<Vec3> points; ///< nodes of the rim first, then inner nodes, which lie on the exact surface
     std::vector<Quad> quads;  ///< counter-clockwise if seen from outside
     std::string how{};        ///< method, as reported by the planar mesher
-    std::optional<quads::RowsFinding> finding{}; ///< why requested rows do not fit; then there are no quads
+    /// Reason why requested rows do not fit; there are then no quads.
+    std::optional<quads::RowsFinding> finding{};
 };
 
 /// Fill a face with quads inside given boundary nodes.
 ///
 /// A planar face is filled in its plane. Any other face is flattened, with rim nodes, using facets that are
-/// fine enough for the size (`fine_facets()`). The size is corrected for the local stretch, and the plane is
-/// filled. New nodes are mapped back through their facets to the exact surface.
+/// fine enough for the size (`fine_facets()`). The size is corrected for the distortion by the flattening,
+/// and the flat image is filled. New nodes are mapped back through their facets to the exact surface.
 /// @param rim    nodes of the boundary, kept in this order.
 /// @param loops  cycles of indices in `rim`, with the face on the left.
 /// @param rows   rows along sides of the rim, with heights on the face; null: none.

@@ -15,9 +15,10 @@ namespace lacuna::surface {
 struct GivenStub {
     bool from_target = false;  ///< whether it starts at the target's rim; otherwise at the source's
     double at = 0;             ///< running length on the chain of that rim
-    FaceId wall;               ///< its wall; between two walls, one of them
+    FaceId wall;               ///< the wall of the stub; if it is between two walls, one of them
     std::vector<Index> points; ///< model points, starting at the rim
-    /// Starting at the rim: for each quad between this stub and the next one around the ring, its wall.
+    /// For each quad between this stub and the next one around the ring: the wall of this quad. Starts at the
+    /// rim.
     std::vector<FaceId> faces;
 };
 
@@ -26,8 +27,8 @@ struct GivenColumn {
     double source_at = 0;      ///< running length on the source chain
     double target_at = 0;      ///< running length on the target chain, modulo its length
     std::vector<Index> points; ///< rows + 1 model points, from the source
-    /// For each quad between this column and the next one around the ring, its wall; empty: there are no
-    /// quads.
+    /// For each quad between this column and the next one around the ring: the wall of this quad. Empty if
+    /// there are no quads.
     std::vector<FaceId> faces;
 };
 
@@ -35,8 +36,9 @@ struct GivenColumn {
 struct GivenColumns {
     int rows = 0;                   ///< number of quads in every column; 0: there are no columns
     bool quads = false;             ///< whether some columns have quads between them
-    std::vector<GivenColumn> whole; ///< in order of their running lengths on the source chain
-    std::vector<GivenStub> stubs;   ///< in order of their running lengths; the source's come first
+    std::vector<GivenColumn> whole; ///< in increasing order of `source_at`
+    /// First the stubs from the source, then those from the target, each in order of `at`.
+    std::vector<GivenStub> stubs;
 };
 
 /// Rows and columns of the given wall meshes.
@@ -47,9 +49,10 @@ struct GivenRows {
 };
 
 /// Read the meshes of given walls as rows and columns. The columns are found by walking from each side of the
-/// source rim over opposite sides of quads to the target rim. A column from either rim that ends before the
-/// other rim is a stub. Side lines of walls without quads are columns if all have the same number of nodes.
-/// @param layers  requested number of layers; 0: any. Side lines with another number of sides are then not
+/// source rim over opposite sides of quads to the target rim. A column that starts at one rim and ends before
+/// the other rim is a stub. If no wall has quads, side lines are columns, provided that all of them have the
+/// same number of nodes.
+/// @param layers  requested number of layers; 0: any number. Side lines with another number of sides are not
 ///         used as columns.
 /// @throw NotSweepable "surface.wall_rows"  quads of walls form different numbers of rows, or stubs have as
 ///         many rows as whole walls; "surface.wall_not_rows"  a quad is in no row. The message names the
@@ -80,10 +83,10 @@ struct KeptNodes {
 
 /// Use the rim nodes of faces that keep their mesh as nodes of the sweep. Each node ends a segment, and the
 /// segment between two such nodes is one side of a quad.
-///
-/// Nodes of the same column correspond to each other. The other nodes of the two ends are paired in order if
-/// their numbers between side lines, or between corners, are equal. If not, those of the source are kept, and
-/// a note counts those of the target. If only one end has given nodes, the other end gets nodes opposite to
+/// Nodes of one column correspond to each other. Other nodes of the two rims are paired in order if both rims
+/// have the same number of nodes between two side lines or two corners. Otherwise the nodes of the source are
+/// kept, and a note counts the nodes of the target that are not kept. If only one rim has given nodes, the
+/// other rim gets nodes opposite to them.
 /// them.
 /// @param columns  given columns of each linking surface.
 /// @param wedges   whether triangles of both ends are kept like quads.

@@ -14,29 +14,30 @@ namespace lacuna::surface {
 /// The part of a target edge to which a source edge is swept.
 struct EdgeImage {
     EdgeId target; ///< edge of the volume's target
-    /// Positions on the target edge at the two ends of the source edge, as fractions. On closed edges, whole
+    /// Positions on the target edge of the two ends of the source edge, as fractions. On closed edges, whole
     /// turns are counted.
     double from = 0, to = 1;
 };
 
-/// Two chains of points, one inside each end, that the sweep maps onto each other, uniformly between the
-/// given shares of their lengths.
+/// Two chains of points, one inside each end, that correspond in the sweep. The part of each chain between
+/// the given shares of its length is mapped uniformly onto the part of the other.
 struct KnownLine {
     std::vector<Index> source, target;
     double source_from = 0, source_to = 1;
     double target_from = 0, target_to = 1;
 };
 
-/// A sealed volume whose source is split as its target is.
+/// A sealed volume whose source is split in the same way as its target.
 struct Imprint {
     /// Faces, edges and vertices of the original volume keep their ids. They are followed by the parts of
     /// split source faces, with the tag and name of the whole face. Imprinted edges have the tags of the
     /// target's edges.
     std::unique_ptr<topology::OpenVolume> volume;
     std::vector<LinkingSurface> links;
-    std::vector<FaceId> source_of;      ///< for each face: the face of the original volume that contains it
-    std::vector<FaceId> target_of;      ///< for each source face: the target face it is swept to
-    std::map<EdgeId, EdgeImage> images; ///< images of source edges that are swept to the target's inner edges
+    std::vector<FaceId> source_of; ///< for each face: the face of the original volume that contains it
+    std::vector<FaceId> target_of; ///< for each source face, the target face to which it is swept
+    /// For each source edge that is swept to an inner edge of the target: its image.
+    std::map<EdgeId, EdgeImage> images;
 };
 
 /// Lengths of the images of source edges, as `seed_source()` needs them [model length].
@@ -47,13 +48,16 @@ std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Ro
 
 /// Imprint the inner edges of the target on the source.
 ///
-/// Source and target are mapped onto one plane: the source by `geometry::flatten()`, the target by the
-/// harmonic map with its rim placed by the linking surfaces. Smooth closed edges of the two ends that enclose
-/// about the same region are merged, with their start points aligned; then the target is mapped again with
-/// these edges coincident. Next, the edges of the target are intersected with those of the source. Edges and
-/// vertices closer to each other than a fraction of the quad size are merged. The source faces are split
+///
+/// Source and target are mapped onto one plane: the source by `geometry::flatten()`, the target by a harmonic
+/// map, with the target's rim placed by the linking surfaces. Smooth closed edges of the two ends that
+/// enclose about the same region are merged, with their start points aligned; then the target is mapped again
+/// so that these edges coincide. Next, the edges of the target are intersected with those of the source.
+/// Edges and vertices closer to each other than a fraction of the quad size are merged. The source faces are
+/// split
 /// along the remaining edges and retriangulated.
-/// @param known  lines that an earlier imprint created on both ends; they coincide in the plane.
+/// @param known  corresponding lines that an earlier imprint created on both ends. They are made to coincide
+///         in the plane.
 /// @throw NotSweepable "surface.not_imprinted"  the ends cannot be mapped onto each other one to one, an edge
 ///         is so close to another that quads do not fit between them, or a source face keeps its own quads;
 ///         names the target's edge.

@@ -13,13 +13,13 @@ namespace lacuna::surface {
 
 /// The numbers of sides and layers that intervals request.
 struct IntervalDemands {
-    std::vector<SidesAsked> sides; ///< on the source's edges
+    std::vector<SidesAsked> sides; ///< requested numbers of sides on the source's edges
     struct Layers {
         int count = 1;
         double bias = 1; ///< ratio of last to first height, from the source [-]
-        Argument name;   ///< origin, for messages
-        /// Whether `bias` counts from the end that the user named source; otherwise from the end where the
-        /// sweep starts.
+        Argument name;   ///< the request from which it results, for messages
+        /// Whether `bias` counts from the end that the user named source. If false, it counts from the end
+        /// where the sweep starts.
         bool from_named_source = false;
     };
     std::optional<Layers> layers;

@@ -13,18 +13,20 @@
 
 namespace lacuna::surface {
 
-/// A segment of the source rim and the segment of the target rim that it is swept to, as running lengths on
-/// the linking surface's chains. The segment lies within one source edge.
+/// A segment of the source rim, and the segment of the target rim to which it is swept. Both are given by
+/// running lengths on the linking surface's chains. The source segment lies within one edge.
 struct RimSegment {
     double source_from = 0, source_to = 0;
-    /// May exceed the length of the target chain, and then count modulo that length.
+    /// May exceed the length of the target chain; such values count modulo that length.
     double target_from = 0, target_to = 0;
-    std::size_t use = 0; ///< index of the use in the source chain
-    bool given = false;  ///< whether it is one side of a quad, between given nodes
-    /// Whether both ends of the segment are vertices of the rim's facets, and the rim between them bends no
-    /// more than one straight side may. `follows` refers to the source, `target_follows` to the target.
+    std::size_t use = 0; ///< index in the source chain of the edge use that contains the segment
+    bool given = false;  ///< whether the segment is exactly one side of a given quad
+    /// Whether both ends of the segment are vertices of the rim's facets, and the rim between these vertices
+    /// bends no more than one straight side may. `follows` refers to the source, `target_follows` to the
+    /// target.
     bool follows = false, target_follows = false;
-    /// On surfaces without side lines: whether the column at its start runs along a crease of the walls.
+    /// On surfaces without side lines: whether the column at the start of the segment runs along a crease of
+    /// the walls.
     bool on_crease = false;
 };
 
@@ -43,34 +45,34 @@ struct LinkingLine {
 struct LinkingSurface {
     std::vector<FaceId> walls;
     Chain source, target;
-    std::vector<LinkingLine> lines;   ///< in walking order
-    std::vector<RimSegment> segments; ///< in walking order, the first from source length 0
-    /// For a ring without side lines: the position at which the shortest path from the source's start ends on
-    /// the target rim, as a number of turns around the ring. Empty if corresponding vertices of both rims are
-    /// given.
+    std::vector<LinkingLine> lines;   ///< side lines in walking order
+    std::vector<RimSegment> segments; ///< segments in walking order; the first one starts at source length 0
+    /// For a ring without side lines: the position on the target rim at which the shortest path from the
+    /// source's start ends, as a number of turns around the ring. Empty if corresponding vertices of both
+    /// rims are given.
     std::optional<double> branch{};
 };
 
 /// The part of the source edge that a segment covers, as fractions of the edge's length in its direction.
 std::pair<double, double> edge_part(const LinkingSurface& link, const RimSegment& segment);
 
-/// The edge use of the target's rim that the middle of a segment is swept to.
+/// The edge use of the target's rim to which the middle of a segment is swept.
 topology::EdgeUse target_use(const LinkingSurface& link, const RimSegment& segment);
 
 /// How linking surfaces without side lines rotate between source and target.
 enum class Turning {
-    each,     ///< each separately, with minimum shear of its walls
+    each,     ///< each one separately, with minimum shear of its walls
     together, ///< all loops as one rigid body; needed if holes wind around each other
 };
 
-/// A vertex of the source's rim and the vertex of the target's rim that it is swept to, with or without a
+/// A vertex of the source's rim, and the vertex of the target's rim to which it is swept, with or without a
 /// side line.
 struct RimPair {
     VertexId source, target;
 };
 
 /// The linking surfaces of a sealed volume, one for each loop of the source, in the order of the loops.
-/// @param pairs  vertices that correspond. Pairs that are not in the same order around both rims, or
+/// @param pairs  corresponding vertices. Pairs that are not in the same order around both rims, or that
 ///         contradict the side lines, are ignored.
 /// @throw NotSweepable  walls join a source loop to no loop of the target, or to several; names them.
 std::vector<LinkingSurface> linking_surfaces(const topology::OpenVolume& volume,

@@ -20,13 +20,13 @@ struct FacetPosition {
 /// The facets of several faces together.
 struct FacetSet {
     std::vector<Triangle> triangles;
-    std::vector<FaceId> face;  ///< for each facet
+    std::vector<FaceId> face;  ///< face of each facet
     std::vector<Index> number; ///< index of each facet in its face
 };
 
 FacetSet facet_set(const topology::Model& model, std::span<const FaceId> faces);
 
-/// Facets and the surface from which they were cut.
+/// Facets, and the exact surface that they approximate.
 struct FacetView {
     std::span<const Vec3> points;
     std::span<const Triangle> triangles;
@@ -44,8 +44,8 @@ Vec3 point_on_facets(const topology::Model& model, FaceId face, const FacetPosit
 
 class Trimming;
 
-/// Closest points on a set of faces. The facets determine face and position, the exact surface determines the
-/// point, and points beyond the face's border are moved back to it.
+/// Finds the closest points on a set of faces. The facets determine the face and the position on it, and the
+/// exact surface determines the point. A point beyond the face's border is moved back to the border.
 class Projector {
 public:
     Projector(const topology::Model& model, std::vector<FaceId> faces);
@@ -61,7 +61,7 @@ private:
     const topology::Model* model_;
     FacetSet facets_;
     geometry::FacetTree tree_;
-    std::map<FaceId, Trimming> trimmed_; ///< borders of the faces with exact geometry
+    std::map<FaceId, Trimming> trimmed_; ///< borders of the faces that have an exact surface
 };
 
 } // namespace lacuna::surface

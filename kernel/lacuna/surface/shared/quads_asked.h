@@ -7,8 +7,8 @@
 namespace lacuna::surface {
 
 /// Whether a size field requests more quads than `most` on the source. Quads are counted over facets, which
-/// are subdivided while the size varies on them. On a four-sided face, which may be mapped, they are counted
-/// by the sides of the rim.
+/// are subdivided while the size varies on them. On a four-sided face, which may be mapped, the count follows
+/// from the numbers of sides of its rim.
 /// @note  O(min(quads asked for, most)) sizes.
 bool asks_for_more(const topology::OpenVolume& volume, const SizeField& size, double most);
 

@@ -14,29 +14,29 @@ namespace lacuna::surface {
 
 /// Vertices of facets that become nodes of the rims.
 struct RimBreaks {
-    /// For each linking surface, pairs of running lengths on the source's and the target's chain; empty: no
-    /// breaks.
+    /// For each linking surface, its breaks: pairs of running lengths on the source's and the target's chain.
+    /// Empty: no breaks.
     std::vector<std::vector<std::pair<double, double>>> pairs;
-    std::vector<char> on_crease; ///< for each linking surface, whether all its columns at breaks run along
-                                 ///< creases
-    /// Edges with such vertices inside, and the positions of these as fractions.
+    /// For each linking surface, whether the columns at all its breaks run along creases.
+    std::vector<char> on_crease;
+    /// For each edge that has breaks inside: their positions as fractions.
     std::map<EdgeId, std::vector<double>> edges;
-    std::set<Index> points; ///< all such vertices
+    std::set<Index> points; ///< points of the model at all breaks
 };
 
-/// A chain of facet sides from rim to rim along the walls, followed by a column.
+/// A chain of facet sides along the walls from rim to rim. A column of nodes follows it.
 struct Crease {
     double source_at = 0;      ///< running length of its start on the source's chain
-    std::vector<Index> points; ///< from the source's rim to the target's
+    std::vector<Index> points; ///< points from the source's rim to the target's rim
 };
 
 /// Finds the vertices of coarse facets at which rims need nodes.
 ///
 /// On a rim made of facets, breaks are the vertices that the Douglas-Peucker rule keeps (@cite
 /// douglas_1973_reduction). Its tolerance is the sag of one side of an arc with the length and turn of the
-/// edge. A break helps only if a crease leads from it to another rim: across an end as one side of a facet,
-/// or up the walls, where a column then follows it. An edge gets no breaks if its creases lead elsewhere, or
-/// if it has more such vertices than its arc has sides.
+/// edge. A break helps only if a crease leads from it to another rim. The crease may cross an end as one side
+/// of a facet, or run up the walls, where a column then follows it. An edge gets no breaks if its creases
+/// lead elsewhere, or if it has more such vertices than its arc has sides.
 class RimFacets {
 public:
     RimFacets(const topology::OpenVolume& volume, std::span<const LinkingSurface> links);
@@ -45,8 +45,8 @@ public:
     ///         larger.
     [[nodiscard]] RimBreaks breaks(int per_turn, const SizeField& size);
 
-    /// Points along the sharpest sides of facets from a point of a rim to another rim; empty if there is no
-    /// such crease.
+    /// Points along the crease from a point of a rim to another rim: at each point it takes the sharpest side
+    /// of the facets. Empty if there is no crease.
     const std::vector<Index>& crease(Index rim);
 
 private:
@@ -55,7 +55,7 @@ private:
         Index point = -1;
         EdgeId edge;
         double fraction = 0;   ///< fraction of the edge's length
-        bool at_start = false; ///< whether the edge starts there, so that a node exists in any case
+        bool at_start = false; ///< whether the edge starts there; then a node exists in any case
     };
     struct Side {
         Index to = -1;
@@ -72,7 +72,7 @@ private:
     std::span<const LinkingSurface> links_;
     std::vector<char> end_of_; ///< for each model point: 1 on the source's rims, 2 on the target's
     std::map<Index, std::vector<Side>> sides_; ///< facet sides at each point
-    /// Creases computed so far, by their start on a rim; empty: there is none.
+    /// Creases computed so far, by their first point on a rim. An entry is empty if no crease starts there.
     std::map<Index, std::vector<Index>> creases_;
 };
 

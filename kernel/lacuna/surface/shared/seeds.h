@@ -24,33 +24,37 @@ enum class QuadStyle {
     automatic,
     kept,   ///< the face's own quads are kept; an error if it has none
     mapped, ///< mapped or submapped; an error if that is impossible
-    free,   ///< by the planar mesher
+    free,   ///< filled by the planar mesher
 };
 
 /// A part of an edge with its own number of sides.
 struct SeedPiece {
-    double from = 0, to = 1; ///< fractions of the edge's length, as the edge runs
-    double length = 0;       ///< fractions of the edge's length, in the direction of the edge
+    double from = 0, to = 1; ///< the part of the edge, as fractions of its length in the edge's direction
+    double length = 0;       ///< length of the piece [model length]
     int count = 1;           ///< number of sides, >= 1
-    double sides = 1;        ///< requested number, before rounding and interval assignment, > 0
-    int least = 1;           ///< minimum number of sides by curvature, >= 1
-    /// If the size varies along the piece: number of sides that the size requires from the start up to each
-    /// of a series of even steps. Nodes divide the last of these numbers evenly. Empty: nodes are evenly
-    /// spaced.
+    /// Number of sides that size and curvature require, before rounding and interval assignment, > 0.
+    double sides = 1;
+    int least = 1; ///< minimum number of sides required by curvature, >= 1
+    /// Set if the size varies along the piece. For each of a series of even steps: the number of sides that
+    /// the size requires from the start up to there. Nodes divide the last of these numbers evenly. Empty:
+    /// nodes are evenly spaced.
     std::vector<double> wanted{};
-    /// Turn of the rim that the piece is swept to, at even steps from the start [radian]. Empty: unknown.
+    /// Turn of the target's rim opposite to the piece, at even steps from the start [radian]. Empty: unknown.
     std::vector<double> opposite{};
     std::vector<double> kept{}; ///< if `fixed`: given nodes inside, as fractions of the edge
     /// Positions of inner nodes, as fractions of the edge, for which the lines of mapped faces are square to
     /// the edge. Empty: `wanted` determines the positions.
     std::vector<double> placed{};
-    /// As `placed`, for the nodes on the target's rim, mapped to this piece. Empty: as on the source.
+    /// As `placed`, for the corresponding nodes on the target's rim. Empty: they have the positions of the
+    /// source's nodes.
     std::vector<double> placed_above{};
     bool fixed = false; ///< whether number and positions of nodes are given or requested, and must not change
     bool asked = false; ///< if `fixed`: whether the user requested them
     bool bends = false; ///< whether curvature requires more sides than the size
-    bool follows = false; ///< whether its ends are vertices of facets, and it hardly bends between them
-    /// Nodes near the start and the end where rows of boundary layers end, as fractions of the edge.
+    /// Whether both ends of the piece are vertices of facets, and the edge hardly bends between them.
+    bool follows = false;
+    /// Positions of the nodes where rows of boundary layers end near the start and near the end, as fractions
+    /// of the edge.
     std::vector<double> low{}, high{};
 
     /// Number of rows that end on the piece.
@@ -70,10 +74,10 @@ struct SidesAsked {
     struct Part {
         EdgeId edge;
         double from = 0, to = 1; ///< fractions of the edge's length, in its direction
-        bool reversed = false;   ///< whether the walk over the parts runs against the edge
+        bool reversed = false;   ///< whether the parts are listed against the direction of the edge
     };
     std::vector<Part> parts;
-    int count = 1;   ///< number of sides of all parts together, at least one per part
+    int count = 1;   ///< total number of sides of all parts; each part gets at least one
     double bias = 1; ///< ratio of last to first side, > 0 [-]
     Argument name;   ///< origin, for messages
 };
@@ -82,13 +86,13 @@ struct SidesAsked {
 struct EdgeDemands {
     RimRows rows;
     std::vector<SidesAsked> sides;
-    /// Faces that keep their quads in any style, because a neighbour has the same quads.
+    /// Faces that keep their quads whatever the style is, because a neighbour has the same quads.
     std::set<FaceId> kept;
 };
 
 /// Numbers of sides on every edge of the source faces (interval assignment). Opposite sides of a mapped face
-/// have equal numbers, a submapped face has equal numbers in opposite directions, and a free face has an even
-/// total.
+/// have equal numbers, the sides of a submapped face have equal totals in opposite directions, and a free
+/// face has an even total.
 struct Seeds {
     std::map<EdgeId, std::vector<SeedPiece>> pieces; ///< in order along the edge
     /// For each mapped face: the indices of the four edge uses that start a side.
@@ -100,14 +104,14 @@ struct Seeds {
     [[nodiscard]] int count(EdgeId edge) const;
     /// Positions of the nodes of an edge as fractions, including both ends.
     [[nodiscard]] std::vector<double> fractions(EdgeId edge) const;
-    /// The piece of the source edge to which a rim segment corresponds.
+    /// The index of the piece of the source edge that contains a rim segment.
     [[nodiscard]] std::size_t piece_of(const LinkingSurface& link, const RimSegment& segment) const;
-    /// The nodes of a linking surface, on the source's rim and on the target's.
+    /// The nodes of a linking surface on both rims.
     [[nodiscard]] LinkingNodes nodes(const LinkingSurface& link) const;
 };
 
-/// Assign numbers of sides to the edges of the source: by the size, or by the curvature where it requires
-/// more.
+/// Assign numbers of sides to the edges of the source. They follow from the size or, where it requires more
+/// sides, from the curvature.
 ///
 /// A full turn of an edge gets `sizing.curvature` sides. If the target's rim turns more than the source's,
 /// the excess counts as well. Bends of a polyline count as those of the curve that it approximates, unless
@@ -125,22 +129,22 @@ struct Seeds {
 /// patterns. Any other face of two sides is filled by a grid with two of its corners inside. All other free
 /// faces get an even total.
 ///
-/// A face with one round side should have rows with a total depth of a third of its radius along that side,
-/// and as many sides on the line behind these rows as its length requires. Both are terms of the sum. Lengths
+/// Two more terms concern a face with one round side. Along this side, rows should have a total depth of a
+/// third of the radius. The line behind these rows should have as many sides as its length requires. Lengths
 /// are measured in space, so a face that bulges or narrows between its sides gets the numbers that its
 /// interior needs. A face becomes free if its given sides contradict each other, or if its grid would have
 /// poor angles or lengths in space.
 ///
 /// Then the remaining free faces get the numbers of a grid one after the other, respecting edges that are
 /// settled. Faces with the most loops come first, because their loops must agree. A second program over all
-/// edges of the source makes the total of every free face even with the least change. Finally, nodes on the
-/// sides of mapped faces move along these sides where lines of the grid are oblique to them. On the target
-/// such nodes get other positions if the sections in between differ.
+/// edges of the source makes the total of every free face even with the least change. Finally, where lines of
+/// a grid are oblique to the sides of a mapped face, the nodes on these sides move along them. If the
+/// sections of the volume differ, such nodes get other positions on the target.
 /// @param sizing   sides for a full turn, and the gap. With a gap, faces are submapped only on request,
-///         unless `counts_across` is set: then the sides of mapped faces get at least the gap's number of
-///         quads. Otherwise the size already includes the gap.
-/// @param lengths  lengths of the images of edges, if known [model length]. An edge with a longer image gets
-///         the sides that its image needs.
+///         because the size already includes the gap. If `counts_across` is set, this does not hold: the
+///         sides of mapped faces get at least as many quads as the gap requires.
+/// @param lengths  lengths of the images of edges, if known [model length]. If the image is longer than the
+///         edge, the edge gets the sides that its image needs.
 /// @param wedges   whether triangles are kept like quads, and a rim with an odd number of given sides stays
 ///         odd.
 /// @param demands  rows of boundary layers, whose heights become nodes of the edges where they end; and

@@ -12,12 +12,13 @@ namespace lacuna::surface {
 struct ShapeSizing {
     int curvature = 12; ///< sides for a full turn of an edge or a surface, >= 0; 0: the size alone
     int gap = 0;        ///< minimum number of quads across a narrow place, >= 0; 0: no minimum
-    /// Mapped faces with four corners meet `gap` by at least that many quads between opposite sides, without
-    /// a smaller size. Rectilinear faces may be submapped although `gap` is set.
+    /// How `gap` is met. If set, mapped faces with four corners get at least `gap` quads between opposite
+    /// sides, and the size is not reduced there. Rectilinear faces may then be submapped although `gap` is
+    /// set.
     bool counts_across = false;
 };
 
-/// The shortest sides that one rule requests.
+/// The smallest size that one rule requests.
 struct SizeCause {
     double size = 0; ///< requested [model length]
     FaceId face;     ///< face of the source
@@ -30,8 +31,8 @@ struct SizeCause {
 /// Sizes over the source, and the causes of the reduction.
 struct ShapeSize {
     SizeField at;
-    std::optional<SizeCause> curvature; ///< cause by the curvature of a face
-    std::optional<SizeCause> width;     ///< cause by a narrow place
+    std::optional<SizeCause> curvature; ///< place where curvature of a face requests the smallest size
+    std::optional<SizeCause> width;     ///< narrow place that requests the smallest size
 };
 
 /// Reduce the requested size where the source faces are curved or narrow, or so thin that straight sides of
@@ -45,13 +46,12 @@ struct ShapeSize {
 /// - Width: a ball that touches a rim from inside is shrunk until it contains no rim (@cite ma_2012_ball). If
 ///   the opposite point faces back at a distance w, the size is w / gap. Where the rim has the curvature k,
 ///   sides have a sag of at most a quarter of w, so their length is at most √(2 w / k). Edges that share one
-///   corner form a wedge, which has no minimum width. Two edges that share both corners, as on a lens, count
-///   as no closer than the mean width of the face: twice its area divided by the length of its rim.
+///   corner form a wedge, which has no minimum width. For two edges that share both corners, as on a lens,
+///   the distance w is at least the mean width of the face: twice its area divided by the length of its rim.
 ///
-/// The influence of a place fades with distance. The field does not contain the curvature of edges, because
-/// `seed_source()` counts it along each edge.
+/// The influence of a place decreases with the distance from it. The field does not contain the curvature of
+/// edges, because `seed_source()` counts it along each edge.
 /// @return  `asked` itself, without causes, if no place requires a smaller size.
-/// @return  `asked` itself, and no cause, if nothing is finer.
 /// @note    O(n log n) in the facets and rim points of the source; a size is found in O(log n).
 ShapeSize shape_size(const topology::OpenVolume& volume, const SizeField& asked, const ShapeSizing& sizing);
 

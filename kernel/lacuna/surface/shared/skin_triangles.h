@@ -11,11 +11,11 @@
 
 namespace lacuna::surface {
 
-/// The mesh of a face that is kept as it is, such as a wall of a swept neighbour.
+/// The mesh of a face that must not change, such as a wall of a swept neighbour.
 struct FixedFace {
     FaceId face;
     std::vector<Vec3> nodes; ///< [model length]
-    std::vector<Quad> quads; ///< in `nodes`; a triangle repeats its last corner
+    std::vector<Quad> quads; ///< corners are indices in `nodes`; a triangle repeats its last corner
 };
 
 /// A meshed skin, and the face of each of its cells.
@@ -30,7 +30,7 @@ struct SkinMesh {
 /// are split, the longest first, and short sides are collapsed. Flips increase the smaller angle of two
 /// triangles. Nodes move to the centres of their triangles and back to the face. Nodes on edges stay on their
 /// edge, and vertices do not move. At the end nodes are moved onto exact curves and surfaces where there are
-/// any. No step reverses a triangle against the normal of the facets. Departure from the paper: the remaining
+/// any. No step turns a triangle away from the normal of the facets. Departure from the paper: the remaining
 /// small angles are then improved one by one (@cite hu_2017_remeshing).
 ///
 /// Sides are shorter than requested where faces are narrow, down to a tenth of the requested size, and where

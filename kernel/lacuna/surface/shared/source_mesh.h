@@ -20,8 +20,9 @@ struct SourceMesh {
     mesh::QuadMesh quads;
     /// Rim nodes of each linking surface: node i of surface b is quad node first[b] + i.
     std::vector<LinkingNodes> links;
-    std::vector<Index> first;                     ///< first quad node of each linking surface
-    std::map<EdgeId, std::vector<Index>> on_edge; ///< quad nodes of each source edge, in its direction
+    std::vector<Index> first; ///< first quad node of each linking surface
+    /// For each source edge, its quad nodes in the direction of the edge.
+    std::map<EdgeId, std::vector<Index>> on_edge;
     std::vector<std::string> notes; ///< for each face, a line that states the method
 };
 

@@ -6,8 +6,8 @@
 
 namespace lacuna::surface {
 
-/// The motion from the source to the target, if one motion made all walls, in either direction; otherwise
-/// null. Also null if the walls end before the end of the motion, as those of a piece do.
+/// The motion from the source to the target, or from the target to the source, if one motion made all walls.
+/// Null otherwise, and also if the walls end before the motion ends, as on a piece of a swept volume.
 /// @note  O(facets of the walls).
 geometry::MotionPointer swept_motion(const topology::OpenVolume& volume);
 

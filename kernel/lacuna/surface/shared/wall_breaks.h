@@ -16,11 +16,12 @@ struct WallBreaks {
 };
 
 /// Divide the segments so that both rims have a node at the ends of every column that the walls' long edges
-/// require. If an existing segment ends within a fraction of the size, the column bends to that node instead.
+/// require. If an existing segment ends closer than a fraction of the size, there is no new node, and the
+/// column bends to the end of that segment.
 /// @return  the linking surfaces, and the minimum number of layers for edges around the walls: one more than
-///         the largest number of such edges above each other.
+///         the largest number of such edges that lie above each other.
 /// @throw NotSweepable "surface.wall_edge"  an edge is neither long nor cross; names it.
-/// @note  Maps the walls onto a strip only if they have edges besides side lines and whole rings.
+/// @note  Maps the walls onto a strip only if they have edges other than side lines and closed rings.
 WallBreaks set_wall_breaks(const topology::OpenVolume& volume, const SizeField& size,
                            std::vector<LinkingSurface> links);
 

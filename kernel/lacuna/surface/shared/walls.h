@@ -18,36 +18,36 @@ struct LinkingNodes {
     std::vector<std::size_t> line; ///< for each side line, the index of the node at its source end
 };
 
-/// Place nodes at given shares of each segment, in [0, 1), increasing; there are as many on the target as on
-/// the source.
+/// Place nodes at given shares of each segment. The shares are in [0, 1) and increasing, with equally many
+/// for source and target.
 LinkingNodes linking_nodes(const LinkingSurface& link, std::span<const std::vector<double>> source,
                            std::span<const std::vector<double>> target);
 
 /// A structured quad mesh on the walls of a linking surface.
 struct WallMesh {
     std::vector<Vec3> points; ///< (layers + 1) × nodes, layer-major from the source
-    std::vector<FaceId> face; ///< wall of each quad; quad layer · nodes + i lies between nodes i and i + 1
+    /// For each quad, its wall; quad layer · nodes + i lies between nodes i and i + 1.
+    std::vector<FaceId> face;
     std::vector<std::string> notes;
 };
 
 /// Mesh the walls of all linking surfaces, with one row of quads per layer.
 ///
 /// If the part between two side lines is a single face, it is meshed transfinitely in arc length and
-/// projected onto the face (section 7 of the paper; for void faces its Algorithms 5 and 6). Other parts have
-/// several faces, stacked or side by side, or no side lines. They are meshed by the harmonic map of the
-/// linking surface: layers follow edges around the walls, columns follow edges up the walls, and a node lies
-/// wherever such edges meet, turn or end. The other nodes move by a harmonic field over the grid, so that
-/// layers and columns bend towards the edges.
+/// projected onto the face (section 7 of Roca and Sarrate 2010; for void faces, Algorithms 5 and 6). All
+/// other parts are meshed by the harmonic map of the linking surface. Layers follow edges around the walls,
+/// columns follow edges up the walls, and a node lies where such edges meet, turn or end. The other nodes
+/// move by a harmonic field over the grid, so that layers and columns bend towards the edges.
 ///
 /// Columns of given nodes and the quads between them are used unchanged.
 /// @param nodes    nodes around each linking surface.
 /// @param columns  given columns of each linking surface; empty: none.
 /// @param heights  layers + 1 numbers from 0 to 1.
-/// @param exact    false: nodes lie on the facets of given walls, and only near void ones. This is faster,
-///         and accurate enough to find the directions of columns.
+/// @param exact    false: nodes lie on the facets of given walls, and on void walls only nearly. This is
+///         faster, and accurate enough to find the directions of columns.
 /// @throw NotSweepable "surface.too_few_layers"  there are more edges around the walls than layers can
-///         follow; names one, and a sufficient number of layers; "surface.wall_edge"  neither a layer nor a
-///         column can follow an edge between two walls.
+///         follow; names one of them, and a sufficient number of layers; "surface.wall_edge"  neither a layer
+///         nor a column can follow an edge between two walls.
 /// @post  nodes on given faces and edges lie on the exact geometry; the first and last rows are points of the
 ///        rims.
 std::vector<WallMesh> mesh_walls(const topology::OpenVolume& volume, std::span<const LinkingSurface> links,

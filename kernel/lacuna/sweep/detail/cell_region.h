@@ -17,7 +17,7 @@ namespace lacuna::sweep {
 /// The part of a mesh that is improved, with node numbers of its own: first the free nodes, then the fixed
 /// nodes around them.
 struct CellRegion {
-    std::vector<Hex> cells; ///< by the region's node numbers
+    std::vector<Hex> cells; ///< corners of each cell, by the region's node numbers
     std::vector<Vec3> box;  ///< for each cell: its initial mean edges
     /// For each cell: the scaled Jacobian to reach, which the cell's fixed nodes may limit.
     std::vector<double> aim;
@@ -67,8 +67,8 @@ private:
     const CellRegion& region_;
     const RunContext& context_;
     std::vector<Vec3> places_;
-    std::vector<Vec3> slopes_; ///< for each use of a free node
-    std::vector<Vec3> normal_; ///< of the surface at each free node; zero inside
+    std::vector<Vec3> slopes_; ///< gradient at each use of a free node
+    std::vector<Vec3> normal_; ///< normal of the surface at each free node; zero inside
 };
 
 } // namespace lacuna::sweep

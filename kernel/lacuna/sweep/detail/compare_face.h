@@ -17,7 +17,7 @@ namespace lacuna::sweep {
 /// nodes.
 struct SkinOfFace {
     FaceId face;
-    std::vector<Quad> quads; ///< by indices of `Skin::points`
+    std::vector<Quad> quads; ///< corners are indices of `Skin::points`
     /// For each quad, the index of the quad or triangle of the mesh's skin that it is part of.
     std::vector<std::size_t> item;
     std::vector<double> side; ///< the longest side of each quad [model length]
@@ -27,7 +27,7 @@ struct SkinOfFace {
 /// The nodes on a mesh's skin, renumbered, with the quads of every face.
 struct Skin {
     std::vector<Vec3> points;      ///< in the mesh's order: nodes of the source come first [model length]
-    std::vector<SkinOfFace> faces; ///< by their numbers in the model
+    std::vector<SkinOfFace> faces; ///< one entry for each face of the model, in its order
 };
 
 /// The quads of a mesh's skin by face of the model; each quad of order 2 becomes four.
@@ -43,8 +43,8 @@ struct DeviationLimit {
     double share = 0;  ///< allowed distance as a share of the side of a quad
     double at_tip = 0; ///< `share` within two sides of a tip, where at most four quads meet
     double least = 0;  ///< lower bound of the allowed distance, for short sides [model length]
-    /// Whether inverted quads are reported as folds. False for sharply twisted void walls next to which
-    /// neither skin is given: the facet nearest to a quad may then have any orientation.
+    /// Whether inverted quads are reported as folds. False for void faces: if such a face is sharply twisted,
+    /// the facet nearest to a quad may have any orientation.
     bool folds = true;
 };
 

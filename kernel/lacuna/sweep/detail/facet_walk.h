@@ -23,9 +23,9 @@ public:
         Index facet = -1;
         Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, 0 to 1 to rounding, sum 1
         double height = 0;               ///< over the facet, along its normal [model length]
-        /// Whether it is certain that no other facet is closer: the foot point is so far from the facet's
-        /// sides that the adjacent facets, at their angles, cannot be closer. This assumes that no other
-        /// facet within that height has a sharper angle. If false, the distance is still an upper bound.
+        /// Whether it is certain that no other facet is closer. It is certain if the foot point is so far
+        /// from the facet's sides that the adjacent facets, at their angles, cannot be closer. Facets within
+        /// that height are assumed to have no sharper angles. If false, the distance is still an upper bound.
         bool nearest = false;
     };
     /// The facet below a point.

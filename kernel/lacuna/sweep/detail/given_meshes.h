@@ -10,9 +10,9 @@
 
 namespace lacuna::sweep {
 
-/// Given meshes of faces that the sweep keeps, as columns and layers.
+/// The given meshes of walls and rims that the sweep keeps, as columns and layers.
 struct GivenMeshes {
-    std::vector<surface::GivenColumns> columns; ///< for each linking surface
+    std::vector<surface::GivenColumns> columns; ///< given columns of each linking surface
     std::vector<double> heights;                ///< heights of the layers; empty: not constrained
     std::vector<std::string> notes;
 };
@@ -26,7 +26,7 @@ GivenMeshes given_meshes(const topology::OpenVolume& volume, std::vector<surface
                          const std::vector<double>& asked, const surface::SizeField& size,
                          const SweepOptions& options);
 
-/// `faces`, plus the walls and targets with quads of their own: the nodes of all these are not improved.
+/// `faces`, plus the walls and targets with given quads. Improvement does not move the nodes of these faces.
 std::set<FaceId> given_faces(const topology::OpenVolume& volume, std::set<FaceId> faces, bool wedges);
 
 /// A line of the report for each face that keeps its nodes, with the number of nodes that the mesh contains.

@@ -31,7 +31,8 @@ std::vector<double> side_weights(const NodeGraph& graph, std::span<const Quad> q
 /// given ones. Parts of the mesh without a fixed node get zero.
 class HarmonicSpread {
 public:
-    /// Number of fields solved together: each entry of the factor is then read once for 12 numbers.
+    /// Number of fields solved together. Each entry of the factor is then read once for all 4 × 3
+    /// coordinates.
     static constexpr int kFields = 4;
 
     /// @param weights  for each side of the graph, equal in both directions, above 0.
@@ -43,9 +44,9 @@ public:
     /// Fields after spreading.
     class Fields {
     public:
-        /// The values at a node: x, y and z of the first field, then of the second and so on, followed by one
-        /// number that may be read but is not used. Null if the node is fixed, or not connected to any fixed
-        /// node.
+        /// The values at a node: x, y and z of the first field, then of the second and so on. One number
+        /// after the last value may be read too, and has no meaning. Null if the node is fixed, or not
+        /// connected to any fixed node.
         [[nodiscard]] const double* of(std::size_t node) const
         {
             return place_[node] < 0 ? nullptr : &rows_[static_cast<std::size_t>(place_[node]) * 3 * kFields];

@@ -14,8 +14,8 @@
 
 namespace lacuna::sweep {
 
-/// `place_layers()` for a few layers at a time: the fits and the factorisation are done once, then any layer
-/// can be placed separately. The source, the target and the columns must outlive it.
+/// `place_layers()` in steps: the constructor computes the fits and the factorisation once, and `place()`
+/// then places any layers. The source, the target and the columns must outlive this object.
 class LayerPlacer {
 public:
     /// @param room  memory for all layers. A second thread clears its pages during the factorisation, which
@@ -41,11 +41,12 @@ private:
     std::span<const Vec3> target_;
     const RimColumns& columns_;
     Placement placement_ = Placement::affine;
-    double residual_ = 0;                  ///< largest distance of a rim node from its fit [model length]
-    double size_ = 0;                      ///< diameter of the rim with that residual [model length]
-    std::vector<LayerMap> maps_;           ///< maps of the inner layers 1 … layers - 1
-    std::vector<Vec3> residuals_;          ///< residuals of the inner layers' rims; only where fitted
-    std::optional<HarmonicSpread> spread_; ///< only where fitted
+    double residual_ = 0;        ///< largest distance of a rim node from its fit [model length]
+    double size_ = 0;            ///< diameter of the rim with that residual [model length]
+    std::vector<LayerMap> maps_; ///< maps of the inner layers 1 … layers - 1
+    /// Residuals of the inner layers' rims; empty if affine motions are exact.
+    std::vector<Vec3> residuals_;
+    std::optional<HarmonicSpread> spread_; ///< spreads the residuals; empty if there are none
 };
 
 } // namespace lacuna::sweep

@@ -18,9 +18,9 @@ enum class Outline {
 ///
 /// If the source's outline has a right angle at a node, a single quad lies in that corner. This quad
 /// degenerates if the target's rim is straight at the same node. The mean outline averages the source's rim
-/// and the target's rim after the best rotation, scaling and translation. At each node, the larger of the
-/// angles on both ends determines how many quads are needed there. If the mean angle is too small for this
-/// number, the node is moved inward until they fit. The quads are mapped to the source by `morph()`.
+/// and the target's rim after the best rotation, scaling and translation. At each node, the larger of the two
+/// angles on both ends determines how many quads meet there. If the mean angle is too small for this number
+/// of quads, the node is moved inward until they fit. The quads are mapped to the source by `morph()`.
 /// @param source  of a volume with one face at either end. Rim nodes are kept, all others are new.
 /// @throw NotSweepable "sweep.mean_outline"  an end has several faces, or the mean outline intersects itself;
 ///         or as `mesher`.

@@ -12,8 +12,8 @@
 namespace lacuna::sweep {
 
 /// Places the middle nodes of a mesh from the middle nodes of its skin, a few layers at a time. Corner nodes
-/// may be stored or generated. The bends of the walls are computed once; then any layer can be placed
-/// separately.
+/// may be stored or generated. The constructor computes the bends of the walls once, so that any layer can
+/// then be placed separately.
 class MiddlePlacer {
 public:
     /// @param corners  corner nodes of a mesh whose sides are numbered; must outlive this object.
@@ -51,8 +51,9 @@ private:
     std::vector<Vec3> first_, last_;
     std::vector<double> share_;
     bool columns_bend_ = false;
-    std::optional<HarmonicSpread> spread_; ///< spreads the bends of the walls minus the columns' cubics
-    std::vector<Vec3> beyond_;             ///< for each layer: these bends at the rim nodes
+    std::optional<HarmonicSpread> spread_; ///< spreads `beyond_` over the inside
+    /// For each layer, at the rim nodes: the bends of the walls that are not represented by cubics.
+    std::vector<Vec3> beyond_;
 };
 
 } // namespace lacuna::sweep

@@ -19,8 +19,8 @@ namespace lacuna::sweep {
 enum class Middle : std::uint8_t {
     inside,  ///< not on the skin
     open,    ///< on the skin, not placed yet
-    loose,   ///< on the skin, blended without geometry
-    settled, ///< on the skin, on geometry or a given mesh
+    loose,   ///< on the skin; blended from other nodes, without geometry
+    settled, ///< on the skin; placed on geometry, or given
 };
 
 /// Indices of the skin's middle nodes in a compact array.

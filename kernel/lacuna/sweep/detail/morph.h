@@ -21,7 +21,7 @@ struct Morphed {
     /// Minimum scaled Jacobian of the source's quads, measured along the surface normal [-1, 1].
     double worst_source = 1;
     double worst = 1;   ///< the same for the quads on the target
-    std::string report; ///< one line for a person
+    std::string report; ///< one line of text
 };
 
 /// Morph the source mesh onto the target. Rim nodes go to the last row of the columns. The other nodes follow

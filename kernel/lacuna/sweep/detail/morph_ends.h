@@ -17,7 +17,7 @@ struct EndFaces {
 };
 
 /// @param imprint  empty if the target is one face.
-/// @param moved    the target's faces are images of the source's faces, in the same order.
+/// @param moved    whether the target's faces are images of the source's faces, in the same order.
 EndFaces end_faces(const topology::OpenVolume& volume, const surface::SourceMesh& source,
                    const std::optional<surface::Imprint>& imprint, bool moved);
 

@@ -24,8 +24,7 @@ double pair_tolerance(const AssemblyMember& a, const AssemblyMember& b);
 double near_window(const AssemblyMember& a, const AssemblyMember& b);
 
 /// Maximum distance between corresponding vertices of the rims of two faces.
-/// @param at_least  a vertex has no counterpart if the nearest vertex is farther away than a few times this
-///         distance.
+/// @param at_least  vertices that are farther apart than a few times this distance do not correspond.
 double corners_apart(const topology::Model& a, FaceId face_a, const topology::Model& b, FaceId face_b,
                      double at_least);
 /// The tolerance with which the faces of two models at this distance are joined, rounded up to two digits.

@@ -28,9 +28,9 @@ struct Plan {
 ///
 /// If the source keeps given quads, all plans sweep from it in the same layout. Otherwise the first plan
 /// sweeps from the given source to the target. If only the target has given quads or, failing that, several
-/// faces (whose inner edges become mesh edges), it sweeps from the target. The next plans are: all loops
-/// rotated together, if the walls of some loop do not determine its rotation; the sweep from the other end;
-/// and quads laid out between the outlines of both ends. At order 2 the whole list is repeated with more
+/// faces (whose inner edges become mesh edges), it sweeps from the target. The next plans are a common
+/// rotation of all loops, if the walls of some loop do not determine its rotation; the sweep from the other
+/// end; and quads laid out between the outlines of both ends. At order 2 the whole list is repeated with more
 /// sides, because a quad with two sides on a round rim needs them. Plans with wedges come last, if the
 /// fallback allows them.
 /// @param options  checked options, with `curvature` as planned for the volume.

@@ -30,11 +30,10 @@ inline constexpr double kNegligible = 1e-4;
 double shortest_side(std::span<const Quad> quads, std::span<const Vec3> nodes);
 
 /// One end of the sweep with the data to map it onto other rims.
-///
 /// If the rim's points span the interior of the end, and the map fitted to them is exact and right-handed,
-/// they alone determine the map; an example is a skin between two circles. Otherwise, as for planar and
-/// nearly planar rims, the pseudo-normals are added: without them, small waves of the rim would tilt the map
-/// far off the rim's plane.
+/// the points alone determine the map. An example is a skin between two circles. For other rims, such as
+/// planar and nearly planar ones, the fit also includes the pseudo-normals. Without them, small waves of the
+/// rim would tilt the map far off the rim's plane.
 class RimFitter {
 public:
     /// @param rim    the end's rim, in the order of the columns; must outlive the fitter.
@@ -47,7 +46,7 @@ public:
 
 private:
     geometry::AffineFitter points_;
-    geometry::AffineFitter paired_; ///< with the pseudo-normal
+    geometry::AffineFitter paired_; ///< fit that includes the pseudo-normal
     bool spans_inside_ = false;
 };
 

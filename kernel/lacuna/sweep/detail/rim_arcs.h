@@ -24,7 +24,8 @@ OnLine closest_on(std::span<const Vec3> line, const Vec3& p);
 /// A chord of a rim and the arc over it.
 struct RimChord {
     Vec3 from, to;
-    Vec3 bulge = Vec3::Zero(); ///< from the middle of the chord to the middle of the arc [model length]
+    /// Vector from the middle of the chord to the middle of the arc [model length].
+    Vec3 bulge = Vec3::Zero();
 };
 
 /// The chords of a face's loops, each with the arc that its neighbours define. The height of an arc is the

@@ -45,7 +45,7 @@ struct RowColumn {
     std::size_t link, node;
     bool before = false, after = false; ///< whether the sides before and after the node have rows
     int table = -1;
-    std::vector<Index> nodes; ///< one per row
+    std::vector<Index> nodes; ///< source node of each row, from the rim inward
     std::vector<double> lean; ///< tangential offset of each node from the base node, on the source [model
                               ///< length]
 
@@ -76,7 +76,8 @@ std::optional<double> place_at(const std::vector<Vec3>& line, const Vec3& normal
 /// The point at a position.
 Vec3 point_at(const std::vector<Vec3>& line, double place);
 
-/// The point of a chain closest to `p`: first on the chain's polyline, then by iteration on its exact curve.
+/// The point of a chain closest to `p`. It is found on the chain's polyline and then improved by iteration on
+/// the exact curve.
 Vec3 nearest_on(const topology::Model& model, const surface::Chain& chain, const Vec3& p);
 
 /// New positions of the inner nodes of a line, by index. Given nodes have the given positions; the others

@@ -39,7 +39,7 @@ struct Elevated {
 /// @param faces   face of each patch of the mesh.
 /// @param layers  generator of the nodes that the mesh does not hold; null: the mesh holds its nodes. Middle
 ///         nodes are then generated on demand too.
-/// @param crew    processes that share the proof of such layers; null: this process only.
+/// @param crew    processes that share the proof of layers generated on demand; null: this process only.
 /// @throw NotSweepable "sweep.second_order"  a cell is not valid by its Bézier bounds (`quality::judge()`);
 ///         names the face whose middle node causes it, and a sufficient size.
 /// @throw InvalidInput "sweep.too_many"  there are more nodes than node numbers.

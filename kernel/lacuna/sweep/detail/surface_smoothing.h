@@ -28,11 +28,12 @@ void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const
 /// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a reference
 /// mesh.
 ///
+///
 /// Two methods are used; the result of each is kept only as far as it improves the worst quad. Relaxation
 /// moves every node to the weighted mean of its neighbours. The weights reproduce the reference mesh, so that
 /// its grading is kept. All nodes are solved for at once, with the graph Laplacian as preconditioner. Then
-/// the nodes of quads that are still poor try the mean of their neighbours and steps along the surface. They
-/// keep moves that improve the worst of their own quads.
+/// the nodes of quads that are still poor try the mean of their neighbours and steps along the surface. A
+/// node keeps a move that improves the worst of their own quads.
 class SurfaceSmoother {
 public:
     /// All arguments must outlive the smoother. @param spread  with the fixed nodes of the smoothing.
@@ -61,7 +62,8 @@ private:
     const HarmonicSpread& spread_;
     std::span<const Index> free_nodes_;
     const SurfaceProjector& project_;
-    /// Weights of each node's neighbours, in the graph's order. Their sum is that of the sides' own weights.
+    /// Weights of each node's neighbours, in the graph's order, adjusted so that they reproduce the reference
+    /// mesh.
     std::vector<double> weights_;
     mesh::Incidence quads_at_ = mesh::quads_at_nodes(model_.quads, model_.nodes.size());
     std::vector<char> is_free_ = std::vector<char>(model_.nodes.size(), 0);

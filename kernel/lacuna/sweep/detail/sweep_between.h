@@ -18,7 +18,7 @@ namespace lacuna::sweep {
 struct ProvedSweep {
     Swept swept;
     quality::Proof proof;
-    std::vector<FaceId> faces; ///< for each patch of the skin
+    std::vector<FaceId> faces; ///< for each patch of the skin, its face
     std::set<FaceId> kept;     ///< source faces whose own quads were kept
 };
 

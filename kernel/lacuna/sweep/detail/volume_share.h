@@ -31,7 +31,7 @@ double volume_lost(const Fidelity& fidelity);
 
 /// Numbers of sides and layers that keep the volume error within its bound.
 struct VolumePlan {
-    int per_turn = 12; ///< sides for a full turn: the requested number, or more
+    int per_turn = 12; ///< sides for a full turn, at least the requested number
     double part = 1;   ///< factor on the default size, in (0, 1]; less than 1 for curved ends
     std::function<int(int least)> layers{}; ///< for curved walls; null: unchanged
 };

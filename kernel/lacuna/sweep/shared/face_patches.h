@@ -23,7 +23,7 @@ public:
 private:
     const topology::Model& model_;
     std::vector<mesh::SkinPatch>& patches_;
-    std::vector<std::vector<std::string>> groups_; ///< for each face
+    std::vector<std::vector<std::string>> groups_; ///< for each face, its groups
     std::vector<FaceId> faces_;
     std::map<FaceId, Index> known_;
 };

@@ -24,8 +24,8 @@ ImprintedVolumes imprinted(std::span<const AssemblyMember> members, const RunCon
 
 /// As above, for members that may lie inside each other, as the parts of one skin do. All volumes are
 /// returned.
-/// @param takes  whether a pair counts as shared. Its second argument tells whether both members lie on the
-///         same side of some face that they share.
+/// @param takes  decides whether a pair of faces counts as shared. Its second argument tells whether both
+///         members lie on the same side of some face that they share.
 ImprintedVolumes imprinted_parts(std::span<const AssemblyMember> members,
                                  const std::function<bool(const SharedFace&, bool)>& takes,
                                  const RunContext& context = {});
