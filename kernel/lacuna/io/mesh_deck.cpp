@@ -442,9 +442,11 @@ private:
         set.name = free_name(wanted, options_.format, [&](const std::string& name) {
             return find(name) == deck_.sets.end() && is_taken(set.kind, name);
         });
+        constexpr const char* kKinds[] = {"nodes", "elements", "sides"}; // in the order of DeckSet::Kind
         const bool behind = options_.format == DeckFormat::abaqus && group.ends_with(kSkin);
         if (!behind && set.name != free_name(wanted, options_.format, [](const auto&) { return false; }))
-            renamed_.emplace(wanted, set.name);
+            renamed_.emplace(formatted("its set of {} {}", kKinds[static_cast<int>(set.kind)], wanted),
+                             set.name);
         if (const auto same = find(set.name); same != deck_.sets.end()) {
             known->second = static_cast<std::size_t>(same - deck_.sets.begin());
             deck_.gap.replaced[{same->kind, same->name}] = 1;
@@ -486,8 +488,7 @@ private:
     void tell_names() const
     {
         std::vector<std::string> names;
-        for (const auto& [wanted, name] : renamed_)
-            names.push_back(formatted("its group {} is called {}", wanted, name));
+        for (const auto& [own, name] : renamed_) names.push_back(formatted("{} is called {}", own, name));
         if (!names.empty())
             log_line(context_, formatted("note: {}: renamed, because other sets have these names: {}",
                                          volume(), listed(names)));
@@ -737,7 +738,7 @@ private:
     std::vector<Index> point_; ///< the deck's point for each node of the mesh
     std::string volume_, element_;
     std::string section_set_;                    ///< set of the deck whose section applies to the cells
-    std::map<std::string, std::string> renamed_; ///< groups whose names were in use, with their new names
+    std::map<std::string, std::string> renamed_; ///< sets whose names were in use, with their new names
     std::map<std::string, Index> skin_regions_;  ///< for MSH: regions of the skin, by the groups' names
     Index place_ = -1, region_ = -1;             ///< region that the volume replaces, and region of the cells
     Index extended_ = -1;                        ///< region of an earlier mesh that the cells extend
