@@ -101,9 +101,9 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
             depth += j != i && geometry::lies_inside(flat[j], flat[i].front()) ? 1 : 0;
         if (depth != 1) {
             throw NotClosed(Message("closure.nested_loops",
-                                    "the walls {} {} those at {}: these are several volumes",
+                                    "the walls {} {} the walls at {}, so they bound several volumes",
                                     entities_of(volume.model, tubes[i].walls),
-                                    depth == 0 ? "stand beside" : "are nested more than once in",
+                                    depth == 0 ? "lie beside" : "are nested more than once in",
                                     entity_of(volume.model, tubes.front().walls.front()))
                                 .remedy("make an open volume of each"));
         }

@@ -504,7 +504,8 @@ void note_extended(const Model& model, const std::vector<FaceId>& walls, Closure
 {
     if (walls.empty()) return;
     assume(closure,
-           {"closure.end_extended", "an end meets {} smoothly; meshed as part of that end, not as walls",
+           {"closure.end_extended",
+            "an end meets {} smoothly, so these faces are meshed as part of that end, not as walls",
             entities_of(model, walls)},
            1);
 }

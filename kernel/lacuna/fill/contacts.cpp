@@ -142,7 +142,7 @@ std::vector<FoundContact> find_contacts(std::span<const AssemblyMember> members,
             }))
             throw InvalidInput(
                 Message("fill.contact_none",
-                        "contacts: no faces of {} and {} without common nodes are within {:.3g}",
+                        "contacts: no faces of {} and {} lie within {:.3g} without common nodes",
                         pair.regions[0], pair.regions[1], pair.gap)
                     .remedy("give a larger 'gap', or open one of them with glued = false"));
     std::set<std::string> names;
@@ -176,7 +176,7 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
         bodies[formatted("part_{}", ++number)] = std::move(part);
     if (bodies.size() < 2)
         throw InvalidInput(
-            Message("fill.contact_bodies", "contacts: the model is one body, but a contact is between two")
+            Message("fill.contact_bodies", "contacts: the model is one body, but a contact needs two")
                 .remedy("load the files of both as one model: lacuna.load {{ a, b }}"));
     std::vector<topology::OpenVolume> volumes;
     for (const auto& [name, faces] : bodies)

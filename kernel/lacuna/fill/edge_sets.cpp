@@ -12,7 +12,6 @@
 #include <array>
 #include <map>
 #include <ranges>
-#include <ranges>
 #include <set>
 #include <unordered_map>
 

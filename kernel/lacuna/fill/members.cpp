@@ -158,7 +158,7 @@ void share_layers(const Volume& volume, sweep::LayerSpec& layers)
     if (share == 1) return;
     if (!layers.heights.empty() || layers.bias != 1)
         throw InvalidInput(
-            Message("sweep.full_turn_layers", "the layers of a full turn have no first and no last one")
+            Message("sweep.full_turn_layers", "a full turn has no first and no last layer")
                 .remedy("give only their number, or sweep the pieces that volume:cut() returns, each with "
                         "its 'heights' or 'bias'"));
     if (layers.count == 0) return;

@@ -120,8 +120,8 @@ std::shared_ptr<const closure::SweptSource> open_along(const Model& model, const
     if (request.roles->walls.empty()) return swept;
     if (swept->full_turn || swept->on_axis)
         throw InvalidInput(Message("closure.along_walls",
-                                   "open_volume: given walls do not go along a full turn, "
-                                   "or a turn of a source with edges on its axis")
+                                   "open_volume: given walls cannot be combined with a full turn, "
+                                   "or with a source that has edges on its axis")
                                .remedy("leave out the walls"));
     swept->walls = topology::extract(model, request.roles->walls);
     return swept;

@@ -290,7 +290,7 @@ private:
         make_tags_unique(whole.vertices);
         result.model = std::move(whole).finish();
         const SharedFace& first = contacts.front();
-        result.note = formatted("note: {} and {} touch, and what they share does not bound the volume",
+        result.note = formatted("note: {} and {} touch; the area that they share does not bound the volume",
                                 entity_of(model_, original(first.a, first.face_a)),
                                 entity_of(model_, original(first.b, first.face_b)));
         return result;

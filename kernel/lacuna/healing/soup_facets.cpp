@@ -26,7 +26,7 @@ void check_cells(const FacetSoup& soup, const std::vector<std::array<Index, N>>&
     if (!labels.empty() && labels.size() != cells.size()) {
         throw InvalidInput(Message("topology.bad_labels", "there are {} labels for {} {}s",
                                    found(labels.size()), needed(cells.size()), kind)
-                               .remedy("give one each, or none"));
+                               .remedy("give one label for each, or none"));
     }
     for (std::size_t c = 0; c < cells.size(); ++c) {
         for (const Index p : cells[c]) {

@@ -276,8 +276,8 @@ private:
             return formatted("{} {}", n, n == 1 ? "vertex" : "vertices");
         };
         match_.notes.push_back(
-            {"matching.paired_by_length", "{} has {}, {} has {}: paired by arc length{}", source_loop(s),
-             vertices(low), target_loop(t), vertices(high),
+            {"matching.paired_by_length", "{} has {} and {} has {}, so they are paired by arc length{}",
+             source_loop(s), vertices(low), target_loop(t), vertices(high),
              splits == 0 ? "" : formatted(", with {} added by splitting edges", vertices(splits))});
     }
 
