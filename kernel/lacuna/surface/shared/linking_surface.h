@@ -5,6 +5,7 @@
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,7 +27,11 @@ struct RimSegment {
     bool follows = false, target_follows = false;
     /// On surfaces without side lines: whether the column at its start runs along a crease of the walls.
     bool on_crease = false;
+
+    friend bool operator==(const RimSegment&, const RimSegment&) = default;
 };
+
+class LinkingMap;
 
 /// A side line with the positions of its ends on the chains of a linking surface.
 struct LinkingLine {
@@ -49,6 +54,8 @@ struct LinkingSurface {
     /// the target rim, as a number of turns around the ring. Empty if corresponding vertices of both rims are
     /// given.
     std::optional<double> branch{};
+    /// The map of the walls, kept by `map_of()`. A linking surface must not be used by two threads at once.
+    mutable std::shared_ptr<const LinkingMap> map{};
 };
 
 /// The part of the source edge that a segment covers, as fractions of the edge's length in its direction.
