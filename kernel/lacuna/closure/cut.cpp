@@ -58,9 +58,12 @@ public:
           plane_(plane),
           tolerance_(volume.model.tolerance),
           parted_{volume},
-          model_(parted_.volume.model)
+          model_(parted_.volume.model),
+          walks_(section_walks(model_, all_faces(model_), plane_, tolerance_))
     {
     }
+
+    [[nodiscard]] bool crosses_gaps() const { return !std::ranges::all_of(walks_, &SectionWalk::closed); }
 
     /// A region of the plane by its loops, in plane coordinates.
     using Region = std::vector<std::vector<Vec2>>;
@@ -71,7 +74,7 @@ public:
     ///         not known yet.
     std::vector<StepPiece> run(const std::function<bool(const Region&)>& suits, std::optional<double> least)
     {
-        find_walks();
+        orient_walks();
         if (suits) choose(suits);
         if (least) refuse_thin(*least);
         const WalkImprint made = imprint(parted_.volume, walks_, plane_, context_);
@@ -92,9 +95,8 @@ private:
         return line;
     }
 
-    void find_walks()
+    void orient_walks()
     {
-        walks_ = section_walks(model_, all_faces(model_), plane_, tolerance_);
         double most = 0;
         for (const SectionWalk& walk : walks_) {
             const double area = signed_area(outline(walk));
@@ -330,7 +332,7 @@ private:
 class EdgePartition {
 public:
     EdgePartition(const OpenVolume& volume, const Model& model, FaceId face)
-        : model_(model), face_(face), tolerance_(volume.model.tolerance), parted_{volume}
+        : volume_(volume), model_(model), face_(face), tolerance_(volume.model.tolerance)
     {
     }
 
@@ -338,14 +340,20 @@ public:
     bool fits()
     {
         std::vector<Index> of_edges;
-        const Model& whole = parted_.volume.model;
+        const Model& whole = volume_.model;
+        Eigen::AlignedBox3d box;
+        for (const Index p : corners_of(model_[face_])) box.extend(model_.at(p));
+        const auto is_near = [&](Index p) {
+            return box.squaredExteriorDistance(whole.at(p)) <= tolerance_ * tolerance_;
+        };
         for (const Edge& edge : whole.edges)
-            of_edges.insert(of_edges.end(), edge.points.begin(), edge.points.end());
+            std::ranges::copy_if(edge.points, std::back_inserter(of_edges), is_near);
         const geometry::FacetTree tree = geometry::point_tree(places_at(whole, of_edges));
         std::unordered_map<std::uint64_t, EdgeUse> use;
         for (std::size_t e = 0; e < whole.edges.size(); ++e) {
             const std::vector<Index>& points = whole.edges[e].points;
             for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                if (!is_near(points[i])) continue;
                 use.try_emplace(directed_key(points[i], points[i + 1]), EdgeUse{EdgeId(e), false});
                 use.try_emplace(directed_key(points[i + 1], points[i]), EdgeUse{EdgeId(e), true});
             }
@@ -373,17 +381,18 @@ public:
 
     std::vector<StepPiece> run(const RunContext& context)
     {
-        ModelBuilder model(std::move(parted_.volume.model));
+        PartedVolume parted{volume_};
+        ModelBuilder model(std::move(parted.volume.model));
         Face face = model_[face_];
         if (face.name.empty() && face.origin == Origin::made_void) face.name = partition_name(model);
         for (Index& p : face.triangles | std::views::join) p = point(p, model.points);
         for (Index& p : face.given_quads | std::views::join) p = point(p, model.points);
-        parted_.partitions.push_back({FaceId(model.faces.size()), rim_});
-        parted_.volume.role.push_back(Role::wall);
+        parted.partitions.push_back({FaceId(model.faces.size()), rim_});
+        parted.volume.role.push_back(Role::wall);
         model.faces.push_back(std::move(face));
         model.build_loops();
-        parted_.volume.model = std::move(model).finish();
-        return pieces_of(parted_, {"", {entity_of(model_, face_)}}, context);
+        parted.volume.model = std::move(model).finish();
+        return pieces_of(parted, {"", {entity_of(model_, face_)}}, context);
     }
 
 private:
@@ -394,10 +403,10 @@ private:
         return found->second;
     }
 
+    const OpenVolume& volume_;
     const Model& model_;
     FaceId face_;
     double tolerance_;
-    PartedVolume parted_;
     std::map<Index, Index> there_; ///< points of the face to points of the volume
     std::vector<EdgeUse> rim_;
     Vec3 off_ = Vec3::Zero();
@@ -424,14 +433,14 @@ using Suits = std::function<bool(const std::vector<std::vector<Vec2>>&)>;
 std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plane& plane, const Suits& suits,
                                   const RunContext& context, std::optional<double> least = std::nullopt)
 {
-    const auto walks = section_walks(volume.model, all_faces(volume.model), plane, volume.model.tolerance);
-    if (std::ranges::any_of(walks, [](const SectionWalk& walk) { return !walk.closed; })) {
+    PlaneCutter cutter(volume, plane, context);
+    if (cutter.crosses_gaps()) {
         // Close the whole volume first, so that the missing faces of the pieces have its shape, including its
         // corners.
         if (const std::optional<OpenVolume> whole = sealed(volume, context))
             return PlaneCutter(*whole, plane, context).run(suits, least);
     }
-    return PlaneCutter(volume, plane, context).run(suits, least);
+    return cutter.run(suits, least);
 }
 
 /// Whether a region contains some of the facets.

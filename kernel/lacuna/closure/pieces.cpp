@@ -279,17 +279,19 @@ std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool
 }
 
 std::vector<StepPiece> cut_each(std::vector<StepPiece> pieces, const geometry::Plane& plane,
-                                const std::function<std::vector<StepPiece>(const OpenVolume&)>& cut)
+                                const std::function<std::vector<StepPiece>(const OpenVolume&)>& cut,
+                                const Eigen::AlignedBox3d* reach)
 {
     const auto is_crossed = [&](const Model& model) {
         bool below = false, above = false;
-        for (const Face& face : model.faces) {
-            for (const Index p : corners_of(face)) {
-                const double height = geometry::height(plane, model.at(p));
-                (height < 0 ? below : above) |= std::abs(height) > model.tolerance;
-            }
+        Eigen::AlignedBox3d box;
+        for (const Vec3& p : model.points) {
+            const double height = geometry::height(plane, p);
+            (height < 0 ? below : above) |= std::abs(height) > model.tolerance;
+            box.extend(p);
         }
-        return below && above;
+        return below && above &&
+               (reach == nullptr || box.squaredExteriorDistance(*reach) <= model.tolerance * model.tolerance);
     };
     std::vector<StepPiece> result;
     for (StepPiece& piece : pieces) {

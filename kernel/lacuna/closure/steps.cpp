@@ -413,9 +413,12 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
                                        "rim is not closed",
                                        entity_of(volume.model, face))
                                    .remedy("cut the volume with cut{{ plane = … }}"));
-        pieces = cut_each(std::move(pieces), *plane, [&](const OpenVolume& piece) {
+        Eigen::AlignedBox3d reach; // the face cuts only pieces that it runs through
+        for (const Index p : corners_of(volume.model[face])) reach.extend(volume.model.at(p));
+        const auto cut = [&](const OpenVolume& piece) {
             return cut_by_face(piece, volume.model, face, context);
-        });
+        };
+        pieces = cut_each(std::move(pieces), *plane, cut, &reach);
     }
     return pieces;
 }

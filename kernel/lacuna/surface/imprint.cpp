@@ -72,6 +72,7 @@ public:
         check_sizes();
         split_faces();
         model() = std::move(builder()).finish();
+        for (LinkingSurface& link : result_.links) link.map.reset(); // of the model before
         return std::move(result_);
     }
 

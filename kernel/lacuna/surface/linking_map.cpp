@@ -148,6 +148,7 @@ double target_coordinate(const LinkingSurface& link, double target_at)
 
 LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, bool void_edges,
                        const RunContext& context)
+    : model_(&volume.model), void_edges_(void_edges), given_branch_(link.branch), segments_(link.segments)
 {
     const Model& model = volume.model;
     facets_ = facet_set(model, link.walls);
@@ -192,7 +193,7 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     problem.corner_turns = geometry::turns_along(facets, cut);
     problem.period = Eigen::RowVector2d(1, 0);
     check_cancelled(context);
-    strip_ = geometry::solve_harmonic(problem, context);
+    const Eigen::MatrixXd strip = geometry::solve_harmonic(problem, context);
     check_cancelled(context);
 
     // Scale the strip to its proportions in space. Otherwise a wrong facet might be the closest one to a
@@ -208,7 +209,8 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
         double least = kInfinity, most = -least;
         for (std::size_t i = 0; i < 3; ++i) {
             const Index p = facets[t][i];
-            corners[t][i] = Vec2(strip_(p, 0) + problem.corner_turns[t][i], strip_(p, 1));
+            const Vec2& place = strip_.try_emplace(p, strip.row(p).transpose()).first->second;
+            corners[t][i] = place + Vec2(problem.corner_turns[t][i], 0);
             least = std::min(least, corners[t][i].x());
             most = std::max(most, corners[t][i].x());
         }
@@ -229,6 +231,14 @@ LinkingMap::LinkingMap(const OpenVolume& volume, const LinkingSurface& link, boo
     const bool creased = upright.size() > link.lines.size(); // columns then follow the creases
     if (!creased && !runs_straight(model, link)) measure_columns(model, link, context);
     find_rings(volume, link, corners, void_edges);
+}
+
+std::shared_ptr<const LinkingMap> map_of(const OpenVolume& volume, const LinkingSurface& link,
+                                         bool void_edges, const RunContext& context)
+{
+    if (!link.map || !link.map->is_of(volume, link, void_edges))
+        link.map = std::make_shared<const LinkingMap>(volume, link, void_edges, context);
+    return link.map;
 }
 
 void LinkingMap::measure_heights(const Model& model)

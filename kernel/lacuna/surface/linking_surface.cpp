@@ -168,12 +168,12 @@ std::vector<PairedPlaces> places_of(const Model& model, const LinkingSurface& li
 void turn_least(const OpenVolume& volume, LinkingSurface& link, const RunContext& context)
 {
     if (runs_straight(volume.model, link)) return;
-    const LinkingMap map(volume, link, true, context);
-    if (map.turn() == 0) return;
+    const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
+    if (map->turn() == 0) return;
     const double length = link.target.length();
-    const double share = link.segments.front().target_from / length + map.turn();
+    const double share = link.segments.front().target_from / length + map->turn();
     const double start = (share - std::floor(share)) * length;
-    link.branch = map.target_branch() - map.turn();
+    link.branch = map->target_branch() - map->turn();
     link.segments.clear();
     add_segments(volume.model, link, 0, link.source.length(), start, start + length);
 }
@@ -188,8 +188,8 @@ bool is_idle_seam(const OpenVolume& volume, const LinkingSurface& link, const Ru
         const std::span<const FaceUse> beside = volume.model.uses_of_edge(use.edge);
         if (beside.size() != 2 || beside[0].face != beside[1].face) return false;
     }
-    const LinkingMap map(volume, link, true, context);
-    return map.most_turned() > kParallel / kFullTurn || (map.bends() && link.walls.size() > 1);
+    const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
+    return map->most_turned() > kParallel / kFullTurn || (map->bends() && link.walls.size() > 1);
 }
 
 LinkingSurface make_link(const OpenVolume& volume, std::vector<FaceId> walls, const Rim& source_rim,

@@ -65,7 +65,10 @@ int layers_between_rings(const Model& model, const LinkingSurface& link)
 class Breaker {
 public:
     Breaker(const OpenVolume& volume, const SizeField& size, LinkingSurface& link, bool void_edges)
-        : size_(size), link_(link), map_(volume, link, void_edges), net_(wall_net(volume.model, link, map_))
+        : size_(size),
+          link_(link),
+          map_(map_of(volume, link, void_edges)),
+          net_(wall_net(volume.model, link, *map_))
     {
     }
 
@@ -74,7 +77,7 @@ public:
         for (std::size_t c = 0; c < net_.columns.size(); ++c) {
             if (!net_.columns[c].line) break_at(c);
         }
-        return most_levels(net_.levels_below(map_)) + 1;
+        return most_levels(net_.levels_below(*map_)) + 1;
     }
 
 private:
@@ -168,7 +171,7 @@ private:
 
     const SizeField& size_;
     LinkingSurface& link_;
-    LinkingMap map_;
+    std::shared_ptr<const LinkingMap> map_;
     WallNet net_;
     std::vector<std::pair<double, std::size_t>> taken_; ///< used positions on the source's rim
 };
@@ -200,8 +203,8 @@ std::map<EdgeId, double> heights_around(const OpenVolume& volume, const LinkingS
 {
     std::map<EdgeId, double> heights;
     if (link.walls.size() <= std::max<std::size_t>(1, link.lines.size())) return heights;
-    const LinkingMap map(volume, link, true, context);
-    for (const LinkingMap::Ring& ring : map.rings())
+    const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
+    for (const LinkingMap::Ring& ring : map->rings())
         for (const LinkingMap::Piece& piece : ring.pieces) heights.emplace(piece.edge, ring.height);
     return heights;
 }

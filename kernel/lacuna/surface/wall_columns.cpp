@@ -77,13 +77,13 @@ std::vector<std::vector<Vec3>> wall_columns(const OpenVolume& volume, const Link
         straight += (columns.back().back() - columns.back().front()).norm();
     }
     if (are_straight(volume.model, link, straight, columns.size())) return columns;
-    const LinkingMap map(volume, link, true, context);
+    const std::shared_ptr<const LinkingMap> map = map_of(volume, link, true, context);
     columns.clear();
     for (int k = 0; k < kPlaces; ++k) {
         std::vector<ColumnPlace> places;
         for (int i = 0; i <= steps; ++i)
             places.push_back({(k + 0.5) / kPlaces, static_cast<double>(i) / steps});
-        columns.push_back(mapped_points(volume.model, map, places));
+        columns.push_back(mapped_points(volume.model, *map, places));
     }
     return columns;
 }
@@ -94,13 +94,13 @@ std::vector<std::vector<Vec3>> wall_rows(const OpenVolume& volume, const Linking
 
     std::vector<std::vector<Vec3>> rows{link.source.points(nodes.source_at)};
     if (steps > 1) {
-        const LinkingMap map(volume, link, true, context);
         std::vector<ColumnPlace> places;
         for (int k = 1; k < steps; ++k)
             for (const double at : nodes.source_at)
                 places.push_back({at / link.source.length(), static_cast<double>(k) / steps});
         check_cancelled(context);
-        const std::vector<Vec3> points = mapped_points(volume.model, map, places);
+        const std::vector<Vec3> points = mapped_points(volume.model, *map_of(volume, link, true, context),
+                                                       places);
         for (auto at = points.begin(); at != points.end(); at += std::ssize(nodes.source_at))
             rows.emplace_back(at, at + std::ssize(nodes.source_at));
     }

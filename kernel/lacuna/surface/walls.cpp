@@ -107,7 +107,7 @@ private:
         const bool simple = !panels.empty() &&
                             std::ranges::all_of(panels, [&](const auto& faces) { return is_simple(faces); });
         if (!simple) {
-            map_ = std::make_unique<LinkingMap>(volume_, link_, void_edges, context_);
+            map_ = map_of(volume_, link_, void_edges, context_);
             net_ = wall_net(model_, link_, *map_);
         }
         grid_ = lay_strip({model_, link_, nodes_, heights_, line_of_, begun_}, map_.get(), net_, context_);
@@ -295,7 +295,7 @@ private:
     BegunWall begun_;
     geometry::MotionPointer motion_; ///< the motion that made the walls; null: none
     WallMesh mesh_;
-    std::unique_ptr<LinkingMap> map_;
+    std::shared_ptr<const LinkingMap> map_;
     WallNet net_;
     StripGrid grid_;
     std::vector<int> line_of_; ///< for each node of the rim, its side line; -1: none
@@ -347,7 +347,7 @@ void check_wall_edges(const OpenVolume& volume, const RunContext& context)
 {
     for (const LinkingSurface& link : linking_surfaces(volume, Turning::each, {}, context)) {
         if (!edges_between(volume.model, link, true).empty())
-            wall_net(volume.model, link, LinkingMap(volume, link, true, context));
+            wall_net(volume.model, link, *map_of(volume, link, true, context));
     }
 }
 

@@ -269,7 +269,8 @@ double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradi
             std::copy(slope.begin(), slope.end(), slopes_.begin() + static_cast<std::ptrdiff_t>(8 * c));
         }
     });
-    parallel_each(context_, region_.free, kChunk, [&](std::size_t i) {
+    // A sum takes a fraction of the time of a cell: starting threads pays from 32 times as many on.
+    parallel_each(context_, region_.free, 32 * kChunk, [&](std::size_t i) {
         Vec3 sum = Vec3::Zero();
         for (const Index use : region_.uses.of(i)) sum += slopes_[index(use)];
         sum -= normal_[i] * normal_[i].dot(sum);

@@ -8,6 +8,8 @@
 #include <lacuna/topology/open_volume.h>
 #include <lacuna/topology/shared/section.h>
 
+#include <Eigen/Geometry>
+
 #include <functional>
 #include <optional>
 #include <string>
@@ -42,11 +44,12 @@ topology::WalkImprint imprint(topology::OpenVolume& volume, const std::vector<to
 std::vector<StepPiece> pieces_of(const PartedVolume& parted, const Subject& tool, const RunContext& context);
 
 /// Cut every piece that a plane crosses. A piece that `cut` misses stays as it is.
+/// @param reach  pieces outside this box stay as they are; null: none is left out.
 /// @throw  the errors of `cut`, except "closure.cut_misses".
-/// @note  O(facets) for each piece that the plane does not cross.
-std::vector<StepPiece> cut_each(
-    std::vector<StepPiece> pieces, const geometry::Plane& plane,
-    const std::function<std::vector<StepPiece>(const topology::OpenVolume&)>& cut);
+/// @note  O(points) for each piece that the plane does not cross.
+std::vector<StepPiece> cut_each(std::vector<StepPiece> pieces, const geometry::Plane& plane,
+                                const std::function<std::vector<StepPiece>(const topology::OpenVolume&)>& cut,
+                                const Eigen::AlignedBox3d* reach = nullptr);
 
 /// Sort planar loops, given by their points, into regions: an outer loop first, then its holes.
 std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<Vec2>>& loops);

@@ -7,7 +7,10 @@
 #include <lacuna/surface/shared/linking_surface.h>
 #include <lacuna/surface/shared/projector.h>
 
+#include <memory>
+#include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -43,6 +46,14 @@ public:
     LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link, bool void_edges = true,
                const RunContext& context = {});
 
+    /// Whether this is the map of a linking surface as it is now.
+    [[nodiscard]] bool is_of(const topology::OpenVolume& volume, const LinkingSurface& link,
+                             bool void_edges) const
+    {
+        return model_ == &volume.model && void_edges_ == void_edges && given_branch_ == link.branch &&
+               segments_ == link.segments;
+    }
+
     [[nodiscard]] WallPosition locate(double s, double t) const
     {
         std::size_t near = kNoIndex;
@@ -53,7 +64,7 @@ public:
     [[nodiscard]] WallPosition locate(double s, double t, std::size_t& near) const;
 
     /// Strip coordinates of a model point of the walls; s modulo 1.
-    [[nodiscard]] Vec2 place_of(Index point) const { return upright(strip_.row(point).transpose()); }
+    [[nodiscard]] Vec2 place_of(Index point) const { return upright(strip_.at(point)); }
 
     /// Convert a share of the walls' length from source to target, averaged over the columns, to t. With side
     /// lines they are equal; without, the harmonic t increases faster where the walls are narrow.
@@ -111,7 +122,11 @@ private:
     void find_rings(const topology::OpenVolume& volume, const LinkingSurface& link,
                     const std::vector<std::array<Vec2, 3>>& corners, bool void_edges);
 
-    Eigen::MatrixXd strip_; ///< (s, t) of every model point
+    const topology::Model* model_;
+    bool void_edges_;
+    std::optional<double> given_branch_;
+    std::vector<RimSegment> segments_;
+    std::unordered_map<Index, Vec2> strip_; ///< (s, t) of the walls' points
     FacetSet facets_;
     std::vector<Vec3> flat_;      ///< corners of the triangles of the tree, three each
     std::vector<Index> original_; ///< for each triangle of the tree, the triangle of the linking surface
@@ -126,6 +141,11 @@ private:
     std::vector<Ring> rings_;
     std::vector<Upright> uprights_;
 };
+
+/// The map of a linking surface, which is kept in `link.map` until its segments change: a sweep needs it up
+/// to seven times. Parameters are those of the constructor.
+std::shared_ptr<const LinkingMap> map_of(const topology::OpenVolume& volume, const LinkingSurface& link,
+                                         bool void_edges = true, const RunContext& context = {});
 
 /// For a linking surface without side lines: the position on the target chain that corresponds to the start
 /// of the source chain with the least shear [running length], and the branch, see `LinkingSurface::branch`.

@@ -5,6 +5,7 @@
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/topology/open_volume.h>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,7 +29,11 @@ struct RimSegment {
     /// On surfaces without side lines: whether the column at the start of the segment runs along a crease of
     /// the walls.
     bool on_crease = false;
+
+    friend bool operator==(const RimSegment&, const RimSegment&) = default;
 };
+
+class LinkingMap;
 
 /// A side line with the positions of its ends on the chains of a linking surface.
 struct LinkingLine {
@@ -51,6 +56,8 @@ struct LinkingSurface {
     /// source's start ends, as a number of turns around the ring. Empty if corresponding vertices of both
     /// rims are given.
     std::optional<double> branch{};
+    /// The map of the walls, kept by `map_of()`. A linking surface must not be used by two threads at once.
+    mutable std::shared_ptr<const LinkingMap> map{};
 };
 
 /// The part of the source edge that a segment covers, as fractions of the edge's length in its direction.
