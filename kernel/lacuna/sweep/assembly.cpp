@@ -28,7 +28,6 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace lacuna::sweep {
@@ -98,58 +97,6 @@ struct MemberFailed : NotSweepable {
     std::size_t member;
 };
 
-/// All inputs that determine a part: equal inputs give equal parts.
-struct Ingredients {
-    std::string region;
-    std::vector<Vec3> points; ///< the points of the member's volume
-    std::size_t edges = 0, faces = 0;
-    std::vector<EdgeNodes> nodes; ///< nodes planned for edges of the member
-    int layers = 0;
-    bool wedges = false;
-    std::set<FaceId> between; ///< faces shared with other members
-    /// For each neighbour that was meshed before: the common face in this member, the same face in the
-    /// neighbour, and the number of the neighbour's part.
-    std::vector<std::tuple<FaceId, FaceId, std::size_t>> beside;
-
-    bool operator==(const Ingredients& other) const
-    {
-        const auto same_nodes = [](const EdgeNodes& a, const EdgeNodes& b) {
-            return a.edge == b.edge && a.nodes == b.nodes;
-        };
-        return region == other.region && edges == other.edges && faces == other.faces &&
-               layers == other.layers && wedges == other.wedges && between == other.between &&
-               beside == other.beside && points == other.points &&
-               std::ranges::equal(nodes, other.nodes, same_nodes);
-    }
-};
-
-/// A part that was made earlier, or the reason why it could not be made.
-struct MadePart {
-    Ingredients of;
-    std::size_t number = 0; ///< unique among all parts
-    std::optional<Swept> part;
-    std::optional<Message> why;
-};
-
-/// Parts made in earlier attempts, in which the order of the members differed or more members were swept. A
-/// part is made again only if its inputs differ.
-struct PartsBefore {
-    std::vector<MadePart> parts;
-    std::size_t count = 0; ///< number of parts made so far
-
-    /// Remove and return the part that was made from these inputs, or return the reason for its failure.
-    /// Empty if these inputs were never tried.
-    std::optional<MadePart> take(const Ingredients& of)
-    {
-        const auto found = std::ranges::find(parts, of, &MadePart::of);
-        if (found == parts.end()) return std::nullopt;
-        if (found->why) return *found;
-        MadePart taken = std::move(*found);
-        parts.erase(found);
-        return taken;
-    }
-};
-
 } // namespace
 
 void check_alike(std::span<const AssemblyMember> members)
@@ -179,8 +126,8 @@ namespace {
 
 class Assembler {
 public:
-    Assembler(std::span<const AssemblyMember> members, PartsBefore& before, const RunContext& context)
-        : members_(members.begin(), members.end()), context_(context), parts_before_(before)
+    Assembler(std::span<const AssemblyMember> members, const RunContext& context)
+        : members_(members.begin(), members.end()), context_(context)
     {
     }
 
@@ -381,7 +328,6 @@ private:
             log_line(context_, failed->message().text());
             first.insert(first.begin(), failed->member);
         }
-        put_all_away();
         throw MemberFailed(*reason);
     }
 
@@ -395,7 +341,6 @@ private:
     std::optional<MemberFailed> sweep_in_order()
     {
         result_.parts.resize(members_.size());
-        made_of_.resize(members_.size());
         result_.report = notes_;
         middles_ = {};
         std::vector<char> done(members_.size(), 0);
@@ -404,16 +349,14 @@ private:
             const std::vector<Neighbour> neighbours = shared_with(m, done), images = images_for(m, done);
             done[m] = 1;
             try {
-                make_or_take(m, neighbours, images);
+                make(m, neighbours, images);
                 check_kept(m, neighbours);
                 if (members_[m].options.order > 1) keep_middles(m);
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
-                if (!std::exchange(is_made_, true)) put_away(m, error.message());
                 MemberFailed failed(m, why_failed(members_[m], error));
                 if (!neighbours.empty() || !images.empty()) return failed;
-                put_all_away();
                 throw failed;
             }
         }
@@ -449,58 +392,6 @@ private:
             if (face.b == m && done[face.a] != 0) found.push_back({face.face_b, face.a, face.face_a});
         }
         return found;
-    }
-
-    [[nodiscard]] Ingredients ingredients(std::size_t m, const std::vector<Neighbour>& neighbours) const
-    {
-        const Model& model = members_[m].volume->model;
-        Ingredients of{members_[m].region,         model.points,       model.edges.size(),
-                       model.faces.size(),         plan_.nodes[m],     plan_.layers[m],
-                       members_[m].options.wedges, shared_faces_of(m), {}};
-        for (const Neighbour& n : neighbours)
-            of.beside.emplace_back(n.own, n.there, made_of_[n.other]->second);
-        return of;
-    }
-
-    /// Make the part of a member, or reuse one that was made from the same inputs.
-    void make_or_take(std::size_t m, const std::vector<Neighbour>& neighbours,
-                      const std::vector<Neighbour>& images)
-    {
-        Ingredients of = ingredients(m, neighbours);
-        // At order 2 a part also depends on parts that it only touches along an edge, and a part with
-        // periodic faces depends on the images of these faces. `Ingredients` contains neither, so such parts
-        // are always made again.
-        const bool again = members_[m].options.order > 1 || !periodic_.empty();
-        if (!again && made_of_[m] && made_of_[m]->first == of) return;
-        if (again)
-            made_of_[m].reset();
-        else
-            put_away(m);
-        std::optional<MadePart> before = again ? std::nullopt : parts_before_.take(of);
-        if (before && before->why) throw NotSweepable(*before->why);
-        made_of_[m] = {std::move(of), before ? before->number : ++parts_before_.count};
-        if (before) {
-            result_.parts[m] = std::move(*before->part);
-            return;
-        }
-        is_made_ = false;
-        make(m, neighbours, images);
-        is_made_ = true;
-    }
-
-    /// Store a part, or the reason for its failure, for an attempt with another order of the members.
-    void put_away(std::size_t m, std::optional<Message> why = {})
-    {
-        if (!made_of_[m]) return;
-        MadePart& kept = parts_before_.parts.emplace_back();
-        std::tie(kept.of, kept.number) = std::move(*made_of_[m]);
-        kept.why = std::move(why);
-        if (!kept.why) kept.part = std::exchange(result_.parts[m], {});
-        made_of_[m].reset();
-    }
-    void put_all_away()
-    {
-        for (std::size_t m = 0; m < made_of_.size(); ++m) put_away(m);
     }
 
     [[nodiscard]] std::set<FaceId> shared_faces_of(std::size_t m) const
@@ -876,10 +767,6 @@ private:
     AssemblyPlan plan_;
     std::vector<std::set<std::size_t>> before_; ///< for each member, those that must precede it
     std::vector<std::size_t> order_;
-    PartsBefore& parts_before_;
-    bool is_made_ = true; ///< false from the start of `make()` until it succeeds
-    /// For each part that exists: the inputs it was made from, and its number.
-    std::vector<std::optional<std::pair<Ingredients, std::size_t>>> made_of_;
     SharedMiddles middles_; ///< middle nodes of the parts so far, at order 2
     SweptAssembly result_;
 };
@@ -901,10 +788,9 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
     std::map<std::string, MemberFailed> without_wedges;
     std::map<std::size_t, Message> failures; // errors of members that are not swept, by index
     std::vector<LeftOut> left_out;
-    PartsBefore before;
     for (;;) {
         try {
-            SweptAssembly swept = Assembler(left, before, context).run();
+            SweptAssembly swept = Assembler(left, context).run();
             for (std::size_t m = 0; m < left.size(); ++m)
                 if (!left[m].unswept) swept.member.push_back(place[m]);
             for (Unswept& one : swept.unswept) {
