@@ -2,18 +2,14 @@
 #include <lacuna/matching/side_lines.h>
 
 #include <lacuna/core/error.h>
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/parallel.h>
 #include <lacuna/geometry/shared/harmonic.h>
 #include <lacuna/geometry/shared/polyline.h>
 #include <lacuna/topology/shared/face_parts.h>
-#include <lacuna/topology/shared/give_mesh.h>
-#include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -212,8 +208,7 @@ Rises rises(const OpenVolume& volume, const RunContext& context)
     // than this, a thousand times that error, all heights are computed again with full precision.
     constexpr double kDoubt = 1e-3;
     const Model& model = volume.model;
-    std::set<EdgeId> between = edges_between(volume);
-    for (const EdgeId edge : smooth_fans(volume, context)) between.erase(edge);
+    const std::set<EdgeId> between = edges_between(volume);
     if (between.empty()) return {};
     const std::vector<std::vector<FaceId>> parts = wall_parts_with(volume, between);
     std::vector<double> up;
@@ -328,26 +323,6 @@ double climb(const Model& model, EdgeId edge, const std::vector<double>& heights
     const double rise = heights[static_cast<std::size_t>(points.back())] -
                         heights[static_cast<std::size_t>(points.front())];
     return most > 0 ? rise / most : kNaN;
-}
-
-std::set<EdgeId> smooth_fans(const OpenVolume& volume, const RunContext& context)
-{
-    const std::set<EdgeId> kept = kept_edges(volume.model);
-    std::map<VertexId, std::vector<EdgeId>> at_rim;
-    for (const Role end : {Role::source, Role::target})
-        for (const VertexId vertex : rim_vertices(volume, end)) at_rim[vertex];
-    for (const EdgeId edge : edges_between(volume))
-        for (const VertexId vertex : {volume.model[edge].from, volume.model[edge].to})
-            if (const auto found = at_rim.find(vertex); found != at_rim.end()) found->second.push_back(edge);
-    std::erase_if(at_rim, [](const auto& edges) { return edges.second.size() < 2; });
-    std::set<EdgeId> fans;
-    if (at_rim.empty()) return fans;
-    const std::vector<double> angle = angles_across(volume.model, context);
-    for (const auto& [vertex, edges] : at_rim)
-        std::ranges::copy_if(edges, std::inserter(fans, fans.end()), [&](EdgeId edge) {
-            return angle[edge.index()] < kCreaseAngle && !kept.contains(edge);
-        });
-    return fans;
 }
 
 std::vector<SideLine> side_lines(const OpenVolume& volume, const RunContext& context)

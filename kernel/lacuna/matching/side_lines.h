@@ -3,7 +3,6 @@
 
 #include <lacuna/topology/open_volume.h>
 
-#include <set>
 #include <vector>
 
 namespace lacuna::matching {
@@ -28,11 +27,6 @@ double climb(const topology::Model& model, EdgeId edge, const std::vector<double
 
 /// Gradient magnitude of the heights at each model point, for climb() [1 / model length].
 std::vector<double> height_gradient(const topology::OpenVolume& volume, const std::vector<double>& heights);
-
-/// Wall edges across which the skin is smooth and which leave one vertex of a rim together, such as the arcs
-/// at the rounded corner of a box that stands on the source. They are no side lines, and neither layers nor
-/// columns follow them: a column follows one edge from a vertex.
-std::set<EdgeId> smooth_fans(const topology::OpenVolume& volume, const RunContext& context = {});
 
 /// The side lines of a volume's walls. Edges that climb by less than half their length separate the storeys
 /// of a stack and belong to no side line. Side lines share no vertices: of two that would, the shorter is

@@ -401,10 +401,9 @@ WallPosition LinkingMap::locate(double s, double t, std::size_t& near) const
     return {facets_.face[original], {facets_.number[original], hit.barycentric}};
 }
 
-std::vector<EdgeUse> edges_between(const OpenVolume& volume, const LinkingSurface& link, bool void_edges)
+std::vector<EdgeUse> edges_between(const Model& model, const LinkingSurface& link, bool void_edges)
 {
-    const Model& model = volume.model;
-    std::set<EdgeId> taken = matching::smooth_fans(volume);
+    std::set<EdgeId> taken;
     for (const EdgeUse& use : link.source.uses()) taken.insert(use.edge);
     for (const EdgeUse& use : link.target.uses()) taken.insert(use.edge);
     for (const LinkingLine& line : link.lines) {
@@ -426,7 +425,7 @@ void LinkingMap::find_rings(const OpenVolume& volume, const LinkingSurface& link
                             const std::vector<std::array<Vec2, 3>>& corners, bool void_edges)
 {
     const Model& model = volume.model;
-    const std::vector<EdgeUse> between = edges_between(volume, link, void_edges);
+    const std::vector<EdgeUse> between = edges_between(model, link, void_edges);
     if (between.empty()) return;
     std::unordered_map<std::uint64_t, std::size_t> half; // directed side → triangle
     for (std::size_t t = 0; t < corners.size(); ++t) {

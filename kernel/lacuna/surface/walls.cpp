@@ -10,7 +10,6 @@
 #include <lacuna/surface/detail/chain_nodes.h>
 #include <lacuna/surface/detail/strip_grid.h>
 #include <lacuna/surface/shared/swept_motion.h>
-#include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
@@ -337,22 +336,17 @@ std::vector<WallMesh> mesh_walls(const OpenVolume& volume, std::span<const Linki
 {
     const GivenColumns none;
     std::vector<WallMesh> meshes;
-    const std::set<EdgeId> fans = matching::smooth_fans(volume, context);
     for (std::size_t b = 0; b < links.size(); ++b) {
         const GivenColumns& given = columns.empty() ? none : columns[b];
         meshes.push_back(WallMesher(volume, links[b], nodes[b], given, heights, exact, context).run());
     }
-    if (!fans.empty())
-        meshes.front().notes.push_back(formatted(
-            "the mesh does not follow {}: they leave one vertex side by side, and the skin is smooth there",
-            entities_of(volume.model, fans)));
     return meshes;
 }
 
 void check_wall_edges(const OpenVolume& volume, const RunContext& context)
 {
     for (const LinkingSurface& link : linking_surfaces(volume, Turning::each, {}, context)) {
-        if (!edges_between(volume, link, true).empty())
+        if (!edges_between(volume.model, link, true).empty())
             wall_net(volume.model, link, *map_of(volume, link, true, context));
     }
 }

@@ -5,8 +5,6 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/parallel.h>
-#include <lacuna/geometry/shared/union_find.h>
-#include <lacuna/matching/side_lines.h>
 #include <lacuna/surface/shared/face_shape.h>
 #include <lacuna/sweep/detail/compare_face.h>
 
@@ -118,38 +116,10 @@ Message with_finer_sides(Message message, const FaceFidelity& face, int layers,
 
 namespace {
 
-void append(SkinOfFace& to, const SkinOfFace& more)
-{
-    const auto before = static_cast<double>(to.quads.size()), after = static_cast<double>(more.quads.size());
-    if (after > 0) to.mean_side = (before * to.mean_side + after * more.mean_side) / (before + after);
-    to.quads.insert(to.quads.end(), more.quads.begin(), more.quads.end());
-    to.item.insert(to.item.end(), more.item.begin(), more.item.end());
-    to.side.insert(to.side.end(), more.side.begin(), more.side.end());
-}
-
-void append(surface::FaceShape& to, const surface::FaceShape& more)
-{
-    const auto first = static_cast<Index>(to.points.size());
-    const std::size_t before = to.triangles.size();
-    to.points.insert(to.points.end(), more.points.begin(), more.points.end());
-    for (const Triangle& t : more.triangles)
-        to.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-    to.slack = std::max(to.slack, more.slack);
-    if (to.bulge.empty() && more.bulge.empty()) return;
-    to.bulge.resize(to.triangles.size(), {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
-    std::ranges::copy(more.bulge, to.bulge.begin() + static_cast<std::ptrdiff_t>(before));
-}
-
-DeviationLimit stricter(const DeviationLimit& a, const DeviationLimit& b)
-{
-    return {a.length, std::min(a.share, b.share), std::min(a.at_tip, b.at_tip), std::min(a.least, b.least),
-            a.folds || b.folds};
-}
-
 /// Compare the skin of a mesh with the sealed skin.
 /// @param mesh   as in compare_face()
 /// @param order  order of the cells
-Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order, Skin skin,
+Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order, const Skin& skin,
                  const std::set<FaceId>& kept, double volume_of_mesh, const FidelityOptions& options,
                  const RunContext& context)
 {
@@ -166,24 +136,6 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
     }
     const double sign = result.sealed_volume < 0 ? -1 : 1;
     result.sealed_volume *= sign;
-    // If quads lie across the edges between faces, the faces are compared as one: at the first of them.
-    geometry::UnionFind joined(skin.faces.size());
-    if (mesh != nullptr)
-        for (const EdgeId edge : matching::smooth_fans(volume, context))
-            for (const FaceUse& use : model.uses_of_edge(edge))
-                joined.unite_least(model.uses_of_edge(edge).front().face.index(), use.face.index());
-    std::vector<DeviationLimit> limits;
-    std::vector<std::size_t> quads;
-    for (std::size_t f = 0; f < skin.faces.size(); ++f) {
-        limits.push_back(limit_of(model, FaceId(f), options));
-        quads.push_back(skin.faces[f].quads.size());
-        const std::size_t first = joined.find(f);
-        if (first == f) continue;
-        append(skin.faces[first], skin.faces[f]);
-        append(shapes[first], shapes[f]);
-        limits[first] = stricter(limits[first], limits[f]);
-        skin.faces[f].quads.clear();
-    }
     // Faces are compared in parallel, because the comparison of one large face uses only one thread in part.
     RunContext quiet;
     quiet.threads = context.threads;
@@ -192,20 +144,19 @@ Fidelity compare(const OpenVolume& volume, const mesh::HexMesh* mesh, int order,
     parallel_each(context, skin.faces.size(), 1, [&](std::size_t f) {
         const SkinOfFace& patch = skin.faces[f];
         if (patch.quads.empty()) return;
+        const DeviationLimit limit = limit_of(model, patch.face, options);
+        compared[f].face = patch.face;
+        compared[f].quads = patch.quads.size();
         if (!kept.contains(patch.face))
-            compared[f] = compare_face(mesh, skin, patch, std::move(shapes[f]), sign, limits[f], quiet);
+            compared[f] = compare_face(mesh, skin, patch, std::move(shapes[f]), sign, limit, quiet);
     });
     double area = 0;
     for (const SkinOfFace& patch : skin.faces) {
-        const std::size_t f = patch.face.index(), first = joined.find(f);
-        FaceFidelity& face = compared[f];
-        if (first != f)
-            face = result.faces[first];
-        else if (patch.quads.empty())
-            face = left_out(model, skin, patch.face, limits[f]);
-        if (order > 1 && mesh != nullptr && first == f) face.side *= 2; // each quad was divided into four
-        face.face = patch.face;
-        face.quads = order > 1 ? quads[f] / 4 : quads[f];
+        FaceFidelity& face = compared[patch.face.index()];
+        if (patch.quads.empty())
+            face = left_out(model, skin, patch.face, limit_of(model, patch.face, options));
+        if (order > 1) face.quads /= 4; // each quad was divided into four
+        if (order > 1 && mesh != nullptr) face.side *= 2;
         face.entity = entity_of(model, patch.face);
         face.tag = model[patch.face].tag;
         face.made_void = model[patch.face].origin == Origin::made_void;

@@ -152,10 +152,9 @@ std::shared_ptr<const LinkingMap> map_of(const topology::OpenVolume& volume, con
 std::pair<double, double> unguided_target(const topology::OpenVolume& volume, const LinkingSurface& link,
                                           const RunContext& context = {});
 
-/// The edges between stacked or adjacent walls of a linking surface, except its rims, side lines and
-/// `matching::smooth_fans()`.
+/// The edges between stacked or adjacent walls of a linking surface, except its rims and side lines.
 /// @param void_edges  whether edges between two void faces are included.
-std::vector<topology::EdgeUse> edges_between(const topology::OpenVolume& volume, const LinkingSurface& link,
+std::vector<topology::EdgeUse> edges_between(const topology::Model& model, const LinkingSurface& link,
                                              bool void_edges);
 
 /// Whether the walls of a linking surface consist of nearly parallel straight lines.
