@@ -292,7 +292,7 @@ TEST_CASE("a sliver that nobody asked quads across makes no mesh of millions, an
         CAPTURE(width);
         CHECK(swept.mesh.quads.size() < 5000);
         CHECK(swept.min_scaled_jacobian > 0.5);
-        CHECK(says(swept, "size: ", "would be too many in all") == (width < 0.01));
+        CHECK(says(swept, "size: ", "would give too many quads in total") == (width < 0.01));
     }
 }
 
