@@ -8,7 +8,7 @@
 namespace lacuna::cad_worker {
 
 /// Answer requests until the connection is closed or broken.
-/// @param missing  confinement features that are missing, sent with the greeting.
+/// @param missing  protection that the kernel lacks, as `confine()` returns it; sent with the greeting.
 /// @pre   a `Gmsh` object exists.
 void serve(cad_protocol::Channel& channel, const std::string& missing);
 

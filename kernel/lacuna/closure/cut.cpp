@@ -443,7 +443,8 @@ std::vector<StepPiece> cut_within(const OpenVolume& volume, const geometry::Plan
     return cutter.run(suits, least);
 }
 
-/// Whether a region contains some of the facets.
+/// Whether some of the facets lie in a region of the plane: they contain the centre of one of the triangles
+/// into which the region is divided.
 bool contains_facets(const std::vector<std::vector<Vec2>>& region, const geometry::Plane& plane,
                      const geometry::FacetTree& facets, double tolerance, const RunContext& context)
 {

@@ -336,11 +336,12 @@ private:
         });
     }
 
-    /// Whether walls along enough of the end's outline, its longest loop, determine its scale.
+    /// Whether walls stand along enough of the end's outline, its longest loop, to determine the scale of the
+    /// moved end.
     [[nodiscard]] bool tells_scale() const
     {
-        // Least share of the outline that must have walls for these to determine its taper: two walls of five
-        // do; one wall of four, or a single bore, does not.
+        // Minimum share of the outline's length that must have walls. Two walls of five are enough; one wall
+        // of four is not. Walls of bores do not count.
         constexpr double kTold = 1.0 / 3;
         double longest = 0, told = 0;
         for (const std::vector<Stretch>& rim : rims_) {
@@ -417,7 +418,9 @@ private:
 
 using Known = std::function<bool(const std::vector<Vec3>&)>;
 
-/// @param stop  output: set if the missing faces exist already
+/// Close a volume by moving its source along the given walls. Empty if that is impossible.
+/// @param known  as for `move_ends()`.
+/// @param stop   output: whether the missing faces exist already; then nothing is closed.
 std::optional<MovedEnd> move_end(const OpenVolume& open, const Known& known, bool& stop,
                                  const RunContext& context)
 {

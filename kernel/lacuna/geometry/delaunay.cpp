@@ -68,8 +68,9 @@ DelaunayMesh::DelaunayMesh(std::span<const Vec2> points, const std::vector<Index
 void DelaunayMesh::insert_all(const std::vector<Index>& used, const Vec2& low, double extent)
 {
     // Insert the points in rounds @cite amenta_2003_order. Each round has about as many points as all rounds
-    // before it, ordered along a Hilbert curve. With a single round, the walk to a point would follow rims of
-    // many points, and each point of a line or circle would replace nearly all triangles at the previous one.
+    // before it, ordered along a Hilbert curve. In a single round, the points of a line or circle would come
+    // one after the other. Each of them would replace nearly all triangles at the previous one, and a walk
+    // could pass all of these points.
     constexpr std::size_t kFirstRound = 1024; // a small first round is inserted in Hilbert order only
     int rounds = 0;
     while (used.size() >> rounds > kFirstRound) ++rounds;

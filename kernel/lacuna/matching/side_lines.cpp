@@ -23,8 +23,8 @@ using namespace topology;
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Minimum climb of an edge on a side line, the sine of its angle to a level line: edges at more than 60° to
-/// the steepest direction separate the storeys of a stack.
+/// Minimum climb of an edge on a side line. The climb is the sine of the angle between the edge and the level
+/// lines, so this is an angle of 30°. Edges that climb less separate the storeys of a stack.
 constexpr double kLevel = 0.5;
 
 std::vector<Index> rim_points(const Model& model, const std::vector<FaceId>& faces)

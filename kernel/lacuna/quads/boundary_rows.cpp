@@ -318,8 +318,8 @@ private:
         if (partial_.is_fixed(node)) is_cut_[index(node)] = true;
     }
 
-    /// Mark the boundary node between the ends of these rows and the adjacent side. It is now an inner
-    /// corner, and the rows of the adjacent side will end on these rows.
+    /// Mark the boundary node between finished rows and the adjacent side. It is now an inner corner, and the
+    /// rows of the adjacent side will end on the finished rows.
     void mark_inner(Index node)
     {
         if (partial_.is_fixed(node)) turn_[index(node)] = RowTurn::inner;

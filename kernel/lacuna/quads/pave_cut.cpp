@@ -62,8 +62,8 @@ private:
         // the cheapest of them is used.
         constexpr double kAway = 0.5;
         std::optional<Choice> best, near_miss;
-        // Lines are taken in order of their cost without edges. This is a lower bound of their total cost, so
-        // the search ends after few lines.
+        // Lines are taken in order of `Line::cost`, to which `judge()` adds the cost of the number of edges.
+        // `Line::cost` is thus a lower bound of the total cost, and the search ends after few lines.
         const auto later = [](const Line& a, const Line& b) { return a.cost > b.cost; };
         std::ranges::make_heap(lines_, later);
         for (auto end = lines_.end(); end != lines_.begin();) {

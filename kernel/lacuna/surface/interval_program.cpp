@@ -73,7 +73,8 @@ public:
         rows_.push_back(std::move(row));
     }
 
-    /// Add a term of the objective. A term with weight zero is a floor.
+    /// Add a term of the objective for the sum of some variables. With weight zero, the term is a floor: the
+    /// sum must be at least `wanted`.
     void add_term(const std::vector<std::size_t>& variables, double wanted, double weight)
     {
         Term term{{}, 0, wanted, weight};

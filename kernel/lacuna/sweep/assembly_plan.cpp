@@ -132,8 +132,8 @@ private:
         for (const SharedFace& face : shared_) find_same_rims(face);
         for (const std::size_t e : beside_) common_[e] = true;
     }
-    /// Unite the closed rims of a shared face in both members, which are the same edges even if their chords
-    /// differ widely.
+    /// Unite the rims of a shared face that consist of a single closed edge with those of the same face in
+    /// the other member. They are the same edges even if their chords differ widely.
     void find_same_rims(const SharedFace& face)
     {
         const auto closed_rims = [&](std::size_t m, FaceId of) {

@@ -30,8 +30,8 @@ constexpr double kGain = 0.01;
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 /// Weight of the shape energy in the second stage: enough to keep lengths and to prevent folds.
 constexpr double kShapeShare = 1e-3;
-/// Nodes are moved only if the minimum scaled Jacobian rises, or the total shortfall falls, by at least this
-/// share.
+/// Nodes are moved only if the minimum scaled Jacobian rises by more than this, or if the total shortfall
+/// falls by more than this share of it.
 constexpr double kWorthIt = 1e-4;
 /// Largest decrease of the mean scaled Jacobian that is accepted for a higher minimum; part of the contract
 /// of `improve()`.

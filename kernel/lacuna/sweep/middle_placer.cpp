@@ -239,8 +239,8 @@ void MiddlePlacer::place_level_centres(int level, const Corners& corners, Vec3* 
     }
 }
 
-/// Place the centres of the faces that stand on the sides of a level, and of the cells above it. @param
-/// out  output position of the level below
+/// Place the centres of the faces that stand on the sides of a level, and of the cells above the level.
+/// @param out  the middle nodes of the level below the layer, which those of the layer follow.
 void MiddlePlacer::place_layer_centres(int layer, const Corners& corners, Vec3* out) const
 {
     const Vec3 *below = corners.level(layer), *above = corners.level(layer + 1);

@@ -23,9 +23,10 @@ using namespace topology;
 
 namespace {
 
-/// Allowed relative volume error with default numbers of sides. The first value is the total. The others are
-/// the shares of it that are reserved for curvature of ends and for curvature along the sweep, if there is
-/// such curvature. The total must stay below 1 %; the margin covers effects that the model ignores.
+/// Allowed volume error with default numbers of sides, as a share of the volume. The first value is the
+/// total. Of this, the second value is reserved for curvature of ends and the third for curvature along the
+/// sweep, if there is such curvature. The total must stay below 1 %; the margin covers effects that the model
+/// ignores.
 constexpr double kAllLost = 0.008, kLostByEnds = 0.002, kLostByLayers = 0.003;
 /// Maximum number of sides per full turn. An inscribed polygon of 100 sides lacks 0.07 % of the circle's
 /// area.

@@ -33,7 +33,8 @@ void cut(std::span<const Vec3> points, const ParamFacet& facet, std::array<bool,
             const bool last = i + 1 == chain.size();
             const double f = last ? 1 : fraction_along(points[static_cast<std::size_t>(chain[i])], a, b);
             const Vec2 to_uv = last ? facet.uv[l] : Vec2(facet.uv[k] + f * (facet.uv[l] - facet.uv[k]));
-            // The first piece keeps the previous old side, the last piece keeps the next one.
+            // The first piece has side m of the facet, and the last piece has side l. Sides inside the facet
+            // need no split.
             cut(points, {{from, chain[i], facet.corner[m]}, {from_uv, to_uv, facet.uv[m]}},
                 {true, !last || whole[l], i != 0 || whole[m]}, sides, result);
             from = chain[i];

@@ -38,10 +38,10 @@ public:
     /// Run all steps below until a further one cannot improve the result.
     void run();
     /// Try meshes in this order. First come grids and then, if there are many quads, the quads of a coarser
-    /// region, each cut in four. If neither is good and there are few quads, pave without rows with the
-    /// weights for few quads, and with rows with the first of `cut_weight_rows()`. If the result is poor, or
-    /// if there are more quads, pave with rows and the default weights. Finally pave without rows, if the
-    /// attempt with rows failed, or if the region is small and the mesh not yet good enough.
+    /// region, each cut in four. If neither is good and there are few quads, pave without rows, using the
+    /// weights for few quads, and then with rows, using the first of `cut_weight_rows()`. If the result is
+    /// poor, or if there are more quads, pave with rows and the default weights. Finally pave without rows,
+    /// if the attempt with rows failed, or if the region is small and the mesh not yet good enough.
     void try_default_weights();
     /// The score of a row style with other cut weights. The attempt is not kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;
@@ -75,8 +75,10 @@ private:
     [[nodiscard]] Attempt fill_about(const CentralBlock& block) const;
     /// The part of the region between mirror axes, with nodes on the axes. Empty if there are no axes.
     [[nodiscard]] std::optional<MirrorPart> part_of_region() const;
-    /// Keep the images of a part if they are good; otherwise add them to `grids`.
+    /// Fill the region with the images of a part. Keep this attempt as the best one if it is good; otherwise
+    /// add it to `grids`.
     /// @param few  whether there are so few quads that the given sides determine their sizes.
+    /// @return whether the attempt was kept
     bool try_part(const MirrorPart& part, bool few, std::vector<Attempt>& grids);
     /// The images of the quads of a part.
     [[nodiscard]] Attempt fill_part(const MirrorPart& part) const;

@@ -33,20 +33,22 @@ inline constexpr double kFewestEven = 8;
 /// loop closes if it has as many sides in each direction as in the opposite direction. For a grid around a
 /// hole, the outer loop and the hole must have equal numbers of sides. Fixed segments keep their numbers. A
 /// ring grid is used if the sides of both loops are then 0.6 to 1.6 times as long as requested. Segments that
-/// repeat along a loop get equal numbers if possible. If a ring is narrow on one side, its outer loop has two
-/// more sides for each row by which it steps in there. If one loop consists of many equal parts with corners
-/// between them, it gets one side between two corners. The other loop then gets as many sides, up to four
-/// times the requested number. Otherwise the loops of a ring differ by a multiple of four, and rows that
-/// change their number of sides at two places take up the difference. If none of these is possible the grid
-/// is straight, and a segment with four or more wanted sides is changed by less than a quarter.
+/// repeat along a loop get equal numbers if possible. If a ring is narrow on one side, it gets fewer rows
+/// there, and for each row less, the outer loop has two sides more than the hole. If equal numbers are not
+/// possible and a loop repeats the same segments, the outer loop gets one side from each corner to the next.
+/// The hole gets as many sides, which may be up to four times the requested number. Otherwise the loops of a
+/// ring differ by a multiple of four, and rows that change their number of sides at two places take up the
+/// difference. If none of these is possible, the grid is straight, and a segment with four or more wanted
+/// sides is changed by less than a quarter.
 ///
 /// If reflections of a symmetric region map segments onto segments, the numbers respect these reflections and
 /// leave a node on every mirror axis. They are computed for the part between two axes, or on one side of a
 /// single axis, and the axes are free segments of this part. For a straight grid the sum has three more
 /// terms. The first is a quarter of (quads − requested)² / requested, because rows in front of round turns
-/// add quads. The second is ln²(rows / fitting rows) for each such turn. The third is a penalty for unequal
-/// numbers if the part itself is symmetric. The function evaluates the sum for closed loops that start from
-/// several multiples of the wanted numbers, and for several numbers of rows.
+/// add quads. The second is ln²(rows / fitting rows) for each such turn, times half the fitting rows if these
+/// are more than two. Fitting rows fill about a third of the radius of the widest turn. The third is a
+/// penalty for unequal numbers if the part itself is symmetric. The function evaluates the sum for solutions
+/// that start from several multiples of the wanted numbers, and for several numbers of rows.
 ///
 /// Below 200 quads, four things change: the axes are divided by the requested size instead of a size that is
 /// graded away from short sides; parts between other axes are tried as well; the grid of a part must have
@@ -63,14 +65,14 @@ inline constexpr double kFewestEven = 8;
 /// The wanted numbers are scaled, because such grids would have too many or too few quads.
 ///
 /// Above `kManyQuads` quads, every other node between corners must be removable, so that `pave()` can coarsen
-/// the region. Otherwise segments get twice the numbers of a region half as fine, unless some are given or
-/// short.
+/// the region. If this is not so, segments get twice the numbers that they would get with twice the size,
+/// unless some numbers are fixed or some segments are short.
 ///
 /// The equations of a loop have coefficients of 1 and -1, and a number occurs in two equations only if its
 /// segment turns. Therefore it is enough to round the wanted numbers and to change numbers by one, the
-/// cheapest change first, until all equations hold. Holes then get one column more or less if this keeps
-/// their centre at its place in the outer loop's grid, which preserves symmetry (below 200 quads both are
-/// tried).
+/// cheapest change first, until all equations hold. A hole then gets one row or column more or less if this
+/// keeps its centre at its place in the outer loop's grid, which preserves symmetry. Below 200 quads, the
+/// numbers without this change are tried too.
 /// @param region   the region with its current nodes, whose number does not matter.
 /// @param segment  segment of the side from each boundary node to the next.
 /// @return  the number of sides of every segment; empty if no grid fits.

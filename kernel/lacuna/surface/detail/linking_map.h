@@ -38,8 +38,7 @@ std::vector<Vec3> points_at(const topology::Model& model, std::span<const WallPo
 /// straight, s is therefore redefined as a share of the length of a section (a line of constant t). With side
 /// lines, it is the share of the length from one side line to the next. Without side lines, sections are
 /// rotated relative to each other by rotation-minimizing transport of a frame. If the rims prescribe another
-/// rotation, the
-/// difference is spread evenly over the length.
+/// rotation, the difference is spread evenly over the length.
 class LinkingMap {
 public:
     /// @param void_edges  whether the rings and uprights include edges between void faces.
