@@ -238,7 +238,7 @@ do
   fails({ source = { 4, 4, bend = 0.8 }, target = { 4, 4, bend = 0.5 } }, ends, { size = 0.5, layers = 3 },
     '"source"', '"target"', "keep_mesh = false", "[sweep.periodic_given]")
   fails({ source = { 4, 4 }, target = { 5, 4 } }, ends, { size = 0.5, layers = 3 }, "5 given nodes",
-    "6 other ones", "keep_mesh = false", "[sweep.periodic_given]")
+    "6 others", "keep_mesh = false", "[sweep.periodic_given]")
   fails({ wall_1 = { 4, 3, bend = 0.8 }, wall_3 = { 4, 3 } }, walls, { size = 0.5 }, '"wall_1"', '"wall_3"',
     "[sweep.periodic_given]")
   fails({ wall_1 = { 4, 3 }, wall_3 = { 4, 4 } }, walls, { size = 0.5 }, "given nodes",

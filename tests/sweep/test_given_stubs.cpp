@@ -299,6 +299,6 @@ TEST_CASE("a wall of as many rows as the whole walls that ends before the target
         const bool beside = part == 2 && side_of(p) == 0 && (p.x() < 0.25 || p.x() > 0.75);
         return beside ? Given::no : Given::quads;
     });
-    CHECK(test::refusal([&] { filled(parts.volume, {}); }, {"wall", " 6 rows", "with 6"}) ==
-          "surface.wall_rows");
+    CHECK(test::refusal([&] { filled(parts.volume, {}); },
+                        {"wall", " 6 rows of given quads", "has 6 rows"}) == "surface.wall_rows");
 }

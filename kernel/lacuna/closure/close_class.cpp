@@ -110,7 +110,7 @@ void check_matched(const OpenVolume& volume, const matching::Match& match)
         });
         if (!bare || matched) continue;
         throw NotClosed(Message("closure.unmatched_loop",
-                                "{}, with {}, has no wall and no vertex matched to the target",
+                                "{}, which contains {}, has no wall and no vertex matched to the target",
                                 NamedEntity{"source loop", static_cast<long long>(l) + 1},
                                 entity_of(volume.model, rim.front().edge))
                             .remedy("pair some by hand with match{{ vertices = … }}"));

@@ -19,6 +19,7 @@
 #include <lacuna/geometry/shared/point_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/matching/match.h>
+#include <lacuna/topology/shared/face_facts.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/names_of.h>
@@ -341,8 +342,7 @@ public:
     {
         std::vector<Index> of_edges;
         const Model& whole = volume_.model;
-        Eigen::AlignedBox3d box;
-        for (const Index p : corners_of(model_[face_])) box.extend(model_.at(p));
+        const Eigen::AlignedBox3d box = box_of(model_, face_);
         const auto is_near = [&](Index p) {
             return box.squaredExteriorDistance(whole.at(p)) <= tolerance_ * tolerance_;
         };

@@ -16,6 +16,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/topology/shared/face_facts.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -413,8 +414,7 @@ std::vector<StepPiece> cut_by_planes(const OpenVolume& volume, const std::vector
                                        "rim is not closed",
                                        entity_of(volume.model, face))
                                    .remedy("cut the volume with cut{{ plane = … }}"));
-        Eigen::AlignedBox3d reach; // the face cuts only pieces that it runs through
-        for (const Index p : corners_of(volume.model[face])) reach.extend(volume.model.at(p));
+        const Eigen::AlignedBox3d reach = box_of(volume.model, face); // a face cuts only pieces that it meets
         const auto cut = [&](const OpenVolume& piece) {
             return cut_by_face(piece, volume.model, face, context);
         };

@@ -385,9 +385,10 @@ void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunCo
                     member.region,
                     part.whole,
                     alone,
-                    one.why                ? *one.why
-                    : part.volume.no_roles ? *part.volume.no_roles
-                                           : Message("closure.no_ends", "it has no ends to sweep between"),
+                    one.why ? *one.why
+                    : part.volume.no_roles
+                        ? *part.volume.no_roles
+                        : Message("closure.no_ends", "the volume has no ends to sweep between"),
                     {},
                     middles};
         for (const sweep::SharedFace& face : swept.beside) {

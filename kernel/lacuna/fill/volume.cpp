@@ -169,8 +169,10 @@ Volume override_class(Volume volume, topology::VolumeClass value)
                                .remedy("override its class before close()"));
     if (volume.along && value == topology::VolumeClass::zero) return volume;
     if (volume.along)
-        throw InvalidInput("closure.along_roles", "override_class: 'along' fixes the class, which is {}",
-                           topology::to_string(volume.classification.value));
+        throw InvalidInput(Message("closure.along_roles",
+                                   "override_class: 'along' fixes the class, which is {}",
+                                   topology::to_string(volume.classification.value))
+                               .remedy("leave out override_class"));
     volume.others.reset();
     volume.as_read.reset();
     volume.volume.override_class = value;

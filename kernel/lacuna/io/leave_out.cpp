@@ -160,8 +160,10 @@ public:
             mark_skin();
         const std::size_t count = static_cast<std::size_t>(std::ranges::count(is_out_, 1));
         if (count == is_out_.size() && count > 0)
-            throw InvalidInput("io.nothing_left", "without: {} {} all of {}; no elements would be left",
-                               list(), parts_.size() > 1 ? "are" : "is", deck_.path);
+            throw InvalidInput(Message("io.nothing_left",
+                                       "without: {} {} all elements of {}, so none would be left", list(),
+                                       parts_.size() > 1 ? "are" : "is", deck_.path)
+                                   .remedy("leave out fewer parts"));
         find_nodes();
         split_blocks();
         split_points();

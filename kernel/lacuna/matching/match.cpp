@@ -359,8 +359,10 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
     result.target_loops = rims(model, volume.faces(Role::target));
     if (result.source_loops.empty() || result.target_loops.empty()) {
         const bool source = result.source_loops.empty();
-        throw NotClosed("matching.no_rim", "the {} has no rim: it is missing, or it is a closed surface",
-                        source ? "source" : "target");
+        throw NotClosed(Message("matching.no_rim",
+                                "the {} has no rim: it has no faces, or its faces form a closed surface",
+                                source ? "source" : "target")
+                            .remedy("name faces with a rim"));
     }
     if (result.source_loops.size() != result.target_loops.size()) {
         throw NotClosed(
@@ -400,7 +402,8 @@ Match match(const OpenVolume& volume, const MatchOptions& options, const RunCont
             result.notes.push_back(
                 Message(
                     "matching.other_loops",
-                    "the source loops were paired, in order, with target loops {}, but {} fits about as well",
+                    "the source loops were paired, in order, with target loops {}, but target loops {} fit "
+                    "about as well",
                     numbers(pairings[0].target), numbers(pairings[1].target))
                     .remedy("to choose, use match{{ loops = … }}"));
         }

@@ -469,8 +469,8 @@ GivenRows given_columns(const OpenVolume& volume, std::span<const LinkingSurface
             if (first == nullptr || stub.faces.size() < static_cast<std::size_t>(first->rows)) continue;
             throw NotSweepable(
                 Message("surface.wall_rows",
-                        "{} was given with {} rows of quads that end before the opposite end, and {} with {} "
-                        "rows from source to target, which leaves no row for the gap",
+                        "{} has {} rows of given quads but does not reach the opposite end, and {} has {} "
+                        "rows from source to target: no row is left for the gap",
                         entity_of(volume.model, stub.faces.front()), found(stub.faces.size()),
                         entity_of(volume.model, first_wall(*first)), found(first->rows))
                     .remedy("remesh one of them, or load with keep_mesh = false"));

@@ -311,7 +311,7 @@ std::vector<LinkingSurface> linking_surfaces(const OpenVolume& volume, Turning t
     std::vector<LinkingSurface> result;
     for (std::size_t s = 0; s < by_rim.size(); ++s) {
         if (!by_rim[s]) {
-            throw NotSweepable(Message("surface.no_belt", "{}, with {}, has no walls",
+            throw NotSweepable(Message("surface.no_belt", "{}, which contains {}, has no walls",
                                        NamedEntity{"source loop", static_cast<long long>(s) + 1},
                                        entity_of(model, source.rims[s].uses.front().edge))
                                    .remedy("close the volume first"));

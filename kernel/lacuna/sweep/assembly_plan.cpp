@@ -254,7 +254,7 @@ private:
         if (kept_[e] == Kept::rim) return nodes;
         const AssemblyMember& member = members_[edge.member];
         throw InvalidInput(Message("sweep.periodic_given",
-                                   "periodic: {} of {} has {} given nodes, its image has {} other ones, and "
+                                   "periodic: {} of {} has {} given nodes, but its image has {} others, and "
                                    "given nodes do not move",
                                    entity_in(member, edge.edge), member.region, given.size(), nodes.size())
                                .remedy("load one of them with keep_mesh = false"));

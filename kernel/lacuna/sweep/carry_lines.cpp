@@ -62,7 +62,7 @@ private:
     [[noreturn]] void refuse() const
     {
         throw NotSweepable("surface.not_imprinted",
-                           "{} has other points on its rim than the neighbour's face",
+                           "the rim of {} has other points than the rim of the neighbour's face",
                            entity_of(to_, whole_.front()));
     }
 

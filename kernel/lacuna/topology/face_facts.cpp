@@ -2,17 +2,23 @@
 #include <lacuna/topology/shared/face_facts.h>
 
 #include <lacuna/topology/open_volume.h>
+#include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
 
 namespace lacuna::topology {
 
+Eigen::AlignedBox3d box_of(const Model& model, FaceId face)
+{
+    Eigen::AlignedBox3d box;
+    for (const Index p : corners_of(model[face])) box.extend(model.at(p));
+    return box;
+}
+
 std::vector<FaceFacts> face_facts(const Model& model)
 {
     std::vector<FaceFacts> facts(model.faces.size());
-    for (std::size_t f = 0; f < model.faces.size(); ++f)
-        for (const Triangle& t : model.faces[f].triangles)
-            for (const Index p : t) facts[f].box.extend(model.at(p));
+    for (std::size_t f = 0; f < model.faces.size(); ++f) facts[f].box = box_of(model, FaceId(f));
     for (std::size_t e = 0; e < model.edges.size(); ++e) {
         const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
         if (uses.size() == 1) facts[uses.front().face.index()].free_edges.emplace_back(e);

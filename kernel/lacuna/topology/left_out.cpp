@@ -55,12 +55,12 @@ void require_none_left_out(const Model& model, const std::vector<FaceId>& faces,
     const NamedEntity edge = entity_of(model, first.edges.front());
     Message message = all.size() == 1
                           ? Message("cad.face_left_out",
-                                    "{} of {}, next to {}, is missing because it {}. If {} were found "
-                                    "automatically, its hole would count as part of the void",
+                                    "{} of {}, next to {}, is missing because it {}. Therefore {} cannot "
+                                    "be found automatically: the hole would count as part of the void",
                                     all, first.face.source, edge, first.face.why, found)
                           : Message("cad.face_left_out",
-                                    "{} of {} are missing; the first, next to {}, {}. If {} were found "
-                                    "automatically, the holes would count as part of the void",
+                                    "{} of {} are missing; the first, next to {}, {}. Therefore {} cannot "
+                                    "be found automatically: the holes would count as part of the void",
                                     all, first.face.source, edge, first.face.why, found);
     throw InvalidInput(std::move(message).remedy(
         "repair the CAD file, or name source, target and walls to close the hole with a void face"));

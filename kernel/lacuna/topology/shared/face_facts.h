@@ -16,6 +16,9 @@ struct FaceFacts {
     std::size_t part = 0;           ///< number of its connected part, from 0
 };
 
+/// Bounding box of a face's facets.
+Eigen::AlignedBox3d box_of(const Model& model, FaceId face);
+
 /// The facts of each face. O(facets + edges log edges).
 std::vector<FaceFacts> face_facts(const Model& model);
 
