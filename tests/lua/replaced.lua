@@ -289,7 +289,8 @@ check.that(coupled:find("and 4 nodes", 1, true), coupled)
 do
   local path = params.scratch .. "/plug.inp"
   check.fails(function() lacuna.load(path, { without = "plugs" }) end, "plugs", "body, plug")
-  check.fails(function() lacuna.load(path, { without = { "plug", "body" } }) end, "plug, body", "all elements of")
+  check.fails(function() lacuna.load(path, { without = { "plug", "body" } }) end, "plug, body",
+    "all elements of")
   check.fails(function() lacuna.load(path, { without = {} }) end, "without", "name or number")
   check.fails(function() lacuna.load(path, { without = true }) end, "without", "name or number")
   check.fails(function() lacuna.load(params.scratch .. "/plug.bdf", { without = 9 }) end, "9", "pid:7, pid:8")
