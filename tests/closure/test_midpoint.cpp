@@ -5,7 +5,9 @@
 #include <lacuna/closure/shared/cut.h>
 #include <lacuna/closure/shared/partition.h>
 
+#include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -18,8 +20,14 @@ namespace {
 /// The pieces of a volume without concave edges, whose blocks can be swept.
 std::vector<StepPiece> divided(const OpenVolume& volume, const RunContext& context = {})
 {
-    return closure::partition(
-        volume, [](const OpenVolume&) { return true; }, 0, context);
+    std::vector<StepPiece> first;
+    const auto take = [&](std::vector<StepPiece> pieces) {
+        first = std::move(pieces);
+        return true;
+    };
+    closure::partitions(
+        volume, [](const OpenVolume&) { return true; }, 0, take, context);
+    return first;
 }
 
 /// Blocks are watertight, have six faces with four sides each, fill the volume, keep its faces, and share
@@ -92,6 +100,35 @@ TEST_CASE("a volume with other vertices, with holes, closed edges or folded bloc
         const std::vector<StepPiece> pieces = divided(volume);
         REQUIRE(pieces.size() == 1);
         CHECK(pieces.front().volume.model.faces.size() == volume.model.faces.size());
+    }
+}
+
+TEST_CASE("partitions follow until one is taken, each fills the volume, and their first cuts differ")
+{
+    const std::vector<Vec2> stairs{{0, 0}, {4, 0}, {4, 1}, {2.5, 1}, {2.5, 2}, {1, 2}, {1, 4}, {0, 4}};
+    const OpenVolume volume = test::prism({.outline = stairs}).open();
+    const double whole = closure::enclosed_volume(volume);
+    const closure::CanSweep is_block = [](const OpenVolume& piece) { return piece.model.faces.size() <= 6; };
+    for (const std::size_t wanted : {1, 2, 100}) {
+        std::set<std::vector<double>> seen; // the volumes of the pieces of each partition
+        std::size_t calls = 0;
+        const auto take = [&](const std::vector<StepPiece>& pieces) {
+            std::vector<double> volumes;
+            for (const StepPiece& piece : pieces) {
+                CHECK(closure::is_watertight(piece.volume));
+                volumes.push_back(closure::enclosed_volume(piece.volume));
+            }
+            CHECK(std::reduce(volumes.begin(), volumes.end()) == doctest::Approx(whole).epsilon(1e-9));
+            std::ranges::sort(volumes);
+            seen.insert(volumes);
+            return ++calls == wanted;
+        };
+        closure::partitions(volume, is_block, 0, take);
+        CHECK(calls == seen.size());
+        if (wanted == 100)
+            CHECK(calls > 1);
+        else
+            CHECK(calls == wanted);
     }
 }
 

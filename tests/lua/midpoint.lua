@@ -280,6 +280,7 @@ local bodies = { ["s14o_cube_corner_sub_sphere.stp"] = 1000 - 4 / 3 * math.pi * 
 if whole then
   bodies["s04o_tetrahedron.geo"], bodies["s06o_dodecahedron.geo"] = false, false
   bodies["n08o_pentapyr.geo"], bodies["n14o_octahedron.geo"] = false, 4 / 3
+  bodies["i06o_m6.step"] = false -- the pieces of its best cut cannot be meshed together, those of another can
 end
 for file, volume in pairs(bodies) do
   local name = params.shared .. "/data/bodies/" .. file

@@ -275,9 +275,11 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, std::size_t& t
     return cuts;
 }
 
-/// The best cut of a piece; empty if no cut reduces the length that is left to cut in pieces without ends.
-std::vector<CutPart> best_cut(const CutPart& part, double least, std::size_t& tried,
-                              const CanSweep& can_sweep, const RunContext& context)
+/// The cuts of a piece that reduce the length left to cut in pieces without ends, best first. A cut into two
+/// pieces with ends is the only one. Cuts that leave the same length, by planes of coplanar faces or of equal
+/// features, are listed once.
+std::vector<CutTried> best_cuts(const CutPart& part, double least, std::size_t& tried,
+                                const CanSweep& can_sweep, const RunContext& context)
 {
     if (!(part.left > 0)) return {};
     std::vector<CutTried> cuts = try_cuts(part, least, tried, context);
@@ -291,15 +293,22 @@ std::vector<CutPart> best_cut(const CutPart& part, double least, std::size_t& tr
             own.has_ends = find_ends(own.piece, can_sweep, context);
             if (!own.has_ends) cut.left += own.left;
         }
-        if (cut.parts.size() == 2 && without_ends(cut) == 0) return std::move(cut.parts); // no cut is better
+        if (cut.parts.size() == 2 && without_ends(cut) == 0) { // no cut is better
+            std::swap(cut, cuts.front());
+            cuts.resize(1);
+            return cuts;
+        }
     }
-    const auto better = [&](const CutTried& a, const CutTried& b) {
-        return std::tuple(a.left, without_ends(a), a.parts.size()) <
-               std::tuple(b.left, without_ends(b), b.parts.size());
+    std::erase_if(cuts, [&](const CutTried& cut) { return !(cut.left < (1 - kFileAccuracy) * part.left); });
+    std::ranges::stable_sort(cuts, {}, [&](const CutTried& cut) {
+        return std::tuple(cut.left, without_ends(cut), cut.parts.size());
+    });
+    const auto alike = [&](const CutTried& a, const CutTried& b) {
+        return b.left - a.left <= kFileAccuracy * part.left && without_ends(a) == without_ends(b) &&
+               a.parts.size() == b.parts.size();
     };
-    const auto best = std::ranges::min_element(cuts, better);
-    if (best == cuts.end() || !(best->left < (1 - kFileAccuracy) * part.left)) return {};
-    return std::move(best->parts);
+    cuts.erase(std::ranges::unique(cuts, alike).begin(), cuts.end());
+    return cuts;
 }
 
 /// Cuts a volume, and its parts in turn, as long as a cut reduces the length left to cut in parts without
@@ -315,20 +324,29 @@ public:
     {
     }
 
-    /// Cut a part without ends, and its parts in turn. Returns the part itself unless one of the resulting
-    /// parts has ends or was divided.
-    std::vector<CutPart> cut(CutPart part)
+    /// The cuts of a part without ends, best first.
+    std::vector<CutTried> cuts_of(const CutPart& part)
     {
         check_cancelled(context_);
-        std::vector<CutPart> made;
-        if (tried_ < kMostCuts && pieces_ < kMostPieces)
-            made = best_cut(part, least_, tried_, can_sweep_, context_);
-        if (made.empty() || pieces_ + made.size() > kMostPieces + 1) return {std::move(part)};
+        if (tried_ >= kMostCuts || pieces_ >= kMostPieces) return {};
+        return best_cuts(part, least_, tried_, can_sweep_, context_);
+    }
+
+    /// Cut the parts of a part in turn. Returns the part itself unless one of the resulting parts has ends or
+    /// was divided.
+    std::vector<CutPart> cut_on(CutPart part, std::vector<CutPart> made)
+    {
+        if (pieces_ + made.size() > kMostPieces + 1) return {std::move(part)};
         pieces_ += made.size() - 1;
         std::vector<CutPart> all;
         for (CutPart& own : made) {
             if (!own.has_ends && own.left > 0) {
-                std::ranges::move(cut(std::move(own)), std::back_inserter(all));
+                std::vector<CutTried> cuts = cuts_of(own);
+                if (cuts.empty())
+                    all.push_back(std::move(own));
+                else
+                    std::ranges::move(cut_on(std::move(own), std::move(cuts.front().parts)),
+                                      std::back_inserter(all));
                 continue;
             }
             if (!own.has_ends) pieces_ += divide(own, kMostPieces + 1 - pieces_, can_sweep_block_, context_);
@@ -341,6 +359,9 @@ public:
         }
         return all;
     }
+
+    /// Start again with the whole volume. The cuts that were tried still count.
+    void start_again() { pieces_ = 1; }
 
 private:
     const CanSweep &can_sweep_, &can_sweep_block_;
@@ -401,34 +422,14 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
     return {};
 }
 
-} // namespace
-
-bool has_ends(const OpenVolume& piece)
-{
-    return !piece.faces(Role::source).empty() && !piece.faces(Role::target).empty();
-}
-
-std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_sweep, double least,
+/// The pieces of the parts of a volume. Parts that still have a length to cut are divided at their middles
+/// where that is possible.
+std::vector<StepPiece> pieces_of(std::vector<CutPart> parts, const CanSweep& can_sweep,
                                  const RunContext& context)
 {
-    const auto are_swept = [](const std::vector<CutPart>& parts) {
-        return std::ranges::all_of(parts, &CutPart::has_ends);
-    };
-    const CanSweep suits = [&](const OpenVolume& piece) {
-        return ends_suit_columns(piece) && can_sweep(piece);
-    };
-    std::vector<CutPart> parts = Cutter(suits, can_sweep, least, context).cut(part_of({volume}, context));
-    std::vector<StepPiece> pieces;
-    if (!are_swept(parts)) {
-        if (auto divided = with_rounds_divided(volume, can_sweep, context)) return {{std::move(*divided)}};
-        pieces = cut_in_steps(volume, can_sweep, context);
-        if (pieces.empty()) pieces = divided_at_middle(volume, kMostPieces, can_sweep, context);
-        if (pieces.empty() && parts.size() == 1 && !(parts.front().left > 0))
-            pieces = divided_at_centre(volume, kMostPieces, can_sweep, context);
-    }
-    if (!pieces.empty()) return pieces;
     std::size_t count = 0;
     for (const CutPart& part : parts) count += std::max<std::size_t>(1, part.blocks.size());
+    std::vector<StepPiece> pieces;
     for (CutPart& part : parts) {
         if (!part.has_ends && part.left > 0 && parts.size() > 1)
             count += divide(part, kMostPieces + 1 - std::min(kMostPieces, count), can_sweep, context);
@@ -438,6 +439,44 @@ std::vector<StepPiece> partition(const OpenVolume& volume, const CanSweep& can_s
         std::ranges::move(part.blocks, std::back_inserter(pieces));
     }
     return pieces;
+}
+
+} // namespace
+
+bool has_ends(const OpenVolume& piece)
+{
+    return !piece.faces(Role::source).empty() && !piece.faces(Role::target).empty();
+}
+
+void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double least, const TakePieces& take,
+                const RunContext& context)
+{
+    const CanSweep suits = [&](const OpenVolume& piece) {
+        return ends_suit_columns(piece) && can_sweep(piece);
+    };
+    Cutter cutter(suits, can_sweep, least, context);
+    const CutPart whole = part_of({volume}, context);
+    std::vector<CutTried> cuts = cutter.cuts_of(whole);
+    const auto parts_of_cut = [&](std::size_t number) {
+        cutter.start_again();
+        return cutter.cut_on(whole, std::move(cuts[number].parts));
+    };
+    std::vector<CutPart> first = cuts.empty() ? std::vector{whole} : parts_of_cut(0);
+    const bool is_swept = std::ranges::all_of(first, &CutPart::has_ends);
+    const bool is_whole = first.size() == 1 && !(first.front().left > 0);
+    if (is_swept && take(pieces_of(std::move(first), can_sweep, context))) return;
+    const auto take_some = [&](std::vector<StepPiece> pieces) {
+        return !pieces.empty() && take(std::move(pieces));
+    };
+    if (auto divided = with_rounds_divided(volume, can_sweep, context))
+        if (take({{std::move(*divided)}})) return;
+    if (take_some(cut_in_steps(volume, can_sweep, context)) ||
+        take_some(divided_at_middle(volume, kMostPieces, can_sweep, context)) ||
+        (is_whole && take_some(divided_at_centre(volume, kMostPieces, can_sweep, context))) ||
+        (!is_swept && take(pieces_of(std::move(first), can_sweep, context))))
+        return;
+    for (std::size_t c = 1; c < cuts.size(); ++c)
+        if (take(pieces_of(parts_of_cut(c), can_sweep, context))) return;
 }
 
 } // namespace lacuna::closure

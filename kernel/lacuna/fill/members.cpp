@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/fill/detail/members.h>
 
+#include <lacuna/closure/close.h>
 #include <lacuna/closure/shared/branches.h>
-#include <lacuna/closure/shared/partition.h>
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/nearest_word.h>
@@ -542,14 +542,26 @@ void report_left_out(const Volume& volume, std::vector<std::string>& report)
         report.push_back("closed: " + missing);
 }
 
-std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context)
+void partitions(const topology::OpenVolume& sealed, const closure::TakePieces& take,
+                const RunContext& context)
 {
     // A strip beside a cut would be filled with far smaller cells than the rest if it is thinner than this
     // share of the cell size. A choice, not measured.
     constexpr double kThin = 0.1;
-    return closure::partition(
+    closure::partitions(
         sealed, [&](const topology::OpenVolume& piece) { return can_sweep(piece, context); },
-        kThin * surface::default_size(sealed).length, context);
+        kThin * surface::default_size(sealed).length, take, context);
+}
+
+double swept_share(const std::vector<closure::StepPiece>& pieces)
+{
+    double swept = 0, all = 0;
+    for (const closure::StepPiece& piece : pieces) {
+        const double volume = closure::enclosed_volume(piece.volume);
+        all += volume;
+        if (closure::has_ends(piece.volume)) swept += volume;
+    }
+    return swept / all;
 }
 
 FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,

@@ -18,7 +18,9 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace lacuna::fill {
@@ -177,6 +179,71 @@ FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPie
     return mesh;
 }
 
+/// The share of a mesh's volume that is in hexahedra.
+double hex_share(const FilledParts& mesh)
+{
+    double tets = 0;
+    for (const FilledTets& part : mesh.tets) tets += part.fidelity.volume;
+    return 1 - tets / fidelity(mesh).volume;
+}
+
+/// Meshes partitions of a volume and keeps the mesh with the largest share of hexahedra. Only the notes of
+/// that mesh are logged.
+class PieceMesher {
+public:
+    PieceMesher(const Volume& sealed, const Message& why, const sweep::SweepOptions& options, bool sized,
+                const RunContext& context)
+        : sealed_(sealed), why_(why), options_(options), sized_(sized), context_(context)
+    {
+    }
+
+    void mesh(std::vector<closure::StepPiece> pieces)
+    {
+        const bool is_cut = pieces.size() > 1;
+        std::string cut = is_cut ? formatted("cut into {} pieces, because {}", pieces.size(), why_.text())
+                                 : formatted("swept {}, after the rounds at the rims of these ends were "
+                                             "divided, because {}",
+                                             ends_in_words(pieces.front().volume), why_.text());
+        std::vector<std::string> notes;
+        RunContext own = context_;
+        own.log = [&](std::string_view line) { notes.emplace_back(line); };
+        try {
+            FilledParts mesh = sweep_pieces_true(sealed_, std::move(pieces), options_, sized_, own);
+            const double share = hex_share(mesh);
+            if (!(share > share_)) return;
+            notes.push_back(formatted(
+                "note: no single sweep fills the volume{}; the report says why [{}]",
+                is_cut ? ", so it is cut into pieces" : " as it is, so its rounds are divided", why_.code()));
+            mesh.swept.report.insert(mesh.swept.report.begin(), std::move(cut));
+            best_ = std::move(mesh);
+            share_ = share;
+            notes_ = std::move(notes);
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& error) {
+            log_line(context_, formatted("{}: {}", cut, error.message().text()));
+        }
+    }
+
+    [[nodiscard]] double share() const { return share_; }
+
+    std::optional<FilledParts> best()
+    {
+        for (const std::string& note : notes_) log_line(context_, note);
+        return std::move(best_);
+    }
+
+private:
+    const Volume& sealed_;
+    const Message& why_;
+    const sweep::SweepOptions& options_;
+    bool sized_; ///< as for sweep_pieces_true()
+    const RunContext& context_;
+    std::optional<FilledParts> best_;
+    double share_ = 0; ///< of the volume of `best_` that is in hexahedra
+    std::vector<std::string> notes_;
+};
+
 /// Mesh a volume that no single sweep fills, in pieces that can be swept. With `Fallback::mixed`, pieces that
 /// cannot be swept are filled with tetrahedra; if there are no pieces, the whole volume is.
 /// @param why  why the volume cannot be swept
@@ -194,38 +261,29 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
         options.gap = std::max(options.gap, sweep::kDefaultGap);
     }
     Volume sealed = sealed_whole(volume, context);
-    std::vector<closure::StepPiece> pieces = partition(sealed.volume, context);
-    const auto is_swept = [](const closure::StepPiece& piece) { return closure::has_ends(piece.volume); };
-    const bool swept = mixed ? std::ranges::any_of(pieces, is_swept) : std::ranges::all_of(pieces, is_swept);
-    const bool is_cut = pieces.size() > 1;
+    PieceMesher mesher(sealed, why, options, static_cast<bool>(request.options.size), context);
+    // Partitions with pieces that have no ends, by the share of the volume in the pieces with ends.
+    std::multimap<double, std::vector<closure::StepPiece>, std::greater<>> partial;
+    const auto take = [&](std::vector<closure::StepPiece> pieces) {
+        const double share = swept_share(pieces);
+        if (share == 1)
+            mesher.mesh(std::move(pieces));
+        else if (mixed)
+            partial.emplace(share, std::move(pieces));
+        return mesher.share() == 1;
+    };
+    partitions(sealed.volume, take, context);
+    for (auto& [share, pieces] : partial)
+        if (share > mesher.share()) mesher.mesh(std::move(pieces));
     Filled filled;
-    if (swept) {
-        const std::string cut = is_cut
-                                    ? formatted("cut into {} pieces, because {}", pieces.size(), why.text())
-                                    : formatted("swept {}, after the rounds at the rims of these ends were "
-                                                "divided, because {}",
-                                                ends_in_words(pieces.front().volume), why.text());
-        try {
-            FilledParts mesh = sweep_pieces_true(sealed, std::move(pieces), options,
-                                                 static_cast<bool>(request.options.size), context);
-            mesh.swept.report.insert(mesh.swept.report.begin(), cut);
-            log_line(context, formatted("note: no single sweep fills the volume{}; the report says why [{}]",
-                                        is_cut ? ", so it is cut into pieces"
-                                               : " as it is, so its rounds are "
-                                                 "divided",
-                                        why.code()));
-            filled.mesh = std::move(mesh);
-            filled.volumes.push_back(std::move(sealed));
-            return filled;
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const Error& error) {
-            log_line(context, formatted("{}: {}", cut, error.message().text()));
-        }
+    if (auto mesh = mesher.best()) {
+        filled.mesh = std::move(*mesh);
+    } else if (mixed) {
+        if (!sealed.no_roles) sealed.no_roles = why;
+        filled.mesh = fill_alone({&sealed, nullptr, nullptr, options, true, true}, context);
+    } else {
+        return std::nullopt;
     }
-    if (!mixed) return std::nullopt;
-    if (!sealed.no_roles) sealed.no_roles = why;
-    filled.mesh = fill_alone({&sealed, nullptr, nullptr, options, true, true}, context);
     filled.volumes.push_back(std::move(sealed));
     return filled;
 }

@@ -133,11 +133,12 @@ void prove(FilledTets& tets, const RunContext& context)
 
 void require_quality(const FilledTets& tets, const sweep::SweepOptions& options)
 {
-    if (tets.quality.min_scaled_jacobian < options.min_scaled_jacobian)
+    // Coordinates in single precision may invert a flatter cell.
+    const double least = std::max(options.min_scaled_jacobian, kFileAccuracy);
+    if (tets.quality.min_scaled_jacobian < least)
         throw NotSweepable(Message("quality.below_limit",
                                    "{}: the smallest scaled Jacobian is {:.3g}, below the limit of {:.3g}",
-                                   tets.region, found(tets.quality.min_scaled_jacobian),
-                                   needed(options.min_scaled_jacobian))
+                                   tets.region, found(tets.quality.min_scaled_jacobian), needed(least))
                                .remedy("use a smaller 'size'"));
 }
 

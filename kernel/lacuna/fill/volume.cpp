@@ -307,7 +307,15 @@ std::vector<Volume> cut(const Volume& volume, const Cut& where, const RunContext
         return fill::cut(close(volume, {}, context), where, context);
     std::vector<closure::StepPiece> cut;
     if (where.automatic) {
-        cut = partition(sealed_whole(volume, context).volume, context);
+        double share = -1;
+        const auto keep_best = [&](std::vector<closure::StepPiece> pieces) {
+            if (const double own = swept_share(pieces); own > share) {
+                share = own;
+                cut = std::move(pieces);
+            }
+            return share == 1;
+        };
+        partitions(sealed_whole(volume, context).volume, keep_best, context);
     } else if (where.plane) {
         cut = closure::cut_by_plane(volume.volume, *where.plane, context);
     } else if (where.model != nullptr) {

@@ -32,7 +32,7 @@ constexpr double kGoodAngle = 0.577;
 constexpr int kImprovements = 6;
 /// Tangent of an angle that counts as zero.
 constexpr double kFlat = 1e-4;
-/// Maximum number of triangles after a round of splitting, as a multiple of the estimate from area and size.
+/// Maximum number of triangles, as a multiple of the estimate from area and size before the first round.
 /// Badly shaped triangles need at most twice the estimate. The limit ends splitting that would otherwise go
 /// on forever next to folded facets.
 constexpr double kMostOfEstimate = 4;
@@ -114,7 +114,7 @@ Index SkinRemesher::try_split(Index s)
     return mesh_.split(s, node, normals);
 }
 
-void SkinRemesher::split_long()
+double SkinRemesher::most_sides() const
 {
     double estimate = 0; // estimated number of triangles
     for (std::size_t i = 0; i < mesh_.sides.size(); i += 3) {
@@ -129,7 +129,11 @@ void SkinRemesher::split_long()
                                    "the skin needs {:.2g} triangles; at most {:.2g} are allowed",
                                    found(estimate), needed(kMostTriangles))
                                .remedy("use a larger 'size'"));
-    const double most = static_cast<double>(mesh_.sides.size()) + 3 * kMostOfEstimate * estimate;
+    return static_cast<double>(mesh_.sides.size()) + 3 * kMostOfEstimate * estimate;
+}
+
+void SkinRemesher::split_long(double most)
+{
     std::priority_queue<std::pair<double, Index>> queue;
     const auto add = [&](Index s) {
         s = std::min(s, mesh_.twin(s));
@@ -393,8 +397,10 @@ void SkinRemesher::improve(bool moves)
 void SkinRemesher::run(const topology::Model& model)
 {
     flip_all();
+    // Counted once: where facets fold, every round adds triangles, and the area to fill grows with them.
+    const double most = most_sides();
     for (int round = 0; round < kRounds; ++round) {
-        split_long();
+        split_long(most);
         collapse_short();
         flip_all();
         smooth(kPoorAngle);

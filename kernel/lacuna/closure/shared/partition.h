@@ -13,7 +13,11 @@ namespace lacuna::closure {
 /// Whether the walls of a sealed volume can be meshed between its ends.
 using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 
-/// Cut a sealed volume that no single sweep fills into pieces that can be swept.
+/// Receives the pieces of a partition. @return  whether no other partition is needed.
+using TakePieces = std::function<bool(std::vector<StepPiece>)>;
+
+/// Find partitions of a sealed volume that no single sweep fills, into pieces that can be swept, best first.
+/// A partition is made only if `take` needs another one.
 ///
 /// Candidate cuts are those of `cut_planes()`:
 /// - the plane of a flat face next to concave edges, only in the regions of the plane that adjoin these
@@ -28,21 +32,23 @@ using CanSweep = std::function<bool(const topology::OpenVolume&)>;
 /// faces, or at a centre, that is, by three planes at right angles through the centre of a sphere or the apex
 /// of a cone. A cut is undone if none of the resulting pieces has ends or is divided.
 ///
-/// If a piece is left without ends, the whole volume is tried in four other ways, in this order:
-/// - as one piece with ends along an axis, after the rounds at the rims of these ends were divided
+/// If the best cuts leave a piece without ends, or if the pieces cannot be meshed together, there are other
+/// partitions, in this order:
+/// - the volume as one piece with ends along an axis, after the rounds at the rims of these ends were divided
 ///   (`split_round_rims()`);
-/// - cut in steps between all faces that face along an axis (`cut_steps()`);
+/// - the volume cut in steps between all faces that face along an axis (`cut_steps()`);
 /// - divided at its middle (`midpoint_blocks()`);
-/// - divided at a centre, if no cut was made and no length is left to cut.
-///
-/// If none of these succeeds, the pieces of the cuts are kept. Those that still have a length to cut are
-/// divided at their middles where that is possible.
+/// - divided at a centre, if no cut was made and no length is left to cut;
+/// - the pieces of the best cuts, if some have no ends. Those that still have a length to cut are divided at
+///   their middles where that is possible;
+/// - the pieces of up to five other cuts of the volume, each cut on in the same way.
 /// @param least  the least distance between a cut and an edge beside it, unless the volume itself is that
 ///               thin there [model length].
-/// @return  pieces with their ends; those without ends cannot be swept. The volume itself if no cut helps.
-/// @note  Cutting stops after 200 trial cuts or at 64 pieces. O(facets log facets) for each cut.
-std::vector<StepPiece> partition(const topology::OpenVolume& volume, const CanSweep& can_sweep, double least,
-                                 const RunContext& context = {});
+/// @param take   called with pieces and their ends; those without ends cannot be swept. Only the volume
+///               itself if no cut helps.
+/// @note  Cutting stops after 200 trial cuts in all, or at 64 pieces. O(facets log facets) for each cut.
+void partitions(const topology::OpenVolume& volume, const CanSweep& can_sweep, double least,
+                const TakePieces& take, const RunContext& context = {});
 
 /// Whether a piece has a source and a target.
 bool has_ends(const topology::OpenVolume& piece);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <lacuna/closure/shared/partition.h>
 #include <lacuna/closure/shared/steps.h>
 #include <lacuna/core/error.h>
 #include <lacuna/fill.h>
@@ -54,8 +55,12 @@ Volume piece_of(const Volume& whole, closure::StepPiece piece, const std::string
 bool has_pieces(const Volume& volume, const RunContext& context);
 std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunContext& context);
 
-/// Cut a sealed volume into pieces that can be swept, by `closure::partition()`.
-std::vector<closure::StepPiece> partition(const topology::OpenVolume& sealed, const RunContext& context);
+/// Call `take` with partitions of a sealed volume until it returns true, by `closure::partitions()`.
+void partitions(const topology::OpenVolume& sealed, const closure::TakePieces& take,
+                const RunContext& context);
+
+/// The share of the pieces' volume that is in pieces with ends; exactly 1 if all have ends.
+double swept_share(const std::vector<closure::StepPiece>& pieces);
 
 /// Sweep the pieces of one volume as an assembly.
 FilledParts sweep_pieces(const Volume& volume, std::vector<closure::StepPiece> pieces,

@@ -27,7 +27,11 @@ private:
     [[nodiscard]] double ratio(Index s) const;
     [[nodiscard]] double worst_around(Index node, const Vec3& place) const;
 
-    void split_long();
+    /// Largest number of sides: those of the mesh, and a multiple of those that the sizes call for.
+    /// @throw NotSweepable "surface.skin_count"  the sizes call for too many triangles.
+    [[nodiscard]] double most_sides() const;
+    /// @param most  splitting stops at this number of sides.
+    void split_long(double most);
     Index try_split(Index s);
     void collapse_short();
     bool try_collapse(Index s, double least);
