@@ -108,7 +108,7 @@ int copy(lua_State* L)
 {
     const auto& arguments = push_arguments(L, "copy", kCopyOptions, "'translate', 'rotate' or 'mirror'");
     const State& state = hold<State>(L, 1);
-    return push_swept(L, {}, "copy", nullptr, push_context(L), [&] {
+    return push_swept(L, {}, "copy", nullptr, push_context(L), [&](const RunContext&) {
         return fill::Filled{{}, fill::moved(state, Eigen::Affine3d(*arguments.by), arguments.name)};
     });
 }
@@ -129,11 +129,11 @@ int pattern(lua_State* L)
                 "including the mesh itself");
     const State& state = hold<State>(L, 1);
     RunContext& context = push_context(L);
-    return push_swept(L, {}, "pattern", nullptr, context, [&] {
+    return push_swept(L, {}, "pattern", nullptr, context, [&](const RunContext& part) {
         fill::FilledParts parts;
-        return fill::Filled{{},
-                            fill::pattern(parts_of(state, parts), Eigen::Affine3d(*arguments.by),
-                                          arguments.pattern, context)};
+        return fill::Filled{
+            {},
+            fill::pattern(parts_of(state, parts), Eigen::Affine3d(*arguments.by), arguments.pattern, part)};
     });
 }
 
