@@ -104,6 +104,18 @@ class Meshio(unittest.TestCase):
         part = lacuna.load(out)
         self.assertEqual(len(part.faces(name="physical_1")), 1)
 
+    def test_messages_name_the_mesh_and_no_file(self):
+        import meshio
+        out = prism().sweep(layers=2, size=0.5).to_meshio()
+        cells = [("hexahedron", out.cells_dict["hexahedron"] + len(out.points) - 1)]
+        for wrong in meshio.Mesh(out.points, cells), \
+                meshio.Mesh(out.points, cells, cell_sets={"a": [numpy.array([0])]}), meshio.Mesh(out.points, []):
+            with self.assertRaises(lacuna.Error) as caught:
+                lacuna.load(wrong)
+            self.assertIn("the meshio mesh", caught.exception.message)
+            self.assertNotIn("/", caught.exception.message)
+        self.assertEqual(str(lacuna.load(out)), "Model of 6 faces from the meshio mesh")
+
     def test_sets_of_points_are_left_out_with_a_note(self):
         out = prism().sweep(layers=2, size=0.5).to_meshio()
         out.point_sets["held"] = numpy.array([0, 1])
