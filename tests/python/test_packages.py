@@ -129,10 +129,21 @@ def grid_of_vtk(cells, kinds, points):
     import vtk
     from vtk.util import numpy_support
 
+    class CellData(dict):
+        """As in PyVista: an array has a value a cell, and is written with the grid."""
+
+        def __setitem__(self, name, values):
+            if len(values) != grid.GetNumberOfCells():
+                raise ValueError(f"{len(values)} values for {grid.GetNumberOfCells()} cells")
+            array = numpy_support.numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+            array.SetName(name)
+            grid.GetCellData().AddArray(array)
+            super().__setitem__(name, values)
+
     class UnstructuredGrid(vtk.vtkUnstructuredGrid):
         def __init__(self):
             super().__init__()
-            self.cell_data, self.cells_dict = {}, {}
+            self.cell_data, self.cells_dict = CellData(), {}
 
         def cast_to_unstructured_grid(self):
             return self
@@ -224,6 +235,7 @@ class PyVista(unittest.TestCase):
             part = lacuna.load(mesh.to_pyvista())
             self.assertTrue(all(face.has_mesh for face in part.faces()))
             self.assertEqual(len(part.faces()), 6 if mesh.wedges else 8)
+            self.assertIn("from the PyVista mesh", str(part))
         grid = mesh.to_pyvista()
         grid.cell_data["gmsh:physical"] = numpy.ones(mesh.hexes)
         with self.assertLogs("lacuna", "WARNING") as caught:
