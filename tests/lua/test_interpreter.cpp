@@ -410,10 +410,18 @@ TEST_CASE("from C: values, buffers, errors and their entities, and no exception 
     lacuna_options options;
     lacuna_default_options(&options);
     options.traceback = 1;
+    std::vector<double> shares;
+    options.user = &shares;
+    options.progress = [](void* user, const char*, double share) {
+        static_cast<std::vector<double>*>(user)->push_back(share);
+        return 0;
+    };
     lacuna_interpreter* const handle = lacuna_open(&options);
     REQUIRE(handle);
     CHECK(lacuna_set_integer(handle, "layers", 4) == LACUNA_OK);
     CHECK(lacuna_run_string(handle, kBox, std::strlen(kBox), nullptr) == LACUNA_OK);
+    CHECK(std::ranges::is_sorted(shares));
+    CHECK(shares.back() == 1);
     std::int64_t layers = 0;
     CHECK(lacuna_get_integer(handle, "mesh.layers", &layers) == LACUNA_OK);
     CHECK(layers == 4);
