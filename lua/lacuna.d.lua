@@ -4,6 +4,7 @@
 -- In .luarc.json: { "workspace.library": ["<folder of this file>"] }.
 
 ---@alias lacuna.Vector { [1]: number, [2]: number, [3]: number } x, y, z [model length]
+---@alias lacuna.Plane { [1]: lacuna.Vector, [2]: lacuna.Vector }|{ point: lacuna.Vector, normal: lacuna.Vector } point and normal
 ---@alias lacuna.Thickness number|fun(x: number, y: number, z: number): number [model length]
 ---@alias lacuna.Class "I"|"II"|"III"|"IV"|"V"|"closed"|"0"
 
@@ -61,7 +62,7 @@
 ---@field reading? integer where roles are detected and several volumes are possible: number of the volume, from 1
 ---@field full_turn? boolean the walls form a closed ring, swept through 360 degrees without ends; default false
 ---@field along? lacuna.Along where only a source, and walls if any, are given: the path along which the source is swept
----@field fill_to? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal of a plane: only the part of the void behind it is filled
+---@field fill_to? lacuna.Plane point and normal, also as keys of these names: only the part of the void behind this plane is filled
 ---@field class? lacuna.Class class to use instead of the detected one
 ---@field name? string name of the group, set or property of the cells in files; default "volume"
 ---@field material? string|integer material of the cells, in decks; default: that of the adjacent elements
@@ -100,7 +101,7 @@
 ---@class lacuna.CopyOptions
 ---@field translate? lacuna.Vector
 ---@field rotate? { [1]: lacuna.Vector, [2]: lacuna.Vector, [3]: number } point, direction and angle [degrees]
----@field mirror? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal of the plane
+---@field mirror? lacuna.Plane point and normal, also as keys of these names
 ---@field name? string name of the copy's region, or the prefix of its regions' names; default: the names of the mesh
 
 --- One of translate and rotate, and the number of copies.
@@ -238,7 +239,7 @@
 ---@field height? integer default 900 [pixels]
 ---@field view? "iso"|"front"|"back"|"left"|"right"|"top"|"bottom"|lacuna.Vector direction from the object to the viewer; default "iso"
 ---@field colour? "quality"|"layer"|"groups"|"region"|"origin" what the colours of cells show; default "quality"
----@field cut? { point: lacuna.Vector, normal: lacuna.Vector } only cells whose centre lies behind this plane are shown
+---@field cut? lacuna.Plane point and normal, also as keys of these names: only cells whose centre lies behind this plane are shown
 ---@field layers? { [1]: integer, [2]: integer } first and last layer that is shown; default all
 ---@field edges? boolean draw the edges of the cells; default true
 ---@field legend? boolean show a title and a key to the colours; default true
@@ -413,7 +414,7 @@ function Model:view(path, options) end
 function Model:picture(path, options) end
 
 ---@class lacuna.CutOptions
----@field plane? { [1]: lacuna.Vector, [2]: lacuna.Vector } point and normal
+---@field plane? lacuna.Plane point and normal, also as keys of these names
 ---@field face? lacuna.FaceRef a Face of any model, or a face of the volume
 ---@field auto? boolean cut where the pieces can be swept: along planes at concave edges, or into blocks at the vertices
 

@@ -102,7 +102,7 @@ int push_swept_assembly(lua_State* L, int index, const char* call, const SweepFi
     RunContext& context = push_context(L);
     if (threads != 0) context.threads = threads;
     return push_swept(L, volumes, "sweep", file, context,
-                      [&] { return fill::sweep(members, context, contacts); });
+                      [&](const RunContext& part) { return fill::sweep(members, part, contacts); });
 }
 
 /// mesh = assembly:sweep(options)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // mesh:copy and mesh:pattern.
 #include "bindings/classes.h"
+#include "bindings/faces.h"
 #include "bindings/names.h"
 #include "bindings/options.h"
 #include "bindings/sweep_to.h"
@@ -33,26 +34,15 @@ void read_translate(lua_State* L, int index, const Where& where, CopyArguments& 
     set_motion(L, where, arguments, Eigen::Affine3d(Eigen::Translation3d(read_vector(L, index, where))));
 }
 
-/// Read a point and a direction: the first two of the `count` elements of the array at `index`.
-std::pair<Vec3, Vec3> read_point_and_direction(lua_State* L, int index, const Where& where, std::size_t count,
-                                               const char* expected)
-{
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != count)
-        fail_value(L, where, expected, index);
-    std::pair<Vec3, Vec3> read;
-    lua_rawgeti(L, index, 1);
-    read.first = read_vector(L, lua_gettop(L), where);
-    lua_rawgeti(L, index, 2);
-    read.second = read_vector(L, lua_gettop(L), where);
-    if (!(read.second.stableNorm() > 0)) fail_option(L, where, "has a direction of length 0");
-    read.second.stableNormalize();
-    return read;
-}
-
 void read_rotate(lua_State* L, int index, const Where& where, CopyArguments& arguments)
 {
-    const auto [point, axis] = read_point_and_direction(L, index, where, 3,
-                                                        "{ point, direction, angle in degrees }");
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 3)
+        fail_value(L, where, "{ point, direction, angle in degrees }", index);
+    lua_rawgeti(L, index, 1);
+    const Vec3 point = read_vector(L, lua_gettop(L), where);
+    lua_rawgeti(L, index, 2);
+    const Vec3 axis = read_vector(L, lua_gettop(L), where).stableNormalized();
+    if (!(axis.norm() > 0)) fail_option(L, where, "has a direction of length 0");
     lua_rawgeti(L, index, 3);
     constexpr double kDegree = 3.14159265358979323846 / 180;
     const double angle = read_number(L, lua_gettop(L), where) * kDegree;
@@ -62,7 +52,8 @@ void read_rotate(lua_State* L, int index, const Where& where, CopyArguments& arg
 
 void read_mirror(lua_State* L, int index, const Where& where, CopyArguments& arguments)
 {
-    const auto [point, normal] = read_point_and_direction(L, index, where, 2, "{ point, normal }");
+    const auto [point, across] = read_point_and_normal(L, index, where);
+    const Vec3 normal = across.stableNormalized();
     Eigen::Affine3d by = Eigen::Affine3d::Identity();
     by.linear() -= 2 * normal * normal.transpose();
     by.translation() = 2 * normal.dot(point) * normal;
@@ -108,7 +99,7 @@ int copy(lua_State* L)
 {
     const auto& arguments = push_arguments(L, "copy", kCopyOptions, "'translate', 'rotate' or 'mirror'");
     const State& state = hold<State>(L, 1);
-    return push_swept(L, {}, "copy", nullptr, push_context(L), [&] {
+    return push_swept(L, {}, "copy", nullptr, push_context(L), [&](const RunContext&) {
         return fill::Filled{{}, fill::moved(state, Eigen::Affine3d(*arguments.by), arguments.name)};
     });
 }
@@ -129,11 +120,11 @@ int pattern(lua_State* L)
                 "including the mesh itself");
     const State& state = hold<State>(L, 1);
     RunContext& context = push_context(L);
-    return push_swept(L, {}, "pattern", nullptr, context, [&] {
+    return push_swept(L, {}, "pattern", nullptr, context, [&](const RunContext& part) {
         fill::FilledParts parts;
-        return fill::Filled{{},
-                            fill::pattern(parts_of(state, parts), Eigen::Affine3d(*arguments.by),
-                                          arguments.pattern, context)};
+        return fill::Filled{
+            {},
+            fill::pattern(parts_of(state, parts), Eigen::Affine3d(*arguments.by), arguments.pattern, part)};
     });
 }
 

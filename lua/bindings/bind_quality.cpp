@@ -108,7 +108,8 @@ int quality_pairs(lua_State* L)
     return 3;
 }
 
-/// Counts, a histogram and a line for each metric, except for a metric's second name and VTK's edge ratio.
+/// Counts, the scaled Jacobian with a histogram, and a line for each other metric, except for a metric's
+/// second name and VTK's edge ratio.
 int quality_to_string(lua_State* L)
 {
     lua_settop(L, 1);
@@ -117,7 +118,8 @@ int quality_to_string(lua_State* L)
     push_text(L, [&] {
         std::vector<quality::MetricSummary> shown;
         for (const quality::MetricSummary& summary : *source.metrics)
-            if (summary.metric != quality::Metric::max_aspect_frobenius &&
+            if (summary.metric != quality::Metric::scaled_jacobian &&
+                summary.metric != quality::Metric::max_aspect_frobenius &&
                 summary.metric != quality::Metric::edge_ratio)
                 shown.push_back(summary);
         std::string text = quality::to_table(source.quality);

@@ -19,8 +19,8 @@ int push_swept_volume(lua_State* L, const char* call, VolumeState& state, SweepA
     if (arguments.threads != 0) context.threads = arguments.threads;
     auto& volumes = temporary<std::vector<VolumeState*>>(L);
     guard(L, [&] { volumes.push_back(&state); });
-    return push_swept(L, volumes, call, file, context, [&] {
-        return fill::sweep(state, {arguments, layered_parts}, context);
+    return push_swept(L, volumes, call, file, context, [&](const RunContext& part) {
+        return fill::sweep(state, {arguments, layered_parts}, part);
     });
 }
 

@@ -2,6 +2,7 @@
 // Pages: model:view(path), volume:view(path), mesh:view(path), lacuna.view(file, path).
 // Pictures: picture(path) of the same three.
 #include "bindings/classes.h"
+#include "bindings/faces.h"
 #include "bindings/io_paths.h"
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
@@ -130,21 +131,10 @@ void read_direction(lua_State* L, int index, const Where& where, view::PictureOp
     options.direction = {x, y, z};
 }
 
-const Option<view::CutPlane> kViewCutOptions[] = {{"point", vector<&view::CutPlane::point>},
-                                                  {"normal", vector<&view::CutPlane::normal>}};
-
 void read_cut(lua_State* L, int index, const Where& where, view::PictureOptions& options)
 {
-    if (lua_type(L, index) != LUA_TTABLE)
-        fail_value(L, where, "a table { point = {x, y, z}, normal = {x, y, z} }", index);
-    view::CutPlane plane;
-    for (const char* key : {"point", "normal"}) {
-        if (lua_getfield(L, index, key) == LUA_TNIL)
-            fail_option(L, where, "has no '%s': { point = {x, y, z}, normal = {x, y, z} }", key);
-        lua_pop(L, 1);
-    }
-    read_options(L, index, "picture: cut", kViewCutOptions, plane);
-    options.cut = plane;
+    const auto [point, normal] = read_point_and_normal(L, index, where);
+    options.cut = {point, normal};
 }
 
 void read_shown_layers(lua_State* L, int index, const Where& where, view::PictureOptions& options)

@@ -361,16 +361,30 @@ const Option<GrowArguments> kGrowOptions[] = {
 
 } // namespace
 
+PointAndNormal read_point_and_normal(lua_State* L, int index, const Where& where)
+{
+    int entries = 0;
+    if (lua_type(L, index) == LUA_TTABLE)
+        for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) ++entries;
+    const auto read = [&](int number, const char* key) {
+        if (entries != 2 ||
+            (lua_getfield(L, index, key) == LUA_TNIL && lua_rawgeti(L, index, number) == LUA_TNIL))
+            fail_value(L, where,
+                       "a plane { point, normal }, as { { 0, 0, 1 }, { 0, 0, 1 } } or "
+                       "{ point = { 0, 0, 1 }, normal = { 0, 0, 1 } }",
+                       index);
+        return read_vector(L, lua_gettop(L), where);
+    };
+    const int top = lua_gettop(L);
+    const PointAndNormal plane{read(1, "point"), read(2, "normal")};
+    lua_settop(L, top);
+    if (!(plane.normal.stableNorm() > 0)) fail_option(L, where, "has a normal of length 0");
+    return plane;
+}
+
 geometry::Plane read_plane(lua_State* L, int index, const Where& where)
 {
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2)
-        fail_value(L, where, "a plane { point, normal }, as { { 0, 0, 1 }, { 0, 0, 1 } }", index);
-    lua_rawgeti(L, index, 1);
-    lua_rawgeti(L, index, 2);
-    const Vec3 point = read_vector(L, lua_absindex(L, -2), where),
-               normal = read_vector(L, lua_absindex(L, -1), where);
-    lua_pop(L, 2);
-    if (!(normal.stableNorm() > 0)) fail_option(L, where, "has a normal of length 0");
+    const auto [point, normal] = read_point_and_normal(L, index, where);
     return geometry::plane_across(point, normal.stableNormalized());
 }
 

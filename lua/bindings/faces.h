@@ -47,7 +47,14 @@ void mark_found_nothing(lua_State* L, int selector);
 void read_faces(lua_State* L, int index, const Where& where, const Box<ModelState>& model,
                 std::vector<FaceId>& faces);
 
-/// A plane { point, normal }.
+struct PointAndNormal {
+    Vec3 point, normal;
+};
+
+/// A plane { point, normal } or { point =, normal = }, whose normal is not 0.
+PointAndNormal read_point_and_normal(lua_State* L, int index, const Where& where);
+
+/// The same, with a normal of length 1.
 geometry::Plane read_plane(lua_State* L, int index, const Where& where);
 
 /// Grow a face with the options of face_from at `index`, and replace the model by one with that face. Leaves

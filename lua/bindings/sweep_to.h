@@ -6,6 +6,8 @@
 #include "bindings/classes.h"
 #include "bindings/write_mesh.h"
 
+#include <lacuna/core/shared/progress.h>
+
 #include <memory>
 #include <vector>
 
@@ -40,6 +42,7 @@ int push_run(lua_State* L, SweepRun& run, bool has_file);
 /// change only when everything is done.
 /// @param volumes  in the order of the volumes of the `fill::Filled` that `sweep()` returns.
 /// @param file     null: none
+/// @param sweep    called with the context of its part of the call
 template <class Sweep>
 int push_swept(lua_State* L, const std::vector<VolumeState*>& volumes, const char* call,
                const SweepFile* file, RunContext& context, const Sweep& sweep)
@@ -51,8 +54,9 @@ int push_swept(lua_State* L, const std::vector<VolumeState*>& volumes, const cha
         std::vector<std::unique_ptr<Busy>> busy;
         for (VolumeState* volume : volumes) busy.push_back(std::make_unique<Busy>(*volume, call));
         StageClock clock(context);
-        run.filled = sweep();
-        if (file != nullptr) write_filled(lent, run, *file, context);
+        const double swept = file != nullptr ? 0.5 : 1; // share of the call; writing takes about as long
+        run.filled = sweep(part_of(context, 0, swept));
+        if (file != nullptr) write_filled(lent, run, *file, part_of(context, swept, 1));
         for (std::size_t v = 0; v < volumes.size(); ++v) *volumes[v] = std::move(run.filled.volumes[v]);
         run.seconds = clock.seconds();
     });

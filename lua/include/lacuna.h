@@ -52,7 +52,7 @@ typedef struct lacuna_options {
     void* user;  /* passed to every callback; callbacks may be null */
     void (*print)(void* user, const char* text, size_t length);   /* null: prints to standard output */
     void (*log)(void* user, const char* text, size_t length);     /* receives notes of the kernel */
-    int (*progress)(void* user, const char* stage, double share); /* in [0, 1]; not 0: stop the run */
+    int (*progress)(void* user, const char* stage, double share); /* of the call, in [0, 1]; not 0: stop */
     int (*cancelled)(void* user);                                 /* called often; not 0: stop the run */
     size_t memory;             /* limit on the memory of Lua's own values [bytes]; 0: none */
     uint64_t instructions;     /* limit on the Lua instructions of a run, in steps of 10,000; 0: none */

@@ -41,7 +41,6 @@ void ProgressLine::watch(InterpreterOptions& options)
         const std::lock_guard lock(mutex_);
         const Clock::time_point now = Clock::now();
         if (stage_.empty()) begin_ = told_ = now;
-        if (stage_ != stage) stage_begin_ = now;
         stage_ = stage;
         share_ = share;
         changed_.notify_all();
@@ -84,8 +83,8 @@ std::string ProgressLine::text(Clock::time_point now) const
     const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
     char numbers[96];
     std::snprintf(numbers, sizeof numbers, ", %.0f s", seconds(now - begin_));
-    if (share_ >= kLeastShare && now > stage_begin_) {
-        const double rate = share_ / seconds(now - stage_begin_);
+    if (share_ >= kLeastShare && now > begin_) {
+        const double rate = share_ / seconds(now - begin_);
         std::snprintf(numbers, sizeof numbers, " %.0f %%, %.1f %% a second, %.0f s, about %.0f s left",
                       100 * share_, 100 * rate, seconds(now - begin_), (1 - share_) / rate);
     }

@@ -43,7 +43,6 @@ private:
     std::string expected_; ///< expected number of cells; empty: unknown
     double share_ = 0;
     Clock::time_point begin_;       ///< start of the current series of stages
-    Clock::time_point stage_begin_; ///< start of the stage
     Clock::time_point told_;        ///< time of the last line, if not on a terminal
     bool shown_ = false, ended_ = false;
     std::thread thread_;

@@ -318,7 +318,8 @@ class Model(Shown):
         full_turn: bool; the walls form a closed ring, swept through 360 degrees without ends; default False
         along: dict; where only a source, and walls if any, are given: the path along which the source is
             swept
-        fill_to: list[(x, y, z)]; point and normal of a plane: only the part of the void behind it is filled
+        fill_to: list[(x, y, z)] | dict; point and normal, also as keys of these names: only the part of the
+            void behind this plane is filled
         class_: "I" | "II" | "III" | "IV" | "V" | "closed" | "0"; class to use instead of the detected one
         name: str; name of the group, set or property of the cells in files; default "volume"
         material: str | int; material of the cells, in decks; default: that of the adjacent elements
@@ -549,7 +550,7 @@ class Volume(Shown):
         """Cut the volume by a plane or a face into pieces that share the cut. Without options a volume is cut
         where it branches, or where an end lies at several heights; otherwise the result is the volume itself.
 
-        plane: list[(x, y, z)]; point and normal
+        plane: list[(x, y, z)] | dict; point and normal, also as keys of these names
         face: Face | int | str | dict; a Face of any model, or a face of the volume
         auto: bool; cut where the pieces can be swept: along planes at concave edges, or into blocks at the
             vertices
@@ -772,7 +773,7 @@ class Mesh(AnyMesh):
 
         translate: (x, y, z)
         rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
-        mirror: list[(x, y, z)]; point and normal of the plane
+        mirror: list[(x, y, z)] | dict; point and normal, also as keys of these names
         name: str; name of the copy's region, or the prefix of its regions' names; default: the names of the
             mesh
         """
@@ -872,7 +873,8 @@ class Mesh(AnyMesh):
             object to the viewer; default "iso"
         colour: "quality" | "layer" | "groups" | "region" | "origin"; what the colours of cells show; default
             "quality"
-        cut: dict; only cells whose centre lies behind this plane are shown
+        cut: list[(x, y, z)] | dict; point and normal, also as keys of these names: only cells whose centre
+            lies behind this plane are shown
         layers: list[int]; first and last layer that is shown; default all
         edges: bool; draw the edges of the cells; default True
         legend: bool; show a title and a key to the colours; default True
@@ -1098,7 +1100,7 @@ class AssemblyMesh(AnyMesh):
 
         translate: (x, y, z)
         rotate: list[(x, y, z) | float]; point, direction and angle [degrees]
-        mirror: list[(x, y, z)]; point and normal of the plane
+        mirror: list[(x, y, z)] | dict; point and normal, also as keys of these names
         name: str; name of the copy's region, or the prefix of its regions' names; default: the names of the
             mesh
         """
@@ -1203,7 +1205,8 @@ class AssemblyMesh(AnyMesh):
             object to the viewer; default "iso"
         colour: "quality" | "layer" | "groups" | "region" | "origin"; what the colours of cells show; default
             "quality"
-        cut: dict; only cells whose centre lies behind this plane are shown
+        cut: list[(x, y, z)] | dict; point and normal, also as keys of these names: only cells whose centre
+            lies behind this plane are shown
         layers: list[int]; first and last layer that is shown; default all
         edges: bool; draw the edges of the cells; default True
         legend: bool; show a title and a key to the colours; default True

@@ -14,6 +14,7 @@ class OtherMesh(Protocol):  # of meshio or PyVista
 
 Path = Union[str, os.PathLike[str]]
 Vector = Union[Sequence[float], numpy.ndarray]
+Plane = Union[Sequence[Vector], Mapping[str, Any]]
 Thickness = Union[float, Callable[[float, float, float], float]]
 Class = Union[Literal["I", "II", "III", "IV", "V", "closed", "0"]]
 FaceRef = Union[Face, int, str, Mapping[str, Any]]
@@ -167,9 +168,8 @@ class Model(Shown):
             self, roles: Mapping[str, Any] | None = None, /, *, source: FaceRefs | None = ...,
             target: FaceRefs | None = ..., walls: FaceRefs | Literal["auto"] | None = ...,
             faces: FaceRefs | None = ..., reading: int | None = ..., full_turn: bool | None = ...,
-            along: Mapping[str, Any] | None = ..., fill_to: Sequence[Vector] | None = ...,
-            class_: Class | None = ..., name: str | None = ..., material: str | int | None = ...,
-            glued: bool | None = ...,
+            along: Mapping[str, Any] | None = ..., fill_to: Plane | None = ..., class_: Class | None = ...,
+            name: str | None = ..., material: str | int | None = ..., glued: bool | None = ...,
     ) -> Volume: ...
     def quads(
             self, options: Mapping[str, Any] | None = None, /, *, faces: FaceRefs | None = ...,
@@ -251,7 +251,7 @@ class Volume(Shown):
             view: Vector | Literal["iso", "front", "back", "left", "right", "top", "bottom"] | None = ...,
     ) -> None: ...
     def cut(
-            self, options: Mapping[str, Any] | None = None, /, *, plane: Sequence[Vector] | None = ...,
+            self, options: Mapping[str, Any] | None = None, /, *, plane: Plane | None = ...,
             face: FaceRef | None = ..., auto: bool | None = ...,
     ) -> list[Volume]: ...
     def model(self) -> Model: ...
@@ -320,8 +320,7 @@ class Mesh(AnyMesh):
     def groups(self) -> list[Table]: ...
     def copy(
             self, options: Mapping[str, Any] | None = None, /, *, translate: Vector | None = ...,
-            rotate: Sequence[Vector | float] | None = ..., mirror: Sequence[Vector] | None = ...,
-            name: str | None = ...,
+            rotate: Sequence[Vector | float] | None = ..., mirror: Plane | None = ..., name: str | None = ...,
     ) -> Mesh: ...
     def pattern(
             self, count: int, *, translate: Vector | None = ...,
@@ -354,7 +353,7 @@ class Mesh(AnyMesh):
             height: int | None = ...,
             view: Vector | Literal["iso", "front", "back", "left", "right", "top", "bottom"] | None = ...,
             colour: Literal["quality", "layer", "groups", "region", "origin"] | None = ...,
-            cut: Mapping[str, Any] | None = ..., layers: Sequence[int] | None = ..., edges: bool | None = ...,
+            cut: Plane | None = ..., layers: Sequence[int] | None = ..., edges: bool | None = ...,
             legend: bool | None = ..., title: str | None = ...,
     ) -> None: ...
 class Assembly(Object):
@@ -422,8 +421,7 @@ class AssemblyMesh(AnyMesh):
     def groups(self) -> list[Table]: ...
     def copy(
             self, options: Mapping[str, Any] | None = None, /, *, translate: Vector | None = ...,
-            rotate: Sequence[Vector | float] | None = ..., mirror: Sequence[Vector] | None = ...,
-            name: str | None = ...,
+            rotate: Sequence[Vector | float] | None = ..., mirror: Plane | None = ..., name: str | None = ...,
     ) -> AssemblyMesh: ...
     def pattern(
             self, count: int, *, translate: Vector | None = ...,
@@ -457,7 +455,7 @@ class AssemblyMesh(AnyMesh):
             height: int | None = ...,
             view: Vector | Literal["iso", "front", "back", "left", "right", "top", "bottom"] | None = ...,
             colour: Literal["quality", "layer", "groups", "region", "origin"] | None = ...,
-            cut: Mapping[str, Any] | None = ..., layers: Sequence[int] | None = ..., edges: bool | None = ...,
+            cut: Plane | None = ..., layers: Sequence[int] | None = ..., edges: bool | None = ...,
             legend: bool | None = ..., title: str | None = ...,
     ) -> None: ...
 class QuadMesh(AnyMesh):

@@ -10,7 +10,7 @@ import queue
 import threading
 import weakref
 
-from ._wire import plain
+from ._wire import plain, without_folder
 
 VERSION = "0.1.0"
 _OK, _FAILED, _CANCELLED = 0, 1, 2
@@ -370,7 +370,7 @@ class Interpreter:
     # Called by the library, on the thread of the job:
 
     def _log(self, line):
-        text = line.decode("utf-8", "replace")
+        text = without_folder(line.decode("utf-8", "replace"))
         if self._job is not None:
             self._job.inbox.put(text)
         else:

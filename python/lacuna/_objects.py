@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 
 from ._library import Error, _note, own_interpreter
-from ._wire import Answer, Report, Request, Table
+from ._wire import HANDED_OVER, Answer, Report, Request, Table, without_folder
 
 classes = {}  # by the name that they have in Lua
 _VTK_WEDGE = [0, 2, 1, 3, 5, 4]  # VTK has the triangles of a wedge the other way round
@@ -133,21 +133,21 @@ def loaded(path, options):
             if name in grid.cell_data:
                 _note(f"note: load: the groups in {name!r} of a grid of PyVista are left out; lacuna.load of an .msh "
                       "file reads them")
-        ending, write = ".vtu", grid.save
+        kind, ending, write = "PyVista", ".vtu", grid.save
     elif hasattr(path, "cell_sets"):
         if path.point_sets:
             _note("note: load: the point sets of a meshio.Mesh are left out; sets of cells are read, and "
                   "lacuna.load of its file reads all")
         grouped = _with_groups(path)
-        ending = ".vtu" if grouped is path else ".msh"
+        kind, ending = "meshio", ".vtu" if grouped is path else ".msh"
 
         def write(file):
             grouped.write(file, file_format=None if grouped is path else "gmsh22")
     else:
         return call("module", "load", path, options)
     import tempfile
-    with tempfile.TemporaryDirectory() as folder:
-        file = os.path.join(folder, "mesh" + ending)
+    with tempfile.TemporaryDirectory(prefix=HANDED_OVER) as folder:
+        file = os.path.join(folder, f"the {kind} mesh{ending}")  # so messages name it
         write(file)
         return call("module", "load", file, options)
 
@@ -243,7 +243,7 @@ class Shown(Object):
 
     def _repr_html_(self):
         import html
-        page = html.escape(self._made_file("view", ".html").decode())
+        page = html.escape(without_folder(self._made_file("view", ".html").decode()))
         return f'<iframe srcdoc="{page}" style="width: 100%; height: 600px; border: 0"></iframe>'
 
 

@@ -238,15 +238,17 @@ def recompute_stopped():
     part = FreeCAD.ActiveDocument.Solid
     void = filled_void.make(part, [f"Face{number}" for number in (7, 8, 9, 10, 11, 12, 13, 14, 16, 18)])
     void.Size, void.Layers = 0.1, 500
+    shown = []
 
     def stop():
         bar, = (bar for bar in Gui.getMainWindow().findChildren(QtGui.QProgressDialog) if bar.isVisible())
         picture("recomputing")
+        shown.append(bar.value())
         bar.findChild(QtGui.QPushButton).click()
     QtCore.QTimer.singleShot(2500, stop)
     FreeCAD.ActiveDocument.recompute()
     assert not void.isValid() and "stopped" in void.Report[0], void.Report
-    assert not job.running
+    assert not job.running and shown[0] > 0, shown
     FreeCAD.ActiveDocument.removeObject(void.Name)
     FreeCAD.ActiveDocument.recompute()
     yield

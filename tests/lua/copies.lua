@@ -260,7 +260,18 @@ check.that(tostring(apart.report):find("copies come within 0.0001", 1, true), "a
 check.fails(function() one:copy {} end, "translate", "rotate", "mirror")
 check.fails(function() one:copy { translate = X, mirror = { origin, X } } end, "mirror", "translate")
 check.fails(function() one:copy { rotate = { origin, Z } } end, "angle")
-check.fails(function() one:copy { mirror = { origin, origin } } end, "a direction of length 0")
+check.fails(function() one:copy { mirror = { origin, origin } } end, "a normal of length 0")
+-- A plane is { point, normal } or has these names, wherever one is given.
+local half = { 0.5, 0, 0 }
+for _, plane in ipairs { { half, X }, { point = half, normal = X } } do
+  local void = lacuna.synthetic.prism { sides = 4 }:open_volume {}
+  check.equal(#void:cut { plane = plane }, 2)
+  check.that(one:copy { mirror = plane }.hexes == one.hexes)
+end
+for _, wrong in ipairs { { half }, { point = half }, { half, X, 1 }, { point = half, normal = X, angle = 3 },
+    "x" } do
+  check.fails(function() one:copy { mirror = wrong } end, "a plane { point, normal }")
+end
 check.fails(function() one:copy { shift = X } end, "shift", "translate")
 check.fails(function() one:pattern { translate = X } end, "count")
 check.fails(function() one:pattern { translate = X, count = 0 } end, "count")

@@ -90,8 +90,8 @@ for _, options in ipairs {
 end
 check.equal(select(2, drawn { width = 64, height = 32 }), 64)
 for _, wrong in ipairs {
-  { { cut = { point = { 0, 0, 0 } } }, "no 'normal'" }, { { cut = "x" }, "a table" },
-  { { cut = { point = { 0, 0, 0 }, normal = { 0, 0, 0 } } }, "other than zero" },
+  { { cut = { point = { 0, 0, 0 } } }, "a plane" }, { { cut = "x" }, "a plane" },
+  { { cut = { point = { 0, 0, 0 }, normal = { 0, 0, 0 } } }, "length 0" },
   { { cut = { point = { -99, 0, 0 }, normal = { 1, 0, 0 } } }, "hides all cells" },
   { { layers = { 1 } }, "two numbers" }, { { layers = { 3, 4, 5 } }, "two numbers" },
   { { layers = { 4, 4 } }, "layers 1 to 3" }, { { layers = { 2, 1 } }, "layers 1 to 3" },

@@ -150,8 +150,17 @@ for _, key in ipairs { "min_scaled_jacobian", "mean_scaled_jacobian", "inverted"
 end
 check.equal(quality.no_such_field, nil)
 
--- Printed: counts, a histogram, a line a metric with its range.
+-- Printed: counts, a histogram, a line a metric with its range. The least scaled Jacobian stands there once,
+-- at order 2 too, where that of the corners is another number.
 local text = tostring(quality)
+local bent = lacuna.synthetic.prism { sides = 6, twist = 40, height = 1.5 }:open_volume {}
+for _, order in ipairs { 1, 2 } do
+  local own = bent:sweep { size = 0.4, order = order }:quality()
+  local printed = tostring(own)
+  check.equal(select(2, printed:gsub("[Ss]caled.Jacobian +least", "")), 1)
+  check.that(printed:find(("least %12.4f"):format(own.min_scaled_jacobian), 1, true))
+  check.that(not printed:find "\nscaled_jacobian +[%d.]+ ")
+end
 for _, words in ipairs { "hexahedra", "###", "0.5 to 1", "shape_and_size", "full_edge_ratio", "%" } do
   check.that(text:find(words, 1, true), words)
 end

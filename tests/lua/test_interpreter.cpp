@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <clocale>
@@ -13,9 +14,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <initializer_list>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using namespace lacuna;
@@ -60,7 +64,7 @@ for _, cube in ipairs(cubes) do
     end
   end
 end
-local volume = star:open_volume {}
+volume = star:open_volume {}
 pieces = volume:cut { auto = true }
 count = #pieces
 mesh = volume:sweep { size = 0.5, fallback = "mixed" }
@@ -248,6 +252,43 @@ TEST_CASE("a run is stopped by callbacks, by limits and from another thread, wha
     CHECK(!stages.empty());
 }
 
+TEST_CASE("the share of a sweep rises from 0 to 1, also over several tries, pieces, volumes and a file")
+{
+    InterpreterOptions options;
+    std::vector<double> shares;
+    options.progress = [&](std::string_view, double share) {
+        shares.push_back(share);
+        return true;
+    };
+    Interpreter host(std::move(options));
+    host.run_string(
+        "lacuna = require 'lacuna' file = os.tmpname() "
+        "function prism(more) return lacuna.synthetic.prism(more or { sides = 6 }):open_volume {} end");
+    const auto* const halves =
+        "local low, high = table.unpack(prism():cut { plane = { { 0, 0, 1 }, { 0, 0, 1 } } }) "
+        "both = lacuna.assembly { low, high }";
+    const auto* const sheared = "sheared = prism { sides = 3, twist = 40, height = 0.5 }";
+    for (const auto& [before, sweep] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"void = prism()", "void:sweep { layers = 3, size = 0.5 }"},
+             {"", "void:sweep { layers = 3, size = 0.5, order = 2 }"},
+             {"", "void:sweep_to(file .. '.vtu', { layers = 3, size = 0.5 })"},
+             {sheared, "mesh = sheared:sweep { size = 0.2 }"},
+             {halves, "both:sweep { layers = 2, size = 0.5 }"},
+             {"", "both:sweep_to(file .. '.vtu', { layers = 2, size = 0.5 })"},
+             {kStar, "volume:sweep { size = 0.5 }"}}) {
+        CAPTURE(sweep);
+        host.run_string(before);
+        shares.clear();
+        host.run_string(sweep);
+        CHECK(std::ranges::is_sorted(shares));
+        REQUIRE(!shares.empty());
+        CHECK(shares.front() == 0);
+        CHECK(shares.back() == 1);
+        CHECK(std::set<double>(shares.begin(), shares.end()).size() > 5);
+    }
+    host.run_string("os.remove(file) os.remove(file .. '.vtu')");
+}
+
 TEST_CASE("what a callback throws comes out of the run, and the next run goes on")
 {
     InterpreterOptions options;
@@ -369,10 +410,18 @@ TEST_CASE("from C: values, buffers, errors and their entities, and no exception 
     lacuna_options options;
     lacuna_default_options(&options);
     options.traceback = 1;
+    std::vector<double> shares;
+    options.user = &shares;
+    options.progress = [](void* user, const char*, double share) {
+        static_cast<std::vector<double>*>(user)->push_back(share);
+        return 0;
+    };
     lacuna_interpreter* const handle = lacuna_open(&options);
     REQUIRE(handle);
     CHECK(lacuna_set_integer(handle, "layers", 4) == LACUNA_OK);
     CHECK(lacuna_run_string(handle, kBox, std::strlen(kBox), nullptr) == LACUNA_OK);
+    CHECK(std::ranges::is_sorted(shares));
+    CHECK(shares.back() == 1);
     std::int64_t layers = 0;
     CHECK(lacuna_get_integer(handle, "mesh.layers", &layers) == LACUNA_OK);
     CHECK(layers == 4);

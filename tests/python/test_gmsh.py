@@ -40,6 +40,20 @@ class Gmsh(unittest.TestCase):
         gmsh.write(path)
         return lacuna.check(path)
 
+    def test_a_step_file_of_solids_that_touch_has_the_faces_between_them_twice(self):
+        cad = gmsh.model.occ
+        solids = [(3, cad.addCylinder(0, 0, 0, 0, 0, 30, radius)) for radius in (6, 9)]
+        cad.fragment(solids + [(3, cad.addBox(-20, -15, 0, 40, 30, 30))], [])
+        cad.synchronize()
+        path = os.path.join(self.folder.name, "joint.step")
+        gmsh.write(path)
+        part = lacuna.load(path)
+        self.assertEqual(len(part.faces()), 14)
+        volumes = [part.open_volume(source=dict(near=(x, 0, 0)), target=dict(near=(x, 0, 30)), walls="auto", name=name)
+                   for name, x in (("bolt", 0), ("bush", 7.5), ("block", 15))]
+        mesh = lacuna.assembly(volumes).sweep(layers=4, size=3)
+        self.assertAlmostEqual(mesh.quality().volume, 40 * 30 * 30, 6)
+
     def test_surfaces_of_triangles_are_a_shape(self):
         gmsh.model.occ.addBox(0, 0, 0, 4, 3, 2, 7)
         gmsh.model.occ.synchronize()

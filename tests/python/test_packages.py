@@ -104,6 +104,18 @@ class Meshio(unittest.TestCase):
         part = lacuna.load(out)
         self.assertEqual(len(part.faces(name="physical_1")), 1)
 
+    def test_messages_name_the_mesh_and_no_file(self):
+        import meshio
+        out = prism().sweep(layers=2, size=0.5).to_meshio()
+        cells = [("hexahedron", out.cells_dict["hexahedron"] + len(out.points) - 1)]
+        for wrong in meshio.Mesh(out.points, cells), \
+                meshio.Mesh(out.points, cells, cell_sets={"a": [numpy.array([0])]}), meshio.Mesh(out.points, []):
+            with self.assertRaises(lacuna.Error) as caught:
+                lacuna.load(wrong)
+            self.assertIn("the meshio mesh", caught.exception.message)
+            self.assertNotIn("/", caught.exception.message)
+        self.assertEqual(str(lacuna.load(out)), "Model of 6 faces from the meshio mesh")
+
     def test_sets_of_points_are_left_out_with_a_note(self):
         out = prism().sweep(layers=2, size=0.5).to_meshio()
         out.point_sets["held"] = numpy.array([0, 1])
@@ -117,10 +129,21 @@ def grid_of_vtk(cells, kinds, points):
     import vtk
     from vtk.util import numpy_support
 
+    class CellData(dict):
+        """As in PyVista: an array has a value a cell, and is written with the grid."""
+
+        def __setitem__(self, name, values):
+            if len(values) != grid.GetNumberOfCells():
+                raise ValueError(f"{len(values)} values for {grid.GetNumberOfCells()} cells")
+            array = numpy_support.numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+            array.SetName(name)
+            grid.GetCellData().AddArray(array)
+            super().__setitem__(name, values)
+
     class UnstructuredGrid(vtk.vtkUnstructuredGrid):
         def __init__(self):
             super().__init__()
-            self.cell_data, self.cells_dict = {}, {}
+            self.cell_data, self.cells_dict = CellData(), {}
 
         def cast_to_unstructured_grid(self):
             return self
@@ -212,6 +235,7 @@ class PyVista(unittest.TestCase):
             part = lacuna.load(mesh.to_pyvista())
             self.assertTrue(all(face.has_mesh for face in part.faces()))
             self.assertEqual(len(part.faces()), 6 if mesh.wedges else 8)
+            self.assertIn("from the PyVista mesh", str(part))
         grid = mesh.to_pyvista()
         grid.cell_data["gmsh:physical"] = numpy.ones(mesh.hexes)
         with self.assertLogs("lacuna", "WARNING") as caught:

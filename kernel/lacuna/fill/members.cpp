@@ -6,6 +6,7 @@
 #include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/nearest_word.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/contacts.h>
 #include <lacuna/fill/detail/edge_sets.h>
@@ -378,7 +379,10 @@ void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunCo
     for (std::size_t p = 0; p < swept.parts.size() && !swept.unswept.empty(); ++p)
         if (const mesh::HexMesh& part = swept.parts[p].mesh; part.order() > 1)
             require_shared(mesh.regions[p], middles.add(part, [](Index) { return true; }));
-    for (const sweep::Unswept& one : swept.unswept) {
+    const double all = static_cast<double>(swept.parts.size() + swept.unswept.size());
+    for (double before = static_cast<double>(swept.parts.size()); const sweep::Unswept& one : swept.unswept) {
+        const RunContext part_context = part_of(context, before / all, (before + 1) / all);
+        ++before;
         const sweep::AssemblyMember& member = ready.members[one.member];
         const Part& part = *ready.parts[one.member];
         ToFill what{&one.volume,
@@ -407,7 +411,7 @@ void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunCo
         }
         sweep::SweepOptions options = part.asked->options;
         options.second_order = member.options.second_order;
-        mesh.tets.push_back(fill_with_tets(what, options, context));
+        mesh.tets.push_back(fill_with_tets(what, options, part_context));
         if (options.order > 1) require_shared(member.region, middles.add(mesh.tets.back().mesh));
         mesh.materials.push_back(part.volume.material);
     }
@@ -484,7 +488,10 @@ FilledParts sweep_parts(std::vector<Part>& all, std::vector<sweep::LeftOut> left
         if (sets.size() > 1) keep_known_pairs(set.members);
         if (!found.empty()) // contact pairs are written with the whole mesh
             for (sweep::AssemblyMember& member : set.members) member.options.layered = false;
-        FilledParts one = sweep_glued(std::move(set), alone, context);
+        const auto members_all = static_cast<double>(ready.members.size());
+        const RunContext own = part_of(context, static_cast<double>(before) / members_all,
+                                       static_cast<double>(before + count) / members_all);
+        FilledParts one = sweep_glued(std::move(set), alone, own);
         for (std::size_t& m : one.swept.member) m += before;
         for (sweep::Unswept& unswept : one.swept.unswept) unswept.member += before;
         append(mesh, std::move(one));
@@ -596,8 +603,9 @@ FilledParts fill_alone(const Member& member, const RunContext& context)
     return sweep_parts(parts, {}, true, context);
 }
 
-Filled sweep(std::span<const Member> members, const RunContext& context, const ContactRequest& request)
+Filled sweep(std::span<const Member> members, const RunContext& host, const ContactRequest& request)
 {
+    const RunContext context = never_falling(host);
     std::vector<sweep::LeftOut> left_out;
     std::vector<Part> parts = parts_of(members, left_out, context);
     const auto asked = std::ranges::find_if(members, [](const Member& member) {
@@ -613,6 +621,7 @@ Filled sweep(std::span<const Member> members, const RunContext& context, const C
         filled.volumes.push_back(part != parts.end() && part->piece_of == nullptr ? std::move(part->volume)
                                                                                   : *member.volume);
     }
+    report_progress(context, "shape of the skin", 1);
     return filled;
 }
 

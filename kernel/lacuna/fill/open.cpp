@@ -244,7 +244,9 @@ Volume open(const Model& model, const RoleRequest& request, const RunContext& co
                                       : request.faces ? *request.faces
                                                       : topology::all_faces(model);
     report_progress(context, "roles");
-    if (const auto left = leave_out_shared_faces(model, named, request.find_walls)) {
+    auto left = request.find_walls ? leave_out_double_faces(model, named) : std::nullopt;
+    if (!left) left = leave_out_shared_faces(model, named, request.find_walls);
+    if (left) {
         log_line(context, left->note);
         return open(left->model, joined_request(request, *left), context);
     }

@@ -7,6 +7,7 @@
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/core/shared/criteria.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/fill/describe.h>
 #include <lacuna/fill/detail/edge_sets.h>
 #include <lacuna/fill/detail/members.h>
@@ -365,15 +366,19 @@ Message with_tets_as_remedy(const Message& why, const sweep::SweepOptions& optio
                       options.layered ? "sweep with " : "");
 }
 
-Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& context)
+Filled sweep(const Volume& volume, const SweepRequest& asked, const RunContext& host)
 {
+    const RunContext context = never_falling(host);
     SweepRequest request = asked;
     sweep::SweepOptions& options = request.options;
     options.improving = sweep::with_shared_limits(options.improving);
-    if (volume.along && volume.along->on_axis &&
-        (options.wedges || options.fallback == sweep::Fallback::wedges))
-        return turn_at_axis(volume, request, context);
-    return sweep_or_name_tets(options, [&] { return sweep_or_fill(volume, request, context); });
+    const bool on_axis = volume.along && volume.along->on_axis &&
+                         (options.wedges || options.fallback == sweep::Fallback::wedges);
+    Filled filled = on_axis ? turn_at_axis(volume, request, context) : sweep_or_name_tets(options, [&] {
+        return sweep_or_fill(volume, request, context);
+    });
+    report_progress(context, "shape of the skin", 1);
+    return filled;
 }
 
 Filled fill(const topology::Model& model, const Request& request, const RunContext& context)

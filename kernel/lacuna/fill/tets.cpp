@@ -193,13 +193,13 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
     for (const surface::FixedFace& face : what.fixed) tets.shared += face.quads.size();
     surface::SkinMesh skin = surface::triangulate_skin(
         volume.model, options.size ? options.size : surface::even_size(size.length), what.fixed, context);
-    report_progress(context, "tetrahedra");
+    report_progress(context, "tetrahedra", 0.2);
     mesh::TetMesh made = options.tet_mesher(skin.skin, context);
     take_cells(what, skin, std::move(made), tets);
     prove(tets, context);
     std::string order_2;
     if (options.order > 1) {
-        report_progress(context, "order 2");
+        report_progress(context, "order 2", 0.8);
         ElevatedTets elevated = elevate(volume.model, tets.mesh, tets.faces, what.middles,
                                         options.second_order, tets.region, context);
         tets.quality = std::move(elevated.quality);
@@ -207,7 +207,7 @@ FilledTets fill_with_tets(const ToFill& what, const sweep::SweepOptions& options
     }
     require_quality(tets, options);
     note_slivers(tets, context);
-    report_progress(context, "shape of the skin");
+    report_progress(context, "shape of the skin", 0.9);
     tets.fidelity = sweep::compare(volume, tets.mesh, tets.faces, tets.quality.volume,
                                    {options.max_deviation}, context);
     tets.report.push_back(formatted("cells: {} tetrahedra, {} pyramids",

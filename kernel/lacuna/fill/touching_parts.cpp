@@ -14,6 +14,7 @@
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -304,7 +305,46 @@ private:
     std::vector<OpenVolume> volumes_;
 };
 
+/// The model without some faces. Empty if there are none.
+std::optional<JoinedParts> without_faces(const Model& model, const std::vector<FaceId>& gone,
+                                         std::string note)
+{
+    if (gone.empty()) return std::nullopt;
+    JoinedParts result;
+    result.note = std::move(note);
+    result.faces_of.resize(model.faces.size());
+    std::vector<FaceId> kept;
+    for (const FaceId face : all_faces(model)) {
+        if (std::ranges::find(gone, face) != gone.end()) continue;
+        result.faces_of[face.index()].emplace_back(kept.size());
+        kept.push_back(face);
+    }
+    result.model = extract(model, kept);
+    return result;
+}
+
 } // namespace
+
+std::optional<JoinedParts> leave_out_double_faces(const Model& model, const std::vector<FaceId>& ends)
+{
+    std::vector<FaceId> order = ends;
+    std::ranges::copy(all_faces(model), std::back_inserter(order));
+    std::map<std::set<EdgeId>, FaceId> first;
+    std::vector<FaceId> gone;
+    std::string note;
+    for (const FaceId face : order) {
+        const auto [own, added] = first.emplace(edges_of(model, {face}), face);
+        const FaceId other = own->second;
+        if (added || other == face || own->first.empty() ||
+            (face_centroid(model, face) - face_centroid(model, other)).norm() > model.tolerance)
+            continue;
+        if (gone.empty())
+            note = formatted("note: {} is left out, because it coincides with {}", entity_of(model, face),
+                             entity_of(model, other));
+        gone.push_back(face);
+    }
+    return without_faces(model, gone, note);
+}
 
 std::optional<JoinedParts> leave_out_shared_faces(const Model& model, const std::vector<FaceId>& named,
                                                   bool all_follow)
@@ -312,23 +352,19 @@ std::optional<JoinedParts> leave_out_shared_faces(const Model& model, const std:
     std::vector<int> uses(model.edges.size(), 0);
     for (const FaceId face : all_follow ? all_faces(model) : named)
         for (const EdgeUse& use : uses_of(model[face])) ++uses[use.edge.index()];
-    JoinedParts result;
-    result.faces_of.resize(model.faces.size());
-    std::vector<FaceId> kept, shared;
+    std::vector<FaceId> shared;
     for (const FaceId face : all_faces(model)) {
         const bool is_end = all_follow && std::ranges::find(named, face) != named.end();
-        const bool is_shared = !is_end && !model[face].loops.empty() &&
-                               std::ranges::all_of(uses_of(model[face]), [&](const EdgeUse& use) {
-                                   return uses[use.edge.index()] == 3;
-                               });
-        if (!is_shared) result.faces_of[face.index()].emplace_back(kept.size());
-        (is_shared ? shared : kept).push_back(face);
+        if (!is_end && !model[face].loops.empty() &&
+            std::ranges::all_of(uses_of(model[face]),
+                                [&](const EdgeUse& use) { return uses[use.edge.index()] == 3; }))
+            shared.push_back(face);
     }
-    if (shared.empty()) return std::nullopt;
-    result.model = extract(model, kept);
-    result.note = formatted("note: {} lies between two solids and does not bound the volume",
-                            entity_of(model, shared.front()));
-    return result;
+    return without_faces(
+        model, shared,
+        shared.empty() ? ""
+                       : formatted("note: {} is left out, because two other faces meet at each of its edges",
+                                   entity_of(model, shared.front())));
 }
 
 void add_model(ModelBuilder& builder, const Model& more)

@@ -3,6 +3,7 @@
 // OpenFOAM's polyMesh: a folder of files with the points, the faces, the owner and neighbour cell of each
 // face, and the patches of boundary faces. https://doc.openfoam.com/2306/fundamentals/mesh
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/core/shared/same_corners.h>
 #include <lacuna/io/detail/format_table.h>
 #include <lacuna/io/detail/sections.h>
@@ -14,6 +15,7 @@
 #include <cctype>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace lacuna::io {
 
@@ -300,8 +302,11 @@ void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunCont
     const PolyMesh mesh(view, context);
     for (const std::string& note : mesh.notes)
         log_line(context, formatted("note: {}: {}", path.text(), note));
+    double written = 0; // share of the folder
     const auto write = [&](const char* name, const std::vector<Section>& sections) {
-        write_file(folder.file(name), sections, Sizes::varying, context);
+        constexpr int kFiles = 6; // at most
+        const double before = std::exchange(written, written + 1.0 / kFiles);
+        write_file(folder.file(name), sections, Sizes::varying, part_of(context, before, written));
     };
     const auto put_points = [&](std::size_t begin, std::size_t end, char* out) {
         mesh.points.each(begin, end, [&](std::size_t first, std::size_t last) {
@@ -337,6 +342,7 @@ void write_poly_mesh(const MeshView& view, const OutputPath& path, const RunCont
     write("boundary", {{boundary + ")\n", 0, 0, {}}});
     if (mesh.zones.size() > 1) write("cellZones", {{zones_text(mesh), 0, 0, {}}});
     folder.commit();
+    report_progress(context, "writing " + path.text(), 1);
 }
 
 } // namespace lacuna::io

@@ -208,8 +208,11 @@ void write_sections(const std::vector<Section>& sections, Sizes sizes, const Wri
 {
     const std::vector<Chunk> chunks = sizes == Sizes::exact ? cut_exact(sections, team) : cut(sections);
     Share share(context, stage, chunks.size());
-    if (sizes == Sizes::exact) return write_exact(chunks, write, share, context);
-    write_varying(chunks, write, share, context, team);
+    if (sizes == Sizes::exact)
+        write_exact(chunks, write, share, context);
+    else
+        write_varying(chunks, write, share, context, team);
+    report_progress(context, stage, 1); // another thread may have written the last chunk
 }
 
 /// Reserve space for a whole file in steps, between which the host can cancel: for a file in memory,
@@ -304,9 +307,12 @@ void write_files(const std::vector<FileOfSet>& files, const OutputPath& head_pat
     paths.push_back(head_path);
     SharedFiles shared(paths, team);
     const auto [begin, end] = share_of(team, files.size());
+    const auto share = [&](std::size_t f) {
+        return static_cast<double>(f - begin) / static_cast<double>(end - begin);
+    };
     for (std::size_t f = begin; f < end; ++f)
-        shared.write(f, files[f].sections(), Sizes::exact, "writing " + files[f].path.text(), context,
-                     nullptr);
+        shared.write(f, files[f].sections(), Sizes::exact, "writing " + files[f].path.text(),
+                     part_of(context, share(f), share(f + 1)), nullptr);
     gather(team, {}); // wait until all processes have written
     if (shared.files.empty()) return;
     shared.files.back()->append(head);

@@ -76,7 +76,7 @@ std::string to_table(std::span<const MetricSummary> summaries)
     const auto pad_right = [](const std::string& text, std::size_t width) {
         return text + std::string(width > text.size() ? width - text.size() : 1, ' ');
     };
-    std::string text = pad_right("metric", kNameWidth);
+    std::string text = pad_right("metric of the corner nodes", kNameWidth);
     for (const char* head : {"least", "mean", "largest", "acceptable", "outside"})
         text += pad_left(head, kWidth);
     text += "\n";

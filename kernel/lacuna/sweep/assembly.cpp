@@ -6,6 +6,7 @@
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/sweep/detail/assembly_imprint.h>
 #include <lacuna/sweep/detail/assembly_nodes.h>
 #include <lacuna/sweep/detail/assembly_order.h>
@@ -344,12 +345,15 @@ private:
         result_.report = notes_;
         middles_ = {};
         std::vector<char> done(members_.size(), 0);
-        for (const std::size_t m : order_) {
+        const double all = static_cast<double>(order_.size() + result_.unswept.size());
+        for (double before = 0; const std::size_t m : order_) {
             check_cancelled(context_);
+            const RunContext part = part_of(context_, before / all, (before + 1) / all);
+            ++before;
             const std::vector<Neighbour> neighbours = shared_with(m, done), images = images_for(m, done);
             done[m] = 1;
             try {
-                make(m, neighbours, images);
+                make(m, neighbours, images, part);
                 check_kept(m, neighbours);
                 if (members_[m].options.order > 1) keep_middles(m);
             } catch (const Cancelled&) {
@@ -405,7 +409,8 @@ private:
     /// mesh follows from its rim alone is an exception: the member meshes it, and the result is compared with
     /// the neighbour's mesh. If the two differ, all meshes are copied. On periodic faces, the meshes of their
     /// images are always copied.
-    void make(std::size_t m, const std::vector<Neighbour>& neighbours, const std::vector<Neighbour>& images)
+    void make(std::size_t m, const std::vector<Neighbour>& neighbours, const std::vector<Neighbour>& images,
+              const RunContext& context)
     {
         const AssemblyMember& member = members_[m];
         if (member.fixed != nullptr) {
@@ -450,7 +455,7 @@ private:
             // The reference shape is the sealed volume without the nodes planned on edges. Of the neighbours'
             // quads it has only those on void faces.
             if (!plan_.nodes[m].empty() || !fixed.empty()) options.beside.shape = &sealed;
-            result_.parts[m] = sweep(volume, options, context_);
+            result_.parts[m] = sweep(volume, options, context);
         };
         try {
             sweep_it();

@@ -2,6 +2,7 @@
 #include <lacuna/sweep/improve.h>
 
 #include <lacuna/core/run_context.h>
+#include <lacuna/core/shared/progress.h>
 #include <lacuna/geometry/shared/minimise.h>
 #include <lacuna/sweep/detail/cell_region.h>
 
@@ -83,11 +84,15 @@ private:
         return Eigen::Map<const Eigen::VectorXd>(places.front().data(), size);
     }
 
+    /// Work on earlier meshes does not count for a mesh that is still folded, because it would be refused.
+    [[nodiscard]] double work_that_counts() const
+    {
+        return best_quality_.least > 0 ? options_.spent->work : work_;
+    }
+
     [[nodiscard]] bool out_of_time() const
     {
-        // A mesh that is still folded would be refused, so work on earlier meshes does not count against its
-        // limit.
-        if ((best_quality_.least > 0 ? options_.spent->work : work_) > options_.work) return true;
+        if (work_that_counts() > options_.work) return true;
         if (!(options_.seconds > 0)) return false;
         const auto now = std::chrono::steady_clock::now();
         if (!options_.spent->start) options_.spent->start = now;
@@ -111,6 +116,7 @@ private:
         how.iterations = options_.iterations;
         how.stop = [&] {
             check_cancelled(context_);
+            report_progress(context_, "improving", std::min(1.0, work_that_counts() / options_.work));
             return out_of_time();
         };
         how.visit = [&](const Eigen::VectorXd& at) {
@@ -224,6 +230,7 @@ Improved improve(mesh::HexMesh mesh, const ImproveOptions& options, const Slidin
                  const RunContext& context)
 {
     check(options);
+    report_progress(context, "improving");
     Improved result;
     result.stuck = stuck_corner(mesh, sliding);
     if (!result.stuck) {

@@ -5,6 +5,7 @@
 
 #include <lacuna/quality/shared/layered.h>
 #include <lacuna/surface/shared/projector.h>
+#include <lacuna/sweep/detail/shares.h>
 #include <lacuna/sweep/detail/words.h>
 #include <lacuna/sweep/improve.h>
 
@@ -108,10 +109,10 @@ quality::Proof prove_or_improve(Swept& swept, const topology::Model& model, cons
             .first->second.project(points, context);
     };
     const Sliding sliding{sliding_nodes(swept.mesh, faces, kept), project, std::move(held)};
-    report_progress(context, "improving");
-    Improved improved = improve(std::move(swept.mesh), improving, sliding, context);
+    const RunContext part = part_of(context, share::improving, share::order_2);
+    Improved improved = improve(std::move(swept.mesh), improving, sliding, part);
     swept.mesh = std::move(improved.mesh);
-    report_progress(context, "proof of every cell");
+    report_progress(context, "proof of every cell", share::order_2);
     if (improved.stuck) {
         if (proof.finding) {
             Message& message = proof.finding->message;

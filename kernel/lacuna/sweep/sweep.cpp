@@ -12,6 +12,7 @@
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/plans.h>
 #include <lacuna/sweep/detail/second_order.h>
+#include <lacuna/sweep/detail/shares.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/sweep_between.h>
 #include <lacuna/sweep/detail/volume_share.h>
@@ -36,6 +37,7 @@ namespace {
 void raise_order(const OpenVolume& shape, ProvedSweep& result, const SweepOptions& options,
                  const RunContext& context)
 {
+    report_progress(context, "order 2", share::order_2);
     Swept& swept = result.swept;
     PlacedLayers layers;
     layers.plan = swept.plan;
@@ -76,17 +78,17 @@ Swept mesh_candidate(const OpenVolume& volume, const Plan& plan, const SweepOpti
     const bool counted = options.layers.count > 0 || !options.layers.heights.empty();
     std::vector<double> heights = counted ? layer_heights(options.layers) : std::vector<double>{};
     if (way.turned_round) reverse_heights(heights);
-    report_progress(context, "linking surfaces");
+    report_progress(context, "linking surfaces", share::links);
     ProvedSweep result = sweep_between(way, links.of(way, context, plan.turning), heights,
                                        source_size(way, options, links, context), options, plan.outline,
                                        context);
     quality::require(result.proof);
-    report_progress(context, "shape of the skin");
     Swept& swept = result.swept;
     // Quads copied from a neighbour are compared too, because the sealed shape does not have them.
     const OpenVolume& shape = shape_of(volume, options);
     const std::set<FaceId> kept = options.beside.shape != nullptr ? std::set<FaceId>{} : result.kept;
     if (options.order == 2) raise_order(shape, result, options, context);
+    report_progress(context, "shape of the skin", share::skin);
     // A quad of order 2 is compared as four straight quads. Their error is at most a quarter of the error of
     // one straight quad.
     swept.fidelity = compare(shape, swept.mesh, result.faces, kept, swept.quality.volume,

@@ -20,6 +20,7 @@
 #include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
+#include <lacuna/sweep/detail/shares.h>
 #include <lacuna/sweep/detail/skin_patches.h>
 #include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
@@ -271,7 +272,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     refuse_kept_source(split, demands.rows, options);
     for (const std::string& note : given.notes) result.not_kept.push_back("given: " + note);
     result.report = result.not_kept;
-    report_progress(context, "quads of the source");
+    report_progress(context, "quads of the source", share::source);
     check_cancelled(context);
     const surface::Seeds seeds = surface::seed_source(
         split, links, size, style_of(options, !demands.rows.empty()), sizes.sizing,
@@ -290,7 +291,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     if (walls_beside(split, seeds, rim, heights)) walls_to_be.emplace(context, mesh_walls);
     surface::SourceMesh source = surface::mesh_source(split, links, seeds, size_fields(size, options),
                                                       mesher_for_all(options, sizes.narrow), context);
-    report_progress(context, "walls");
+    report_progress(context, "walls", share::walls);
     std::vector<surface::WallMesh> walls = walls_to_be ? walls_to_be->take() : mesh_walls(context);
     RimColumns columns = columns_of(links, source, heights, walls);
     if (outline == Outline::mean && !options.wedges)
@@ -302,7 +303,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     }
     check_cancelled(context);
 
-    report_progress(context, "target");
+    report_progress(context, "target", share::target);
     surface::GivenTarget given_target;
     if (!imprint) given_target = surface::given_target(volume, links, source, options.wedges);
     const bool keeps_target = !given_target.face.empty();
@@ -331,7 +332,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
                           : morph_onto(turned ? *turned : shape, source, columns, context);
     }
     result.report.push_back("target: " + morphed.report);
-    report_progress(context, "layers");
+    report_progress(context, "layers", share::layers);
     PlacementOptions placement;
     placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
     placement.heights = heights;
@@ -373,7 +374,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
             formatted("walls: {} is smaller than the quads there, so it gets no quads and no group",
                       entity_of(volume.model, wall)));
     }
-    report_progress(context, "proof of every cell");
+    report_progress(context, "proof of every cell", share::proof);
     check_cancelled(context);
     std::set<FaceId> still = given_faces(volume, seeds.kept, options.wedges);
     if (options.beside.settle) {

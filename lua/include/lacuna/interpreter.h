@@ -31,7 +31,7 @@ struct InterpreterOptions {
     std::function<void(std::string_view text)> print;       ///< output of print(), line ends included; empty:
                                                             ///< standard output
     std::function<void(std::string_view line)> log;         ///< receives notes of the kernel
-    std::function<bool(std::string_view, double)> progress; ///< stage, fraction in [0, 1]; false: stop
+    std::function<bool(std::string_view, double)> progress; ///< stage, share of the call; false: stop
     std::function<void()> ended;     ///< the last stage has ended; the recipe continues
     std::function<bool()> cancelled; ///< called every 10,000 instructions and before `progress`; true: stop
 

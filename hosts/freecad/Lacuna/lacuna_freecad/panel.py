@@ -253,6 +253,8 @@ class Panel:
 
     def _poll(self):
         self.stage.setText(self.job.stage)
+        self.bar.setRange(0, 100 if self.job.share > 0 else 0)  # 0 to 0: the bar shows that something runs
+        self.bar.setValue(round(100 * self.job.share))
         self.stage.show()
         if not self.job.done():
             return
@@ -274,6 +276,7 @@ class Panel:
         self.stop_button.setEnabled(busy)
         self.find_button.setEnabled(not busy)
         self.bar.setRange(0, 0 if busy else 1)
+        self.bar.reset()
         self.stage.hide()
 
     # --- the report -----------------------------------------------------------------------------------------

@@ -80,13 +80,15 @@ class SealedSolidView:
 
 def wait_with_bar(job, label):
     """Wait for a job of a recompute. Nothing else of the window can be used meanwhile but the stop button."""
-    bar = QtGui.QProgressDialog(f"Filling {label}", "Stop", 0, 0, Gui.getMainWindow())
+    bar = QtGui.QProgressDialog(f"Filling {label}", "Stop", 0, 100, Gui.getMainWindow())
+    bar.setAutoReset(False)
     bar.setWindowTitle("Lacuna")
     bar.setWindowModality(QtCore.Qt.ApplicationModal)
     bar.canceled.connect(job.stop)
     bar.show()
     while not job.wait(0.05):
         bar.setLabelText(f"Filling {label}: {job.stage}")
+        bar.setValue(round(100 * job.share))
         QtGui.QApplication.processEvents()
     bar.canceled.disconnect(job.stop)
     bar.deleteLater()  # it is a child of the window

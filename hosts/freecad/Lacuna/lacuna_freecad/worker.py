@@ -2,7 +2,7 @@
 """worker.py FOLDER: do the job of FOLDER/request.json with the package `lacuna`, in a process of its own.
 
 The answer is FOLDER/result.json, beside it mesh.unv and sealed.brep. A line of standard output is a step of
-progress, as JSON: [stage, share]. The process ends when its standard input does, so that none outlives FreeCAD.
+progress, as JSON: [stage, share of the job]. The process ends when its standard input does, so that none outlives FreeCAD.
 """
 import json
 import logging
@@ -59,6 +59,20 @@ def face_tags(model, faces):
     return tags
 
 
+class Progress:
+    """Prints the stage and the share of the job. Each call of Lacuna tells its own shares, from 0 to 1."""
+
+    def __init__(self):
+        self.part(0, 0.1)  # the part is read
+
+    def part(self, begin, end):
+        """The next call of Lacuna is this part of the job."""
+        self._begin, self._length = begin, end - begin
+
+    def __call__(self, stage, share):
+        print(json.dumps([stage, self._begin + share * self._length]), flush=True)
+
+
 class Faces:
     """FreeCAD's numbers of faces as Lacuna's tags, and texts with tags as texts with FreeCAD's names."""
 
@@ -112,13 +126,16 @@ def write_solid(void, path):
         logging.getLogger("lacuna").warning("note: no sealed solid: %s", error)
 
 
-def fill(model, faces, request, folder):
+def fill(model, faces, request, folder, progress):
+    progress.part(0.1, 0.8)
     void = model.open_volume(faces.roles(request["roles"]))
     if request["close"]:
         void.close(request["close"])
     mesh = void.sweep(request["sweep"])
+    progress.part(0.8, 0.9)
     mesh.write(os.path.join(folder, "mesh.unv"))
     if request["solid"]:
+        progress.part(0.9, 1)
         write_solid(void, os.path.join(folder, "sealed.brep"))
     fidelity = mesh.fidelity
     return {"class": void.class_, "report": [*void.describe().splitlines(), *mesh.report],
@@ -135,13 +152,13 @@ def named_error(error, faces):
             "attempts": [named(attempt["message"]) for attempt in error.attempts]}
 
 
-def answer(folder, request):
+def answer(folder, request, progress):
     faces = None
     try:
         model = lacuna.load(os.path.join(folder, "part.brep"))
         faces = Faces(model, request["faces"])
         result = find(model, faces, request) if request["action"] == "find" else \
-            fill(model, faces, request, folder)
+            fill(model, faces, request, folder, progress)
     except lacuna.Error as error:
         result = {"error": named_error(error, faces)}
     named = faces.named if faces else str
@@ -162,8 +179,9 @@ def main():
     else:
         notes = Notes()
         logging.getLogger("lacuna").addHandler(notes)
-        with lacuna.progress(lambda stage, share: print(json.dumps([stage, share]), flush=True)):
-            result, named = answer(folder, request)
+        progress = Progress()
+        with lacuna.progress(progress):
+            result, named = answer(folder, request, progress)
         result["notes"] = [named(note) for note in notes.lines]
     with open(os.path.join(folder, "result.json"), "w") as file:
         json.dump(result, file)
