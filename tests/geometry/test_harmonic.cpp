@@ -353,3 +353,26 @@ TEST_CASE("facets with no fixed point, and input that does not fit, are refused"
     problem.fixed.back() = Index(two.points.size());
     CHECK_THROWS_AS(solve_harmonic(problem), InvalidInput);
 }
+
+TEST_CASE("points that no triangle uses change no bit of harmonic values, and errors name the caller's point")
+{
+    const Sheet few = sheet(1, 6, 0.3, 2);
+    const HarmonicProblem problem = square_problem(few);
+    Sheet many = few;
+    const Index unused = 7;
+    many.points.insert(many.points.begin(), unused, Vec3(100, 100, 100));
+    many.points.emplace_back(-100, 0, 0);
+    for (Triangle& t : many.triangles)
+        for (Index& p : t) p += unused;
+    HarmonicProblem other = problem;
+    other.points = many.points;
+    other.triangles = many.triangles;
+    for (Index& p : other.fixed) p += unused;
+    const Eigen::MatrixXd values = solve_harmonic(problem), shifted = solve_harmonic(other);
+    CHECK(shifted.middleRows(unused, values.rows()) == values);
+    CHECK(shifted.topRows(unused).isZero(0));
+    CHECK(shifted.bottomRows(1).isZero(0));
+    other.fixed = {0};
+    other.fixed_values = other.fixed_values.topRows(1).eval();
+    CHECK_THROWS_WITH_AS(solve_harmonic(other), doctest::Contains("point 9 "), BackendError);
+}

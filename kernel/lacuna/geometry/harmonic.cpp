@@ -23,7 +23,7 @@ namespace {
 /// to rounding. The limit keeps the system regular and all weights positive.
 const double kHalfDigits = std::sqrt(std::numeric_limits<double>::epsilon());
 
-constexpr Index kFree = -1, kUnused = -2;
+constexpr Index kFree = -1;
 
 /// tan(angle / 2) between two sides, limited from below and above.
 /// @param product  product of the lengths of the sides
@@ -134,19 +134,18 @@ void check(const HarmonicProblem& problem)
              needed(problem.fixed_values.cols()));
 }
 
-/// The role of each point: kUnused, kFree or, for a fixed point, its row of fixed_values.
+/// The role of each point: kFree or, for a fixed point, its row of fixed_values.
 std::vector<Index> roles(const HarmonicProblem& problem)
 {
-    std::vector<Index> role(problem.points.size(), kUnused);
-    for (const Triangle& triangle : problem.triangles)
-        for (const Index corner : triangle) role[index(corner)] = kFree;
+    std::vector<Index> role(problem.points.size(), kFree);
     for (std::size_t i = 0; i < problem.fixed.size(); ++i)
         role[index(problem.fixed[i])] = static_cast<Index>(i);
     return role;
 }
 
+/// @param names  the caller's numbers of the points
 /// @throw BackendError  a connected part has no fixed point.
-void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
+void check_anchored(const HarmonicProblem& problem, std::span<const Index> role, std::span<const Index> names)
 {
     UnionFind parts(problem.points.size());
     for (const Triangle& triangle : problem.triangles) {
@@ -160,7 +159,7 @@ void check_anchored(const HarmonicProblem& problem, std::span<const Index> role)
             throw BackendError(Message("geometry.singular",
                                        "harmonic values are not determined: the facets connected to point {} "
                                        "contain no point with a known value",
-                                       i)
+                                       names[i])
                                    .remedy("fix at least one point of each connected part"));
 }
 
@@ -283,9 +282,8 @@ std::optional<std::vector<Vec3>> affine_values(const HarmonicProblem& problem, s
                                      problem.fixed_values.colwise().minCoeff();
     const double off = kOff * range.maxCoeff();
     if (!(fit.max_residual <= off)) return std::nullopt;
-    std::vector<Vec3> values(problem.points.size(), Vec3::Zero());
-    for (std::size_t p = 0; p < values.size(); ++p)
-        if (role[p] != kUnused) values[p] = fit(problem.points[p]);
+    std::vector<Vec3> values;
+    for (const Vec3& point : problem.points) values.push_back(fit(point));
     std::vector<Vec3> rest = values;
     for (const Weight& w : weights) rest[index(w.from)] -= w.value * values[index(w.to)];
     for (std::size_t p = 0; p < rest.size(); ++p)
@@ -300,13 +298,13 @@ void keep_in_range(const Eigen::MatrixXd& fixed, Eigen::MatrixXd& values)
         values.col(k) = values.col(k).cwiseMax(fixed.col(k).minCoeff()).cwiseMin(fixed.col(k).maxCoeff());
 }
 
-} // namespace
-
-Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context)
+/// Solve a problem whose points are all used.
+/// @param names  the caller's numbers of the points
+Eigen::MatrixXd solve_compact(const HarmonicProblem& problem, std::span<const Index> names,
+                              const RunContext& context)
 {
-    check(problem);
     const std::vector<Index> role = roles(problem);
-    check_anchored(problem, role);
+    check_anchored(problem, role, names);
     const Eigen::Index columns = problem.fixed_values.cols();
     Eigen::MatrixXd values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem.points.size()), columns);
 
@@ -354,6 +352,38 @@ Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext&
     }
     const Eigen::MatrixXd solution = solve_directly(entries, right, context);
     for (Index row = 0; row < size; ++row) values.row(point_of[index(row)]) = solution.row(row);
+    return values;
+}
+
+} // namespace
+
+Eigen::MatrixXd solve_harmonic(const HarmonicProblem& problem, const RunContext& context)
+{
+    check(problem);
+    // Number the used points alone, in their order: a linking surface uses few points of a large model.
+    std::vector<char> is_used(problem.points.size(), 0);
+    for (const Triangle& triangle : problem.triangles)
+        for (const Index corner : triangle) is_used[index(corner)] = 1;
+    for (const Index point : problem.fixed) is_used[index(point)] = 1;
+    HarmonicProblem compact = problem;
+    std::vector<Vec3> points;
+    std::vector<Index> used, local(is_used.size());
+    for (std::size_t p = 0; p < local.size(); ++p) {
+        local[p] = static_cast<Index>(used.size());
+        if (is_used[p] == 0) continue;
+        used.push_back(static_cast<Index>(p));
+        points.push_back(problem.points[p]);
+    }
+    std::vector<Triangle> triangles(problem.triangles.begin(), problem.triangles.end());
+    for (Triangle& triangle : triangles)
+        for (Index& corner : triangle) corner = local[index(corner)];
+    for (Index& point : compact.fixed) point = local[index(point)];
+    compact.points = points;
+    compact.triangles = triangles;
+    const Eigen::MatrixXd found = solve_compact(compact, used, context);
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(local.size()), found.cols());
+    for (std::size_t i = 0; i < used.size(); ++i)
+        values.row(used[i]) = found.row(static_cast<Eigen::Index>(i));
     return values;
 }
 

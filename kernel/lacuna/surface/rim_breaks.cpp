@@ -237,6 +237,7 @@ std::vector<Index> RimFacets::crease_from(Index rim) const
     const Model& model = volume_.model;
     const double least_cosine = std::cos(kBendBelow * kDegree);
     std::vector<Index> crease{rim};
+    std::unordered_set<Index> passed{rim};
     while (crease.size() == 1 || end_of_[index(crease.back())] == 0) {
         const auto sides = sides_.find(crease.back());
         if (sides == sides_.end()) return {};
@@ -256,7 +257,7 @@ std::vector<Index> RimFacets::crease_from(Index rim) const
             most = turn;
             next = side.to;
         }
-        if (next < 0 || std::ranges::find(crease, next) != crease.end()) return {};
+        if (next < 0 || !passed.insert(next).second) return {};
         crease.push_back(next);
     }
     return crease;

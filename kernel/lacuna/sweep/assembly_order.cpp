@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 namespace lacuna::sweep {
 
@@ -95,52 +96,69 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
                                        std::span<const std::set<std::size_t>> before,
                                        std::span<const std::size_t> first)
 {
-    std::vector<char> placed(members.size(), 0);
-    std::vector<std::size_t> order;
+    const std::size_t count = members.size();
+    std::vector<char> placed(count, 0);
+    std::vector<std::vector<const SharedFace*>> shared_by(count);
+    std::vector<std::set<std::size_t>> near(count); // members whose step depends on this one
+    for (const SharedFace& face : shared) {
+        shared_by[face.a].push_back(&face);
+        if (face.b != face.a) shared_by[face.b].push_back(&face);
+        near[face.a].insert(face.b);
+        near[face.b].insert(face.a);
+    }
+    for (std::size_t m = 0; m < count; ++m)
+        for (const std::size_t other : before[m]) near[other].insert(m);
     const std::vector<bool> early = split_at_both_ends(members, before);
     const auto has = [&](std::size_t m, bool wall, bool other_wall, bool there) {
-        return std::ranges::any_of(shared, [&](const SharedFace& face) {
-            if (face.a != m && face.b != m) return false;
-            const bool is_a = face.a == m;
-            const std::size_t other = is_a ? face.b : face.a;
+        return std::ranges::any_of(shared_by[m], [&](const SharedFace* face) {
+            const bool is_a = face->a == m;
+            const std::size_t other = is_a ? face->b : face->a;
             return (placed[other] != 0) == there &&
-                   is_wall(members[m], is_a ? face.face_a : face.face_b) == wall &&
-                   is_wall(members[other], is_a ? face.face_b : face.face_a) == other_wall;
+                   is_wall(members[m], is_a ? face->face_a : face->face_b) == wall &&
+                   is_wall(members[other], is_a ? face->face_b : face->face_a) == other_wall;
         });
     };
     // For each member, the neighbours that must come first: those that share a wall with it which lies in the
     // middle of the neighbour's own walls.
-    std::vector<std::set<std::size_t>> below(members.size());
+    std::vector<std::set<std::size_t>> below(count);
     for (const SharedFace& face : shared) {
         const bool a = in_middle(members[face.a], face.face_a), b = in_middle(members[face.b], face.face_b);
         if (a && !b && is_wall(members[face.b], face.face_b)) below[face.b].insert(face.a);
         if (b && !a && is_wall(members[face.a], face.face_a)) below[face.a].insert(face.b);
     }
-    const auto is_below = [&](std::size_t m) {
-        return std::ranges::any_of(below[m], [&](std::size_t other) { return placed[other] == 0; });
+    const auto all_placed = [&](const std::set<std::size_t>& others) {
+        return std::ranges::all_of(others, [&](std::size_t other) { return placed[other] != 0; });
     };
-    for (;;) {
-        std::size_t next = members.size();
-        const auto take = [&](std::size_t m, bool ready) {
-            if (next == members.size() && placed[m] == 0 && ready &&
-                std::ranges::all_of(before[m], [&](std::size_t other) { return placed[other] != 0; }))
-                next = m;
-        };
-        for (std::size_t m = 0; m < members.size(); ++m) take(m, members[m].fixed != nullptr);
-        for (const std::size_t m : first) take(m, true);
-        for (std::size_t m = 0; m < members.size(); ++m) take(m, came_with_mesh(members[m]));
-        for (std::size_t m = 0; m < members.size(); ++m) take(m, !members[m].options.boundary_layers.empty());
-        for (std::size_t m = 0; m < members.size(); ++m)
-            take(m, early[m] && !has(m, false, false, true) && !has(m, false, true, true) && !is_below(m));
-        const auto waits = [&](std::size_t m) { return has(m, false, true, false) || is_below(m); };
-        for (std::size_t m = 0; m < members.size(); ++m) take(m, has(m, false, false, true) && !waits(m));
-        for (std::size_t m = 0; m < members.size(); ++m) take(m, !waits(m));
-        for (std::size_t m = 0; m < members.size(); ++m) take(m, !is_below(m));
-        for (std::size_t m = 0; m < members.size(); ++m) take(m, true);
-        if (next == members.size()) return order;
+    constexpr std::size_t kMustWait = 10;
+    using Step = std::tuple<std::size_t, std::size_t, std::size_t>; // the step, the place in it, the member
+    const auto step_of = [&](std::size_t m) -> Step {
+        if (!all_placed(before[m])) return {kMustWait, m, m};
+        if (members[m].fixed != nullptr) return {1, m, m};
+        if (const auto at = std::ranges::find(first, m); at != first.end())
+            return {2, static_cast<std::size_t>(at - first.begin()), m};
+        if (came_with_mesh(members[m])) return {3, m, m};
+        if (!members[m].options.boundary_layers.empty()) return {4, m, m};
+        if (!all_placed(below[m])) return {9, m, m};
+        if (early[m] && !has(m, false, false, true) && !has(m, false, true, true)) return {5, m, m};
+        if (has(m, false, true, false)) return {8, m, m};
+        return {has(m, false, false, true) ? 6 : 7, m, m};
+    };
+    std::set<Step> to_come; // of the members that are not placed
+    std::vector<Step> steps;
+    for (std::size_t m = 0; m < count; ++m) to_come.insert(steps.emplace_back(step_of(m)));
+    std::vector<std::size_t> order;
+    while (!to_come.empty() && std::get<0>(*to_come.begin()) < kMustWait) {
+        const std::size_t next = std::get<2>(*to_come.begin());
+        to_come.erase(to_come.begin());
         placed[next] = 1;
         order.push_back(next);
+        for (const std::size_t other : near[next]) {
+            if (placed[other] != 0) continue;
+            to_come.erase(steps[other]);
+            to_come.insert(steps[other] = step_of(other));
+        }
     }
+    return order;
 }
 
 } // namespace lacuna::sweep

@@ -35,7 +35,7 @@ std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember
 /// lies inside the other member's walls, away from the rims of its ends. If every member is passed over, the
 /// first one is taken.
 /// @param before  result of `members_before()`
-/// @note  O(members² × shared faces) at most.
+/// @note  O(n log n) for n members and shared faces, where a member has few neighbours.
 std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
                                        std::span<const SharedFace> shared,
                                        std::span<const std::set<std::size_t>> before,
