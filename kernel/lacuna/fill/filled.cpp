@@ -32,21 +32,13 @@ void count(std::vector<Group>& groups, const std::string& name, int dim, std::si
     known->cells += cells;
 }
 
-/// @param patch  returns the patch of a side of the skin
-template <class Patch>
-void count_skin(std::vector<Group>& groups, const std::vector<mesh::SkinPatch>& patches, std::size_t sides,
-                const Patch& patch)
+template <class Mesh>
+void count_skin(std::vector<Group>& groups, const Mesh& mesh)
 {
-    std::vector<std::size_t> of_patch(patches.size(), 0);
-    for (std::size_t i = 0; i < sides; ++i) ++of_patch[index(patch(i))];
-    for (std::size_t p = 0; p < patches.size(); ++p)
-        for (const std::string& name : patches[p].groups) count(groups, name, 2, of_patch[p]);
-}
-
-void count_skin(std::vector<Group>& groups, const mesh::HexMesh& mesh)
-{
-    count_skin(groups, mesh.patches, mesh.skin_count(),
-               [&](std::size_t i) { return mesh::skin_quad(mesh, i).patch; });
+    std::vector<std::size_t> of_patch(mesh.patches.size(), 0);
+    for (std::size_t i = 0; i < mesh.skin_count(); ++i) ++of_patch[index(mesh::skin_quad(mesh, i).patch)];
+    for (std::size_t p = 0; p < of_patch.size(); ++p)
+        for (const std::string& name : mesh.patches[p].groups) count(groups, name, 2, of_patch[p]);
 }
 
 } // namespace
@@ -109,20 +101,15 @@ std::vector<Group> groups(const FilledParts& mesh)
 {
     std::vector<Group> all, regions;
     std::size_t sum = 0;
-    for (const sweep::Swept& part : mesh.swept.parts) {
-        const std::string& region = part.mesh.volume_groups.front();
-        count_skin(all, part.mesh);
-        if (region != "volume")
-            count(regions, region, 3, part.mesh.cell_count()); // "volume" is the default
-                                                               // and names no region
-        sum += part.mesh.cell_count();
-    }
-    for (const auto& [part, number, shared, region, quality, fidelity, faces, report] : mesh.tets) {
-        count_skin(all, part.patches, part.skin.size(), [&](std::size_t i) { return part.skin_patch[i]; });
+    const auto add = [&](const auto& part) {
+        count_skin(all, part);
         const std::string& name = part.volume_groups.front();
-        if (name != "volume") count(regions, name, 3, part.cells.size());
-        sum += part.cells.size();
-    }
+        // "volume" is the default and names no region
+        if (name != "volume") count(regions, name, 3, part.cell_count());
+        sum += part.cell_count();
+    };
+    for (const sweep::Swept& part : mesh.swept.parts) add(part.mesh);
+    for (const FilledTets& tets : mesh.tets) add(tets.mesh);
     for (const SplitInterface& split : mesh.interfaces)
         if (!split.cells.empty()) count(regions, split.region, 3, split.cells.size());
     std::ranges::sort(all, {}, &Group::name);

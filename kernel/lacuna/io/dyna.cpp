@@ -504,18 +504,6 @@ private:
 
 // --- writing ----------------------------------------------------------------------------------------------
 
-char* put_right(char* out, std::string_view text, std::size_t width)
-{
-    for (std::size_t k = text.size(); k < width; ++k) *out++ = ' ';
-    return put_words(out, text);
-}
-
-char* put_number(char* out, DeckTag number, std::size_t width)
-{
-    char text[kNumberBytes];
-    return put_right(out, {text, static_cast<std::size_t>(put_text(text, number) - text)}, width);
-}
-
 class DynaWriter {
 public:
     DynaWriter(const View& view, const std::string& unit) : view_(view), sides_(*view)
@@ -567,7 +555,7 @@ private:
     {
         const auto put = [more = view_->kept ? kept_->points : MeshView::TextByIndex()](
                              std::size_t p, DeckTag tag, const Vec3& point, char* out) {
-            out = put_number(out, tag, kNumber);
+            out = put_right(out, tag, kNumber);
             for (const double x : point) {
                 char text[kReal];
                 out = put_right(out, {text, static_cast<std::size_t>(put_real(text, x, kReal) - text)},
@@ -596,10 +584,10 @@ private:
         file_.add("*" + keyword + end_);
         const auto put = [=, view = view_](std::size_t, DeckTag tag, Index region, std::span<const Index> own,
                                            char* out) {
-            out = put_number(out, tag, kNumber);
-            out = put_number(out, region < 0 ? 0 : view->regions[index(region)].tag, kNumber);
+            out = put_right(out, tag, kNumber);
+            out = put_right(out, region < 0 ? 0 : view->regions[index(region)].tag, kNumber);
             const auto put_node = [&](std::size_t k) {
-                out = put_number(out, view->point_tags[index(own[k])], kNumber);
+                out = put_right(out, view->point_tags[index(own[k])], kNumber);
             };
             if (pattern != std::end(kDegenerate)) {
                 for (const std::uint8_t k : pattern->fields) put_node(k);
@@ -701,7 +689,7 @@ private:
             {head_of(view_->sets[s], keyword), count, kSetNumber + 1,
              [members = std::move(members), count](std::size_t begin, std::size_t end, char* out) {
                  members.each(begin, end, [&](std::size_t i, DeckTag tag) {
-                     out = put_number(out, tag, kSetNumber);
+                     out = put_right(out, tag, kSetNumber);
                      if ((i + 1) % kPerLine == 0 || i + 1 == count) *out++ = '\n';
                  });
                  return out;
@@ -720,7 +708,7 @@ private:
             char line[4 * kNumberBytes];
             char* out = line;
             for (std::size_t k = 0; k < 4; ++k)
-                out = put_number(out, view_->point_tags[index(nodes[std::min(k, corners - 1)])], kSetNumber);
+                out = put_right(out, view_->point_tags[index(nodes[std::min(k, corners - 1)])], kSetNumber);
             text.append(line, out).append("\n");
         }
         if (edges > 0)

@@ -23,18 +23,6 @@ constexpr std::size_t kColumn = 10, kReal = 25; // characters
 constexpr std::size_t kPerLine = 8;             // nodes per line
 constexpr std::string_view kMark = "    -1\n";
 
-char* put_right(char* out, std::string_view text, std::size_t width)
-{
-    for (std::size_t k = text.size(); k < width; ++k) *out++ = ' ';
-    return put_words(out, text);
-}
-
-char* put_column(char* out, long long number)
-{
-    char text[kNumberBytes];
-    return put_right(out, {text, static_cast<std::size_t>(put_text(text, number) - text)}, kColumn);
-}
-
 char* put_double(char* out, double value)
 {
     char text[kNumberBytes + 10];
@@ -47,7 +35,7 @@ std::string columns(std::initializer_list<long long> numbers)
 {
     std::string text(numbers.size() * kNumberBytes, '\0');
     char* out = text.data();
-    for (const long long number : numbers) out = put_column(out, number);
+    for (const long long number : numbers) out = put_right(out, number, kColumn);
     text.resize(static_cast<std::size_t>(out - text.data()));
     return text + "\n";
 }
@@ -68,7 +56,7 @@ std::string units(const MeshView& view, const std::string& unit)
 void add_nodes(const View& view, DeckFile& file)
 {
     const auto put = [](std::size_t, DeckTag tag, const Vec3& point, char* out) {
-        out = put_column(out, tag);
+        out = put_right(out, tag, kColumn);
         out = put_words(out, "         1         1        11\n");
         for (const double x : point) out = put_double(out, x);
         *out++ = '\n';
@@ -90,15 +78,15 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
     const auto places = node_places(NodeOrder::unv, shape);
     const auto nodes = static_cast<std::size_t>(shape_info(shape).nodes);
     const auto put = [=](std::size_t, DeckTag tag, Index region, std::span<const Index> element, char* out) {
-        out = put_column(out, tag);
-        out = put_column(out, descriptor);
-        out = put_column(out, region < 0 ? 0 : view->regions[index(region)].tag);
+        out = put_right(out, tag, kColumn);
+        out = put_right(out, descriptor, kColumn);
+        out = put_right(out, region < 0 ? 0 : view->regions[index(region)].tag, kColumn);
         out = put_words(out, "         1         7");
-        out = put_column(out, static_cast<long long>(nodes));
+        out = put_right(out, static_cast<long long>(nodes), kColumn);
         for (std::size_t k = 0; k < nodes; ++k) {
             if (k % kPerLine == 0) *out++ = '\n';
             const std::size_t at = brick ? kMergedBrick[places[k]] : places[k];
-            out = put_column(out, view->point_tags[index(element[at])]);
+            out = put_right(out, view->point_tags[index(element[at])], kColumn);
         }
         *out++ = '\n';
         return out;
@@ -111,8 +99,8 @@ void add_members(const View& view, std::size_t set, std::string head, DeckFile& 
 {
     const int kind = view->sets[set].kind == mesh::SetKind::nodes ? kUnvNode : kUnvElement;
     const auto put = [kind, count = view->sets[set].count](std::size_t i, DeckTag tag, char* out) {
-        out = put_column(out, kind);
-        out = put_column(out, tag);
+        out = put_right(out, kind, kColumn);
+        out = put_right(out, tag, kColumn);
         out = put_words(out, "         0         0");
         if (i % 2 == 1 || i + 1 == count) *out++ = '\n';
         return out;

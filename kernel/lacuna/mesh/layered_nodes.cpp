@@ -13,10 +13,7 @@ HexMesh make_layers(const LayeredMesh& layered, int first, int last, HexMesh bef
     if (cells.quads.empty()) {
         cells.nodes_per_layer = whole.nodes_per_layer;
         cells.quads = whole.quads;
-        cells.middles.full = whole.middles.full;
-        cells.middles.sides = whole.middles.sides;
-        cells.middles.side_of = whole.middles.side_of;
-        cells.middles.rim_side = whole.middles.rim_side;
+        cells.middles = whole.middles;
     }
     cells.layers = last - first;
     cells.nodes.resize(corner_count(cells));

@@ -3,7 +3,6 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/constants.h>
-#include <lacuna/core/shared/criteria.h>
 #include <lacuna/core/shared/list_text.h>
 #include <lacuna/core/shared/number_text.h>
 #include <lacuna/core/shared/progress.h>
@@ -69,9 +68,6 @@ double shortest_side(const FaceMesh& mesh)
 /// this share of the shortest side. No other pair of nodes is that close.
 constexpr double kNearImage = 0.25;
 
-/// Relative difference between a face's area and the sum of its facets' areas below which the face is flat.
-constexpr double kFlat = 1e-9;
-
 /// Codes of errors whose remedy is to remesh a given face, or to load it without its mesh.
 constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surface.wall_not_rows",
                                                      "surface.kept_rim", "sweep.layers_given"};
@@ -86,11 +82,6 @@ Message why_failed(const AssemblyMember& member, const Error& error)
         "these quads and nodes come from its neighbours: give all of them the same 'size' "
         "and 'layers'");
 }
-
-/// Error: a member's own mesh of a shared face differs from its neighbour's mesh.
-struct UnlikeNeighbour : Error {
-    using Error::Error;
-};
 
 /// Error: a member could not be swept, either alone or together with the meshes of its neighbours.
 struct MemberFailed : NotSweepable {
@@ -350,17 +341,19 @@ private:
             check_cancelled(context_);
             const RunContext part = part_of(context_, before / all, (before + 1) / all);
             ++before;
-            const std::vector<Neighbour> neighbours = shared_with(m, done), images = images_for(m, done);
+            const std::vector<Neighbour> neighbours = shared_with(m, done);
+            std::vector<Neighbour> handed = images_for(m, done);
+            handed.insert(handed.end(), neighbours.begin(), neighbours.end());
             done[m] = 1;
             try {
-                make(m, neighbours, images, part);
+                make(m, handed, part);
                 check_kept(m, neighbours);
                 if (members_[m].options.order > 1) keep_middles(m);
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
                 MemberFailed failed(m, why_failed(members_[m], error));
-                if (!neighbours.empty() || !images.empty()) return failed;
+                if (!handed.empty()) return failed;
                 throw failed;
             }
         }
@@ -405,12 +398,9 @@ private:
         return shared;
     }
 
-    /// Copy the neighbours' meshes on shared faces to the member, then sweep the member. A shared face whose
-    /// mesh follows from its rim alone is an exception: the member meshes it, and the result is compared with
-    /// the neighbour's mesh. If the two differ, all meshes are copied. On periodic faces, the meshes of their
-    /// images are always copied.
-    void make(std::size_t m, const std::vector<Neighbour>& neighbours, const std::vector<Neighbour>& images,
-              const RunContext& context)
+    /// Copy the meshes of shared faces and of images of periodic faces to the member, then sweep the member.
+    /// @param handed  the faces that are meshed already, in other members
+    void make(std::size_t m, const std::vector<Neighbour>& handed, const RunContext& context)
     {
         const AssemblyMember& member = members_[m];
         if (member.fixed != nullptr) {
@@ -427,45 +417,31 @@ private:
             if (member.volume->turned_round) reverse_heights(heights); // given from the named source
             options.layers.heights.assign(heights.begin() + 1, heights.end());
         }
-        std::vector<Neighbour> alike, handed = images;
-        for (const Neighbour& n : neighbours) (is_alike(m, n) ? alike : handed).push_back(n);
-        std::set<FaceId> fixed; // faces whose nodes are given or copied
         if (options.order > 1) give_middles(options.second_order);
         options.beside.between = shared_faces_of(m);
         options.beside.own_mesh = came_with_mesh(member);
-        options.beside.settle = [&](const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) {
-            return settle(m, alike, fixed, skin, faces);
-        };
-        const auto sweep_it = [&] {
-            OpenVolume volume = *member.volume, sealed = *member.volume;
-            give_edge_nodes(volume, plan_.nodes[m]);
-            // Rows along walls continue across a shared face, so both members make the rows themselves.
-            if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
-                for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
-            for (const auto& [own, other, from, onto] : handed) {
-                hand_on(result_.parts[other], from, volume, own, onto);
-                // On a void face, the neighbour's mesh defines the shape.
-                if (volume.model[own].origin == Origin::made_void)
-                    hand_on(result_.parts[other], from, sealed, own, onto);
-            }
-            const bool keeps = options.quads == Quads::automatic || options.quads == Quads::keep;
-            fixed = options.beside.handed;
-            for (const Neighbour& n : handed) fixed.insert(n.own);
-            if (keeps) give_to_images(m, volume, fixed);
-            // The reference shape is the sealed volume without the nodes planned on edges. Of the neighbours'
-            // quads it has only those on void faces.
-            if (!plan_.nodes[m].empty() || !fixed.empty()) options.beside.shape = &sealed;
-            result_.parts[m] = sweep(volume, options, context);
-        };
-        try {
-            sweep_it();
-        } catch (const UnlikeNeighbour& unlike) {
-            log_line(context_, unlike.message().text());
-            alike.clear();
-            handed = images;
-            handed.insert(handed.end(), neighbours.begin(), neighbours.end());
-            sweep_it();
+        OpenVolume volume = *member.volume, sealed = *member.volume;
+        give_edge_nodes(volume, plan_.nodes[m]);
+        // Rows along walls continue across a shared face, so both members make the rows themselves.
+        if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
+            for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
+        for (const auto& [own, other, from, onto] : handed) {
+            hand_on(result_.parts[other], from, volume, own, onto);
+            // On a void face, the neighbour's mesh defines the shape.
+            if (volume.model[own].origin == Origin::made_void)
+                hand_on(result_.parts[other], from, sealed, own, onto);
         }
+        const bool keeps = options.quads == Quads::automatic || options.quads == Quads::keep;
+        std::set<FaceId> fixed = options.beside.handed; // faces whose nodes are given or copied
+        for (const Neighbour& n : handed) fixed.insert(n.own);
+        if (keeps) give_to_images(m, volume, fixed);
+        options.beside.settle = [&](const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) {
+            return tie_images(m, fixed, skin, faces);
+        };
+        // The reference shape is the sealed volume without the nodes planned on edges. Of the neighbours'
+        // quads it has only those on void faces.
+        if (!plan_.nodes[m].empty() || !fixed.empty()) options.beside.shape = &sealed;
+        result_.parts[m] = sweep(volume, options, context);
     }
 
     /// Copy the quads of a member's periodic faces to their images in the same member.
@@ -491,9 +467,10 @@ private:
 
     /// Make the nodes of a member's periodic faces exact images of each other. If the motion is a
     /// translation, nodes are also rounded to the grid: their images in other members are then bit-identical.
-    void tie_images(std::size_t m, const std::set<FaceId>& fixed, const mesh::SkinNodes& skin,
-                    const std::vector<FaceId>& faces, SettledNodes& settled) const
+    [[nodiscard]] SettledNodes tie_images(std::size_t m, const std::set<FaceId>& fixed,
+                                          const mesh::SkinNodes& skin, const std::vector<FaceId>& faces) const
     {
+        SettledNodes settled;
         const double tolerance = members_[m].volume->model.tolerance;
         std::map<Index, std::size_t> number;
         std::vector<Index> nodes;
@@ -531,6 +508,7 @@ private:
         }
         tie_points(places, is_fixed, ties, grid_);
         for (std::size_t n = 0; n < nodes.size(); ++n) settled.nodes.emplace_back(nodes[n], places[n]);
+        return settled;
     }
     [[noreturn]] void refuse_images(const PeriodicFaces& pair, bool given) const
     {
@@ -636,61 +614,6 @@ private:
                     .remedy("use order = 1"));
     }
 
-    /// Whether a member will make the same grid on a shared face as its neighbour. This is so if the face is
-    /// flat, it has four edges with planned nodes, and the neighbour has as many quads there as the grid.
-    [[nodiscard]] bool is_alike(std::size_t m, const Neighbour& n) const
-    {
-        if (members_[n.other].fixed != nullptr) return false;
-        const Model& model = members_[m].volume->model;
-        if (!is_flat(model, n.own) || !is_flat(members_[n.other].volume->model, n.there)) return false;
-        const std::vector<Loop> loops = border_loops(model, n.own);
-        if (loops.size() != 1 || loops[0].uses.size() != 4) return false;
-        std::array<std::size_t, 4> sides{};
-        for (std::size_t k = 0; k < 4; ++k) {
-            const auto planned = std::ranges::find(plan_.nodes[m], loops[0].uses[k].edge, &EdgeNodes::edge);
-            if (planned == plan_.nodes[m].end()) return false;
-            sides[k] = planned->nodes.size() - 1;
-        }
-        return sides[0] == sides[2] && sides[1] == sides[3] &&
-               quads_of(n.other, n.there).size() == sides[0] * sides[1];
-    }
-    static bool is_flat(const Model& model, FaceId face)
-    {
-        return model[face].given_quads.empty() &&
-               face_area_vector(model, face).norm() >= (1 - kFlat) * face_area(model, face);
-    }
-
-    /// Positions of neighbours' nodes for the nodes of a member that must be moved onto them.
-    SettledNodes settle(std::size_t m, const std::vector<Neighbour>& alike, const std::set<FaceId>& fixed,
-                        const mesh::SkinNodes& skin, const std::vector<FaceId>& faces)
-    {
-        SettledNodes settled;
-        tie_images(m, fixed, skin, faces, settled);
-        const double within = kRoundoff * coordinates_of(m);
-        for (const Neighbour& n : alike) {
-            const mesh::SkinNodes theirs = result_.parts[n.other].skin();
-            const auto pairs = same_quads(skin, quads_on(skin.mesh, faces, n.own), theirs,
-                                          quads_of(n.other, n.there), within);
-            if (!pairs)
-                throw UnlikeNeighbour(
-                    "assembly.unlike",
-                    "the mesh of {} of {} differs from its neighbour's mesh of that face; the "
-                    "neighbour's mesh is copied",
-                    entity_in(members_[m], n.own), members_[m].region);
-            for (const NodePair& pair : *pairs) settled.nodes.emplace_back(pair.own, theirs[pair.other]);
-            settled.faces.insert(n.own);
-        }
-        return settled;
-    }
-    /// The largest absolute coordinate of a member.
-    [[nodiscard]] double coordinates_of(std::size_t m) const
-    {
-        double largest = 0;
-        for (const Vec3& p : members_[m].volume->model.points)
-            largest = std::max(largest, p.cwiseAbs().maxCoeff());
-        return largest;
-    }
-
     /// Name the groups of cells, and prefix groups of roles with the member's name unless it is the only
     /// volume. Faces between two pieces of one volume are in no group.
     void name_groups()
@@ -743,7 +666,8 @@ private:
             const NamedEntity face_a = entity_in(members_[m], own),
                               face_b = entity_in(members_[other], there);
             const std::string &region_a = members_[m].region, &region_b = members_[other].region;
-            if (same_quads(part.skin(), a, result_.parts[other].skin(), b, 0)) {
+            if (a.size() == b.size() &&
+                same_quads(face_mesh(part.skin(), a), face_mesh(result_.parts[other].skin(), b), 0)) {
                 result_.report.push_back(formatted("shared: {} of {} and {} of {}, {} {}", face_b, region_b,
                                                    face_a, region_a, a.size(),
                                                    a.size() == 1 ? "quad" : "quads"));

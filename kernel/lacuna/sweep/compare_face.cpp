@@ -556,15 +556,78 @@ void set_mean_sides(Skin& skin)
         for (const double side : face.side) face.mean_side += side / static_cast<double>(face.side.size());
 }
 
+/// The quads of a mesh's skin by face.
+/// @param points   the nodes of the skin
+/// @param quads    number of quads of the skin that precede its first triangle, if the mesh is of order 2
+/// @param at       returns the index in `points` of a node of the mesh
+/// @param whole    at order 2, the allowed distance of a part of a side is that of the whole side
+template <class Mesh, class At>
+Skin skin_of(const Mesh& mesh, std::vector<Vec3> points, std::size_t quads, const At& at, bool whole,
+             const std::vector<FaceId>& faces, std::size_t face_count, const RunContext& context)
+{
+    Skin skin{std::move(points), std::vector<SkinOfFace>(face_count)};
+    for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
+    const bool curved = mesh.order() > 1;
+    // Append the centres of quads that are not nodes of the mesh.
+    const std::size_t known = skin.points.size();
+    if (curved && !mesh.middles.full) skin.points.resize(known + quads);
+    struct Numbered {
+        Quad nodes{};
+        double side = 0; ///< the longest
+    };
+    const std::size_t parts = curved ? 4 : 1;
+    std::vector<Numbered> all(parts * mesh.skin_count());
+    parallel_each(context, mesh.skin_count(), kBlock, [&](std::size_t i) {
+        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
+        const std::size_t count = mesh::corner_count(mesh::skin_quad(mesh, i).nodes);
+        std::array<Index, 9> own{};
+        for (std::size_t k = 0; k < std::max<std::size_t>(nodes.count, 4); ++k) own[k] = at(nodes.node[k]);
+        const auto middle = [&](std::size_t k) { return own[count + k % count]; };
+        if (count == 4 && nodes.count == 8) {
+            std::array<Vec3, 4> sides, corners;
+            for (std::size_t k = 0; k < 4; ++k) {
+                corners[k] = skin.points[index(own[k])];
+                sides[k] = skin.points[index(middle(k))];
+            }
+            own[8] = static_cast<Index>(known + i);
+            skin.points[known + i] = middle_of_quad(sides, corners);
+        }
+        const auto longest = [&](const Quad& quad) {
+            double squared = 0;
+            for (std::size_t k = 0; k < 4; ++k)
+                squared = std::max(
+                    squared,
+                    (skin.points[index(quad[(k + 1) % 4])] - skin.points[index(quad[k])]).squaredNorm());
+            return std::sqrt(squared);
+        };
+        const Quad corners{own[0], own[1], own[2], own[count == 4 ? 3 : 2]};
+        for (std::size_t j = 0; j < parts; ++j) {
+            Quad part = corners;
+            if (curved && j < count) {
+                const Index before = middle(j + count - 1);
+                part = {own[j], middle(j), count == 4 ? own[8] : before, before};
+            } else if (curved) {
+                part = {middle(0), middle(1), middle(2), middle(2)};
+            }
+            all[parts * i + j] = {part, longest(whole ? corners : part)};
+        }
+    });
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        SkinOfFace& face = skin.faces[faces[index(mesh::skin_quad(mesh, i / parts).patch)].index()];
+        face.quads.push_back(all[i].nodes);
+        face.side.push_back(all[i].side);
+        face.item.push_back(i / parts);
+    }
+    set_mean_sides(skin);
+    return skin;
+}
+
 } // namespace
 
 Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std::size_t face_count,
              const RunContext& context)
 {
     const mesh::HexMesh& mesh = nodes.mesh;
-    Skin skin;
-    skin.faces.resize(face_count);
-    for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
     // Number the nodes of the first and the last layer and the rim nodes in between, in the mesh's order, and
     // then the middle nodes.
     std::vector<Index> known;
@@ -577,105 +640,26 @@ Skin skin_of(const mesh::SkinNodes& nodes, const std::vector<FaceId>& faces, std
     }
     for (Index n = 0; n < row; ++n) known.push_back(mesh.layers * row + n);
     const auto corners = static_cast<std::ptrdiff_t>(known.size());
-    const bool curved = mesh.order() > 1;
-    for (std::size_t i = 0; curved && i < mesh.skin_count(); ++i) {
+    for (std::size_t i = 0; mesh.order() > 1 && i < mesh.skin_count(); ++i) {
         const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
         known.insert(known.end(), quad.begin() + 4, quad.end());
     }
     std::sort(known.begin() + corners, known.end());
     known.erase(std::unique(known.begin() + corners, known.end()), known.end());
-    // Append the centres of quads that are not nodes of the mesh.
-    const std::size_t centres = curved && !mesh.middles.full ? mesh.skin_count() : 0;
-    skin.points.resize(known.size() + centres);
-    parallel_each(context, known.size(), kBlock, [&](std::size_t i) { skin.points[i] = nodes[known[i]]; });
-    struct Numbered {
-        Quad nodes{};
-        double side = 0; ///< the longest
+    std::vector<Vec3> points(known.size());
+    parallel_each(context, known.size(), kBlock, [&](std::size_t i) { points[i] = nodes[known[i]]; });
+    const auto at = [&](Index node) {
+        return static_cast<Index>(std::ranges::lower_bound(known, node) - known.begin());
     };
-    const std::size_t parts = curved ? 4 : 1;
-    std::vector<Numbered> quads(parts * mesh.skin_count());
-    parallel_each(context, mesh.skin_count(), kBlock, [&](std::size_t i) {
-        const mesh::CellNodes quad = mesh::skin_nodes(mesh, i);
-        std::array<Index, 9> at{};
-        // A triangle repeats its last corner.
-        for (std::size_t k = 0; k < std::max<std::size_t>(quad.count, 4); ++k)
-            at[k] = static_cast<Index>(std::ranges::lower_bound(known, quad.node[k]) - known.begin());
-        if (centres > 0) {
-            std::array<Vec3, 4> sides, corner;
-            for (std::size_t k = 0; k < 4; ++k) {
-                corner[k] = skin.points[index(at[k])];
-                sides[k] = skin.points[index(at[4 + k])];
-            }
-            at[8] = static_cast<Index>(known.size() + i);
-            skin.points[index(at[8])] = middle_of_quad(sides, corner);
-        }
-        for (std::size_t j = 0; j < parts; ++j) {
-            auto& [part, longest] = quads[parts * i + j];
-            part = curved ? Quad{at[j], at[4 + j], at[8], at[4 + (j + 3) % 4]}
-                          : Quad{at[0], at[1], at[2], at[3]};
-            for (std::size_t k = 0; k < 4; ++k)
-                longest = std::max(
-                    longest,
-                    (skin.points[index(part[(k + 1) % 4])] - skin.points[index(part[k])]).squaredNorm());
-            longest = std::sqrt(longest);
-        }
-    });
-    for (std::size_t i = 0; i < quads.size(); ++i) {
-        SkinOfFace& face = skin.faces[faces[index(mesh::skin_quad(mesh, i / parts).patch)].index()];
-        face.quads.push_back(quads[i].nodes);
-        face.side.push_back(quads[i].side);
-        face.item.push_back(i / parts);
-    }
-    set_mean_sides(skin);
-    return skin;
+    return skin_of(mesh, std::move(points), mesh.skin_count(), at, false, faces, face_count, context);
 }
 
 Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::size_t face_count)
 {
-    Skin skin;
-    skin.points = mesh.nodes;
-    skin.points.insert(skin.points.end(), mesh.middles.nodes.begin(), mesh.middles.nodes.end());
-    skin.faces.resize(face_count);
-    for (std::size_t f = 0; f < face_count; ++f) skin.faces[f].face = FaceId(f);
-    // At order 2 the parts of a side have the same allowed distance as the whole side.
-    const auto add = [&](std::size_t i, const Quad& side) {
-        SkinOfFace& face = skin.faces[faces[index(mesh.skin_patch[i])].index()];
-        const Quad& whole = mesh.skin[i];
-        double longest = 0;
-        for (std::size_t k = 0; k < 4; ++k)
-            longest = std::max(longest,
-                               (mesh.nodes[index(whole[(k + 1) % 4])] - mesh.nodes[index(whole[k])]).norm());
-        face.quads.push_back(side);
-        face.side.push_back(longest);
-        face.item.push_back(i);
-    };
-    for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
-        if (mesh.order() == 1) {
-            add(i, mesh.skin[i]);
-            continue;
-        }
-        const mesh::CellNodes nodes = mesh::skin_nodes(mesh, i);
-        const std::size_t count = mesh::corner_count(mesh.skin[i]);
-        const auto corner = [&](std::size_t k) { return nodes.node[k % count]; };
-        const auto middle = [&](std::size_t k) { return nodes.node[count + k % count]; };
-        Index centre = nodes.node[8];
-        if (count == 4 && nodes.count == 8) {
-            std::array<Vec3, 4> sides, corners;
-            for (std::size_t k = 0; k < 4; ++k) {
-                sides[k] = mesh.node(index(middle(k)));
-                corners[k] = mesh.node(index(corner(k)));
-            }
-            centre = static_cast<Index>(skin.points.size());
-            skin.points.push_back(middle_of_quad(sides, corners));
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-            const Index before = middle(k + count - 1);
-            add(i, {corner(k), middle(k), count == 4 ? centre : before, before});
-        }
-        if (count == 3) add(i, {middle(0), middle(1), middle(2), middle(2)});
-    }
-    set_mean_sides(skin);
-    return skin;
+    std::vector<Vec3> points = mesh.nodes;
+    points.insert(points.end(), mesh.middles.nodes.begin(), mesh.middles.nodes.end());
+    return skin_of(mesh, std::move(points), mesh.skin_quads, [](Index node) { return node; }, true, faces,
+                   face_count, {});
 }
 
 FaceFidelity compare_face(const mesh::HexMesh* mesh, const Skin& skin, const SkinOfFace& quads,

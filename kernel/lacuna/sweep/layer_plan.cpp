@@ -5,7 +5,6 @@
 #include <lacuna/sweep/detail/layer_placer.h>
 #include <lacuna/sweep/detail/middle_placer.h>
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -43,29 +42,7 @@ void put_plan(A& with, Plan& plan)
 {
     with(plan.source.nodes), with(plan.source.quads), with(plan.source.loops), with(plan.target);
     with(plan.columns.layers), with(plan.columns.rim), with(plan.columns.points);
-    with(plan.options), with(plan.laid), with(plan.middles);
-}
-
-/// The layers, with the nodes of the skin at the positions to which the plan moves them.
-mesh::LayeredNodes laid_nodes(mesh::LayeredNodes nodes, const std::shared_ptr<const LayerPlan>& plan)
-{
-    if (plan->laid.empty()) return nodes;
-    const auto from = [plan](Index node) {
-        return std::ranges::lower_bound(plan->laid, node, {}, &std::pair<Index, Vec3>::first);
-    };
-    const auto row = static_cast<Index>(plan->source.nodes.size());
-    mesh::LayeredNodes laid;
-    laid.place = [place = std::move(nodes.place), plan, from, row](int first, int last, std::span<Vec3> out,
-                                                                   const RunContext& context) {
-        place(first, last, out, context);
-        for (auto at = from(first * row); at != plan->laid.end() && at->first < last * row; ++at)
-            out[index(at->first - first * row)] = at->second;
-    };
-    laid.on_skin = [on_skin = std::move(nodes.on_skin), plan, from](Index node) {
-        const auto at = from(node);
-        return at != plan->laid.end() && at->first == node ? at->second : on_skin(node);
-    };
-    return laid;
+    with(plan.options), with(plan.middles);
 }
 
 /// The cells of a plan's mesh, without node positions.
@@ -151,17 +128,8 @@ PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunConte
         placed->placer.place(first, last, out, own);
     };
     result.nodes.on_skin = [placed](Index node) { return placed->on_skin(node); };
-    result.nodes = curved_nodes(laid_nodes(std::move(result.nodes), result.plan), result.plan, context);
+    result.nodes = curved_nodes(std::move(result.nodes), result.plan, context);
     return result;
-}
-
-PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid)
-{
-    auto plan = std::make_shared<LayerPlan>(*layers.plan);
-    plan->laid = std::move(laid);
-    layers.plan = std::move(plan);
-    layers.nodes = laid_nodes(std::move(layers.nodes), layers.plan);
-    return layers;
 }
 
 PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunContext& context)

@@ -93,14 +93,6 @@ std::optional<std::vector<NodePair>> same_quads(FaceMesh own, const FaceMesh& ot
     return pairs;
 }
 
-std::optional<std::vector<NodePair>> same_quads(const mesh::SkinNodes& own, std::span<const Quad> own_quads,
-                                                const mesh::SkinNodes& other,
-                                                std::span<const Quad> other_quads, double within)
-{
-    if (own_quads.size() != other_quads.size()) return std::nullopt;
-    return same_quads(face_mesh(own, own_quads), face_mesh(other, other_quads), within);
-}
-
 QuadsAlone quads_alone(std::vector<Quad> quads)
 {
     QuadsAlone alone{std::move(quads), {}};

@@ -65,16 +65,16 @@ enum class Interior {
     normals,   ///< for comparison: the advance along local normals of Roca and Sarrate (2010)
 };
 
-/// Nodes of the skin that are moved onto coincident nodes of a neighbour, from which they differ by rounding.
+/// Nodes of periodic faces, and the positions that make them exact images of each other.
 struct SettledNodes {
-    std::set<FaceId> faces; ///< the faces that these nodes lie on; all nodes of these faces are then fixed
-    std::vector<std::pair<Index, Vec3>> nodes; ///< node and new position; a node may occur more than once
+    std::set<FaceId> faces; ///< the periodic faces; all nodes of these faces are then fixed
+    std::vector<std::pair<Index, Vec3>> nodes; ///< node and new position; only where nodes are stored
 };
 
 /// Constraints from neighbouring volumes of an assembly.
 struct Beside {
-    /// Called with each mesh before it is proved, and with the face of each of its patches. It returns the
-    /// nodes that must be moved onto a neighbour's nodes. May be null.
+    /// Called with each mesh before it is proved, and with the face of each of its patches. Not null if the
+    /// volume is part of an assembly.
     std::function<SettledNodes(const mesh::SkinNodes&, const std::vector<FaceId>&)> settle;
     /// The shape with which the skin is compared; its faces have the ids of the volume's faces. Null: the
     /// volume.

@@ -123,12 +123,6 @@ bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>&
 struct GoodLayers {
     PlacedLayers layers;
     LayersFound found;
-
-    void judge(const SweepOptions& options, const RunContext& context)
-    {
-        const double least = std::max(options.improving.good_enough, options.min_scaled_jacobian);
-        found = find_in_layers(layers, least, options.crew, context);
-    }
 };
 std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const Morphed& morphed,
                                       const RimColumns& columns, PlacementOptions placement,
@@ -138,43 +132,10 @@ std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const M
                                       LayerPlan{source.quads, morphed.nodes, columns, placement}),
                                   context),
                     {}};
-    good.judge(options, context);
+    const double least = std::max(options.improving.good_enough, options.min_scaled_jacobian);
+    good.found = find_in_layers(good.layers, least, options.crew, context);
     if (!good.found.good_enough) return std::nullopt;
     return good;
-}
-
-/// Sort moved nodes. If a node occurs more than once, keep its last position.
-std::vector<std::pair<Index, Vec3>> in_order(std::vector<std::pair<Index, Vec3>> nodes)
-{
-    std::map<Index, Vec3> once;
-    for (const auto& [node, place] : nodes) once.insert_or_assign(node, place);
-    return {once.begin(), once.end()};
-}
-
-/// Move skin nodes onto the neighbours' nodes. If this makes cells of generated layers poor, the nodes of the
-/// layers are stored instead.
-void lay_onto_neighbours(std::vector<std::pair<Index, Vec3>> nodes, Swept& swept,
-                         std::optional<GoodLayers>& good, const SweepOptions& options,
-                         const RunContext& context)
-{
-    mesh::HexMesh& mesh = swept.mesh;
-    if (!good) {
-        for (const auto& [node, place] : nodes) mesh.nodes[index(node)] = place;
-        return;
-    }
-    if (nodes.empty()) return;
-    good->layers.plan = swept.plan;
-    good->layers.nodes = *swept.layers;
-    good->layers = with_laid(std::move(good->layers), in_order(std::move(nodes)));
-    good->judge(options, context);
-    swept.plan = good->layers.plan;
-    swept.layers = good->layers.nodes;
-    if (good->found.good_enough) return;
-    mesh.nodes.resize(mesh::corner_count(mesh));
-    swept.layers->place(0, mesh.layers + 1, mesh.nodes, context);
-    swept.layers.reset();
-    swept.plan.reset();
-    good.reset();
 }
 
 /// Whether the positions of inner nodes follow from the placement of layers alone. At order 2, members of an
@@ -380,7 +341,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     if (options.beside.settle) {
         SettledNodes settled = options.beside.settle(result.skin(), faces);
         still.merge(settled.faces);
-        lay_onto_neighbours(std::move(settled.nodes), result, good, options, context);
+        for (const auto& [node, place] : settled.nodes) mesh.nodes[index(node)] = place;
     }
     quality::Proof proof =
         good ? quality::prove(mesh::LayeredMesh{mesh, *result.layers}, std::move(good->found.quality),

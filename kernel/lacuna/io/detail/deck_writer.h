@@ -138,6 +138,17 @@ enum class RealForm { plain, nastran };
 char* put_real(char* out, double value, std::size_t width, RealForm form = RealForm::plain);
 
 inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
+/// A word or a number, aligned right in a column.
+inline char* put_right(char* out, std::string_view text, std::size_t width)
+{
+    for (std::size_t k = text.size(); k < width; ++k) *out++ = ' ';
+    return put_words(out, text);
+}
+inline char* put_right(char* out, long long number, std::size_t width)
+{
+    char text[kNumberBytes];
+    return put_right(out, {text, static_cast<std::size_t>(put_text(text, number) - text)}, width);
+}
 
 /// A comment line that states the unit of the lengths; `sign` begins a comment. Empty if no unit is declared,
 /// or if the kept text states it already.

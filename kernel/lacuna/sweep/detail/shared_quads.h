@@ -42,9 +42,6 @@ std::vector<Index> same_places(std::span<const Vec3> a, std::span<const Vec3> b,
 /// The pairs of coincident nodes of two meshes on one face, if the meshes are equal: each node has a
 /// counterpart as in `same_places()`, and the quads correspond one to one. Empty if they differ.
 std::optional<std::vector<NodePair>> same_quads(FaceMesh own, const FaceMesh& other, double within);
-std::optional<std::vector<NodePair>> same_quads(const mesh::SkinNodes& own, std::span<const Quad> own_quads,
-                                                const mesh::SkinNodes& other,
-                                                std::span<const Quad> other_quads, double within);
 
 /// Sides of the skin's quads between two patches, including the rims of source and target. The lower node of
 /// each side comes first. O(skin).

@@ -13,7 +13,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace lacuna::sweep {
@@ -30,8 +29,6 @@ struct LayerPlan {
     std::vector<Vec3> target;
     RimColumns columns;
     PlacementOptions options;
-    /// Nodes of the skin that are moved after all nodes are placed; sorted by node.
-    std::vector<std::pair<Index, Vec3>> laid{};
     std::optional<MiddlePlan> middles{}; ///< middle nodes, if the mesh is of order 2
 };
 
@@ -51,10 +48,6 @@ struct PlacedLayers {
 
 /// @throw  as `place_layers()`
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
-
-/// The same layers with some nodes of the skin moved. @param laid  new positions, sorted by node
-/// @pre  the layers have no middle nodes yet: these would have to move too.
-PlacedLayers with_laid(PlacedLayers layers, std::vector<std::pair<Index, Vec3>> laid);
 
 /// The same layers with middle nodes.
 PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunContext& context = {});
