@@ -200,19 +200,24 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     const bool is_cut = pieces.size() > 1;
     Filled filled;
     if (swept) {
+        const bool divided = pieces.front().volume.model.faces.size() > sealed.volume.model.faces.size();
         const std::string cut = is_cut
                                     ? formatted("cut into {} pieces, because {}", pieces.size(), why.text())
-                                    : formatted("swept {}, after the rounds at the rims of these ends were "
-                                                "divided, because {}",
-                                                ends_in_words(pieces.front().volume), why.text());
+                                    : formatted("swept {}{}, because {}",
+                                                ends_in_words(pieces.front().volume),
+                                                divided ? ", after the rounds at the rims of these ends were "
+                                                          "divided"
+                                                        : "",
+                                                why.text());
         try {
             FilledParts mesh = sweep_pieces_true(sealed, std::move(pieces), options,
                                                  static_cast<bool>(request.options.size), context);
             mesh.swept.report.insert(mesh.swept.report.begin(), cut);
-            log_line(context, formatted("note: no single sweep fills the volume{}; the report says why [{}]",
-                                        is_cut ? ", so it is cut into pieces"
-                                               : " as it is, so its rounds are "
-                                                 "divided",
+            log_line(context, formatted("note: no {} fills the volume{}; the report says why [{}]",
+                                        is_cut || divided ? "single sweep" : "likely sweep",
+                                        is_cut    ? ", so it is cut into pieces"
+                                        : divided ? " as it is, so its rounds are divided"
+                                                  : ", so other faces are its ends",
                                         why.code()));
             filled.mesh = std::move(mesh);
             filled.volumes.push_back(std::move(sealed));
