@@ -1,5 +1,6 @@
 -- SPDX-License-Identifier: MIT
--- Boxes less bores and slots from several sides, and brackets with ribs: cut into pieces that are swept.
+-- Boxes less bores and slots from several sides, brackets with ribs and with fillets, a shaft with a keyway:
+-- cut into pieces that are swept.
 -- usage: lacuna bores.lua scratch=FOLDER
 local lacuna = require "lacuna"
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
@@ -231,5 +232,56 @@ local meshed = 0
 for _, number in ipairs(numbers) do meshed = meshed + (meshes(number) and 1 or 0) end
 print(("%d of %d by hexahedra alone"):format(meshed, #numbers))
 check.that(meshed >= share * #numbers, meshed .. " of " .. #numbers)
+
+--- A quarter of a cylinder along y that rounds the concave edge at x, z between y and y + wide.
+local function fillet(number, x, y, z, wide, radius)
+  return ("Box(%d) = {%.15g, %.15g, %.15g, %.15g, %.15g, %.15g};"):format(number, x, y, z, radius, wide,
+        radius)
+      .. ("Cylinder(%d) = {%.15g, %.15g, %.15g, 0, %.15g, 0, %.15g};"):format(number + 1, x + radius, y,
+        z + radius, wide, radius)
+      .. ("BooleanDifference{ Volume{%d}; Delete; }{ Volume{%d}; Delete; }"):format(number, number + 1)
+end
+
+-- Parts with fillets, keyways and chamfers: { what, script, volume, places on missing faces }.
+local random = check.random(41)
+for _ = 1, check.whole and 5 or 1 do
+  local thick, radius, bore = random(0.6, 1.1), random(0.5, 1), random(0.5, 1)
+  local corner = (1 - math.pi / 4) * radius ^ 2
+  local legs = ("Box(1) = {0, 0, 0, 8, 5, %.15g}; Box(2) = {0, 0, 0, %.15g, 5, 6};"):format(thick, thick)
+  local keyway, deep, long, bevel = random(1.4, 1.6), 0, random(2, 3), random(0.3, 0.7)
+  local steps = 2000 -- part of the keyway inside the shaft
+  for i = 1, steps do
+    local x = 0.4 * (i - 0.5) / steps
+    deep = deep + 2 * 0.4 / steps * (math.sqrt(4 - x * x) - keyway)
+  end
+  for _, case in ipairs {
+    { "bored bracket with a fillet", legs .. fillet(3, thick, 0, thick, 5, radius)
+      .. combined("Union", "2,3") .. cylinder(9, "5, 2.5, -1", "0, 0, 3", bore)
+      .. combined("Difference", "9"),
+      thick * 5 * (14 - thick) + corner * 5 - math.pi * bore ^ 2 * thick },
+    { "bracket with a fillet beside a rib", legs .. fillet(3, thick, 0, thick, 5, radius)
+      .. ("Box(8) = {0, 2, 0, 5, 0.8, 4};") .. combined("Union", "2,3,8"),
+      thick * 5 * (14 - thick) + corner * 4.2 + 0.8 * (5 - thick) * (4 - thick) },
+    { "shaft with a keyway", "Cylinder(1) = {0, 0, 0, 0, 0, 5, 2}; Cylinder(2) = {0, 0, 5, 0, 0, 4, 1.4};"
+      .. combined("Union", "2") .. ("Box(3) = {-0.4, %.15g, 1, 0.8, 2, %.15g};"):format(keyway, long)
+      .. combined("Difference", "3"), math.pi * (4 * 5 + 1.96 * 4) - deep * long,
+      { 0, 0, 0 }, { 1.4, 0, 7 } },
+    { "box with a chamfered top", "Box(1) = {0, 0, 0, 6, 5, 3};"
+      .. ("Chamfer{1}{2, 6, 10, 12}{6, 6, 6, 6}{%.15g}"):format(bevel),
+      90 - bevel ^ 2 * 11 + 4 / 3 * bevel ^ 3 },
+  } do
+    local file = params.scratch .. "/part.geo"
+    check.write(file, 'SetFactory("OpenCASCADE");\n' .. case[2] .. "\n")
+    local model, gone, left = lacuna.load(file), {}, {}
+    for n = 4, #case do gone[model:face { near = case[n] }.tag] = true end -- missing faces
+    for _, face in ipairs(model:faces()) do
+      if not gone[face.tag] then left[#left + 1] = face.tag end
+    end
+    local mesh = model:open_volume { faces = left }:sweep {}
+    local quality = mesh:quality()
+    check.that(quality.certified and mesh.tets == 0 and mesh.wedges == 0, case[1])
+    check.near(quality.volume / case[3], 1, 0.02)
+  end
+end
 
 check.done()

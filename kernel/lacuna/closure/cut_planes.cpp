@@ -34,12 +34,23 @@ std::optional<Vec3> straight_along(const Model& model, EdgeId edge)
     return chord.stableNormalized();
 }
 
-/// The bend of a face; empty if it is convex, turns by no more than a right angle, or is no cylinder.
-std::optional<Bend> round_bend(const Model& model, FaceId face, bool faces_void)
+/// The straight edges of a cylinder along its axis.
+std::vector<EdgeId> edges_along(const Model& model, FaceId face, const Vec3& axis)
+{
+    std::vector<EdgeId> edges;
+    for (const EdgeUse& use : uses_of(model[face]))
+        if (const auto along = straight_along(model, use.edge); along && are_parallel(*along, axis))
+            edges.push_back(use.edge);
+    return edges;
+}
+
+/// The bend of a face; empty if the face is no cylinder, if it is convex, or if it turns by no more than a
+/// right angle and is no fillet, which continues the faces on both sides.
+std::optional<Bend> round_bend(const Model& model, FaceId face, const SkinTurns& turns)
 {
     const double area = face_area(model, face);
     const double mean_normal = face_area_vector(model, face).norm() / area;
-    if (mean_normal >= kQuarterTurn) return std::nullopt;
+    if (!(mean_normal < 1 - kFlatShare)) return std::nullopt;
     const auto shape = round_shape(model, face);
     if (!shape || !shape->axis) return std::nullopt;
     double outward = 0;
@@ -47,9 +58,14 @@ std::optional<Bend> round_bend(const Model& model, FaceId face, bool faces_void)
         const Vec3 &a = model.at(t[0]), &b = model.at(t[1]), &c = model.at(t[2]);
         outward += (a - shape->centre).dot((b - a).cross(c - a));
     }
-    if ((outward > 0) != faces_void) return std::nullopt;
+    if ((outward > 0) != turns.faces_void[face.index()]) return std::nullopt;
     const double turned = area / shape->radius / kRightAngle; // length times number of right angles
-    return Bend{{}, face, turned * (1 - mean_normal / kQuarterTurn), shape->axis};
+    if (mean_normal < kQuarterTurn)
+        return Bend{{}, face, turned * (1 - mean_normal / kQuarterTurn), shape->axis};
+    const std::vector<EdgeId> sides = edges_along(model, face, *shape->axis);
+    const auto is_smooth = [&](EdgeId edge) { return std::abs(turns.concave[edge.index()]) <= kCreaseAngle; };
+    if (sides.size() < 2 || !std::ranges::all_of(sides, is_smooth)) return std::nullopt;
+    return Bend{{}, face, turned, shape->axis};
 }
 
 /// The part of a bend on one side of a plane.
@@ -93,6 +109,7 @@ public:
     std::vector<CutPlane> run()
     {
         add_face_planes();
+        add_fillet_planes();
         find_features();
         for (const Vec3& normal : normals()) add_between(normal);
         std::ranges::stable_sort(between_, {}, &std::pair<double, geometry::Plane>::first);
@@ -114,6 +131,24 @@ private:
                     edges.push_back(bend.edge);
             const auto plane = edges.empty() ? std::nullopt : plane_of(model_, face);
             if (plane) planes_.push_back({*plane, std::move(edges)});
+        }
+    }
+
+    /// Add the planes through the axis of a concave cylinder and an edge where a flat face continues it.
+    void add_fillet_planes()
+    {
+        for (const Bend& bend : bends_) {
+            if (!bend.face.valid()) continue;
+            const Vec3 centre = round_shape(model_, bend.face)->centre;
+            for (const EdgeId edge : edges_along(model_, bend.face, *bend.axis)) {
+                if (std::ranges::none_of(model_.uses_of_edge(edge), [&](const FaceUse& use) {
+                        return plane_of(model_, use.face).has_value();
+                    }))
+                    continue;
+                const Vec3 out = model_.at(model_[model_[edge].from].point) - centre;
+                planes_.push_back(
+                    {geometry::plane_across(centre, bend.axis->cross(out).normalized()), {edge}});
+            }
         }
     }
 
@@ -227,17 +262,14 @@ private:
 
 } // namespace
 
-std::vector<Bend> bends_of(const OpenVolume& volume, const RunContext& context)
+std::vector<Bend> bends_of(const Model& model, const SkinTurns& turns)
 {
     std::vector<Bend> bends;
-    const Model& model = volume.model;
-    const SkinTurns turns = skin_turns(volume, context);
     for (std::size_t e = 0; e < turns.concave.size(); ++e)
         if (turns.concave[e] > kCreaseAngle)
             bends.push_back({EdgeId(e), {}, edge_length(model, EdgeId(e)), straight_along(model, EdgeId(e))});
     for (const FaceId face : all_faces(model))
-        if (auto bend = round_bend(model, face, turns.faces_void[face.index()]))
-            bends.push_back(std::move(*bend));
+        if (auto bend = round_bend(model, face, turns)) bends.push_back(std::move(*bend));
     return bends;
 }
 

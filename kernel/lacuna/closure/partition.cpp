@@ -44,16 +44,40 @@ constexpr std::size_t kMostRead = 6;
 struct CutPart {
     StepPiece piece;
     std::vector<Bend> bends;
-    double left = 0; ///< [model length]
+    double left = 0;       ///< [model length]
+    bool has_cusp = false; ///< whether a bent face meets another at less than kCreaseAngle, as a fillet and
+                           ///< its tangent plane
     bool has_ends = false;
     std::vector<StepPiece> blocks{}; ///< blocks into which the piece is divided; empty if it is not divided
 };
 
 CutPart part_of(StepPiece piece, const RunContext& context)
 {
-    std::vector<Bend> bends = bends_of(piece.volume, context);
+    const SkinTurns turns = skin_turns(piece.volume, context);
+    const Model& model = piece.volume.model;
+    bool has_cusp = false;
+    for (std::size_t e = 0; e < turns.concave.size(); ++e)
+        has_cusp = has_cusp || (turns.concave[e] < kCreaseAngle - 180 &&
+                                std::ranges::any_of(model.uses_of_edge(EdgeId(e)), [&](const FaceUse& use) {
+                                    return !plane_of(model, use.face);
+                                }));
+    std::vector<Bend> bends = bends_of(model, turns);
     const double left = length_to_cut(bends);
-    return {std::move(piece), std::move(bends), left};
+    return {std::move(piece), std::move(bends), left, has_cusp};
+}
+
+/// Whether an end has a step: a concave edge of more than 60° between two of its faces. Quads on the walls
+/// beside the step would form no rows that a neighbour can continue.
+bool has_stepped_end(const OpenVolume& volume, const RunContext& context)
+{
+    const std::vector<double> turns = concave_turns(volume, context);
+    for (std::size_t e = 0; e < turns.size(); ++e) {
+        if (!(turns[e] > 2 * kCreaseAngle)) continue;
+        const std::span<const FaceUse> uses = volume.model.uses_of_edge(EdgeId(e));
+        const Role role = volume.role[uses[0].face.index()];
+        if (role != Role::wall && role == volume.role[uses[1].face.index()]) return true;
+    }
+    return false;
 }
 
 /// Give a piece ends to sweep between, if it has some.
@@ -252,7 +276,8 @@ struct CutTried {
     double left = 0; ///< of pieces without ends [model length]
 };
 
-/// Cut a piece by each plane that may help. The cuts that leave the least to cut come first.
+/// Cut a piece by each plane that may help and makes no cusp. The cuts that leave the least to cut come
+/// first.
 std::vector<CutTried> try_cuts(const CutPart& part, double least, std::size_t& tried,
                                const RunContext& context)
 {
@@ -265,11 +290,13 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, std::size_t& t
         // one piece.
         auto pieces = unless_refused([&] { return cut_at_edges(volume, plane, edges, least, context); });
         if (!pieces || pieces->size() < 2) continue;
-        CutTried& cut = cuts.emplace_back();
+        CutTried cut;
         for (StepPiece& piece : *pieces) {
             cut.parts.push_back(part_of(std::move(piece), context));
             cut.left += cut.parts.back().left;
         }
+        if (part.has_cusp || std::ranges::none_of(cut.parts, &CutPart::has_cusp))
+            cuts.push_back(std::move(cut));
     }
     std::ranges::stable_sort(cuts, {}, &CutTried::left);
     return cuts;
@@ -452,7 +479,7 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
                 const RunContext& context)
 {
     const CanSweep suits = [&](const OpenVolume& piece) {
-        return ends_suit_columns(piece) && can_sweep(piece);
+        return ends_suit_columns(piece) && !has_stepped_end(piece, context) && can_sweep(piece);
     };
     Cutter cutter(suits, can_sweep, least, context);
     const CutPart whole = part_of({volume}, context);
@@ -472,9 +499,13 @@ void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double leas
         if (take({{std::move(*divided)}})) return;
     if (take_some(cut_in_steps(volume, can_sweep, context)) ||
         take_some(divided_at_middle(volume, kMostPieces, can_sweep, context)) ||
-        (is_whole && take_some(divided_at_centre(volume, kMostPieces, can_sweep, context))) ||
-        (!is_swept && take(pieces_of(std::move(first), can_sweep, context))))
+        (is_whole && take_some(divided_at_centre(volume, kMostPieces, can_sweep, context))))
         return;
+    // The volume itself may have other ends than those that were tried, such as a top with its chamfers.
+    if (!is_swept && first.size() == 1)
+        first.front().has_ends = find_ends(first.front().piece, suits, context) &&
+                                 first.front().piece.volume.role != volume.role;
+    if (!is_swept && take(pieces_of(std::move(first), can_sweep, context))) return;
     for (std::size_t c = 1; c < cuts.size(); ++c)
         if (take(pieces_of(parts_of_cut(c), can_sweep, context))) return;
 }

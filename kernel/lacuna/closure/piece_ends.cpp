@@ -393,13 +393,24 @@ bool walls_run_between_ends(const OpenVolume& volume)
 bool ends_suit_columns(const OpenVolume& volume)
 {
     const Model& model = volume.model;
+    const auto mean = [&](Role end) -> Vec3 {
+        return area_vector_of(model, volume.faces(end)).stableNormalized();
+    };
+    const Vec3 source = mean(Role::source), target = mean(Role::target);
     for (const Role end : {Role::source, Role::target}) {
-        const Vec3 mean = area_vector_of(model, volume.faces(end)).stableNormalized();
         for (const FaceId face : volume.faces(end)) {
             const Vec3 own = face_area_vector(model, face);
-            if (own.dot(mean) < kFacesEnd * own.norm()) return false;
+            if (own.dot(end == Role::source ? source : target) < kFacesEnd * own.norm()) return false;
         }
     }
+    // A wall parallel to both ends is a shoulder between two sections.
+    const double parallel = std::sqrt(1 - kFacesEnd * kFacesEnd);
+    const auto is_shoulder = [&](FaceId wall) {
+        const Vec3 own = face_area_vector(model, wall);
+        return std::abs(own.dot(source)) > parallel * face_area(model, wall);
+    };
+    if (source.dot(target) < -parallel && std::ranges::any_of(volume.faces(Role::wall), is_shoulder))
+        return false;
     const auto is_wall = [&](FaceId face) { return volume.role[face.index()] == Role::wall; };
     return std::ranges::all_of(volume.faces(Role::wall), [&](FaceId wall) {
         return std::ranges::all_of(faces_in_line(model, wall), [&](const auto& pair) {

@@ -201,10 +201,13 @@ public:
     void mesh(std::vector<closure::StepPiece> pieces)
     {
         const bool is_cut = pieces.size() > 1;
+        const bool divided = pieces.front().volume.model.faces.size() > sealed_.volume.model.faces.size();
         std::string cut = is_cut ? formatted("cut into {} pieces, because {}", pieces.size(), why_.text())
-                                 : formatted("swept {}, after the rounds at the rims of these ends were "
-                                             "divided, because {}",
-                                             ends_in_words(pieces.front().volume), why_.text());
+                                 : formatted("swept {}{}, because {}", ends_in_words(pieces.front().volume),
+                                             divided ? ", after the rounds at the rims of these ends were "
+                                                       "divided"
+                                                     : "",
+                                             why_.text());
         std::vector<std::string> notes;
         RunContext own = context_;
         own.log = [&](std::string_view line) { notes.emplace_back(line); };
@@ -212,9 +215,12 @@ public:
             FilledParts mesh = sweep_pieces_true(sealed_, std::move(pieces), options_, sized_, own);
             const double share = hex_share(mesh);
             if (!(share > share_)) return;
-            notes.push_back(formatted(
-                "note: no single sweep fills the volume{}; the report says why [{}]",
-                is_cut ? ", so it is cut into pieces" : " as it is, so its rounds are divided", why_.code()));
+            notes.push_back(formatted("note: no {} fills the volume{}; the report says why [{}]",
+                                      is_cut || divided ? "single sweep" : "likely sweep",
+                                      is_cut    ? ", so it is cut into pieces"
+                                      : divided ? " as it is, so its rounds are divided"
+                                                : ", so other faces are its ends",
+                                      why_.code()));
             mesh.swept.report.insert(mesh.swept.report.begin(), std::move(cut));
             best_ = std::move(mesh);
             share_ = share;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <lacuna/core/run_context.h>
+#include <lacuna/closure/detail/turns.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/open_volume.h>
 
@@ -11,18 +11,19 @@
 
 namespace lacuna::closure {
 
-/// A concave edge of a volume, or a concave cylinder that turns by more than a right angle, such as a bore.
+/// A concave edge of a volume, or a concave cylinder: a bore, or a fillet that replaces such an edge.
 struct Bend {
     EdgeId edge; ///< invalid if the bend is a cylinder
     FaceId face; ///< the cylinder; invalid if the bend is an edge
     /// Length of the edge. For a cylinder: its length times the number of right angles by which it turns,
-    /// times a factor that is 0 for a quarter turn and 1 for a full turn [model length].
+    /// times, above a quarter turn, a factor that is 0 for a quarter turn and 1 for a full turn
+    /// [model length].
     double length = 0;
     std::optional<Vec3> axis; ///< a sweep in this direction follows the bend; empty for a curved edge
 };
 
-/// All bends of a sealed volume. O(facets).
-std::vector<Bend> bends_of(const topology::OpenVolume& volume, const RunContext& context);
+/// All bends of a sealed skin. O(facets).
+std::vector<Bend> bends_of(const topology::Model& model, const SkinTurns& turns);
 
 /// Measure of the cutting that a volume still needs: the total length of its bends, plus the length of the
 /// bends that a sweep in the best direction does not follow [model length].
@@ -36,9 +37,11 @@ struct CutPlane {
 
 /// Planes to cut a volume by, in this order:
 /// 1. the planes of flat faces beside concave edges, only in the regions that adjoin these edges;
-/// 2. planes midway between features (connected groups of bends) that reduce `length_to_cut()`, the best
+/// 2. planes through the axis of a concave cylinder and an edge where a flat face continues it, as beside a
+/// fillet, only in the regions that adjoin this edge;
+/// 3. planes midway between features (connected groups of bends) that reduce `length_to_cut()`, the best
 /// first; their normals are those of flat faces and the common normals of two axes;
-/// 3. planes through the axes of cylinders that cross each other, which divide a bore into two grooves.
+/// 4. planes through the axes of cylinders that cross each other, which divide a bore into two grooves.
 /// @param most  largest number of planes between features.
 std::vector<CutPlane> cut_planes(const topology::OpenVolume& volume, const std::vector<Bend>& bends,
                                  std::size_t most);

@@ -34,9 +34,9 @@ ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context = 
 /// more than 40 faces.
 bool walls_run_between_ends(const topology::OpenVolume& volume);
 
-/// Whether columns can run from end to end of a closed volume: no face of an end is as steep as a wall, and
-/// each wall has a corner wherever its neighbour changes from an end to another wall. Without that corner, a
-/// cell there would have two collinear sides and no volume.
+/// Whether columns can run from end to end of a closed volume: no face of an end is as steep as a wall, no
+/// wall lies parallel to two opposite ends, and each wall has a corner wherever its neighbour changes from an
+/// end to another wall. Without that corner, a cell there would have two collinear sides and no volume.
 bool ends_suit_columns(const topology::OpenVolume& volume);
 
 /// @param what  name of the volume in the message: "volume_2".
