@@ -248,7 +248,7 @@ for _ = 1, check.whole and 5 or 1 do
   local thick, radius, bore = random(0.6, 1.1), random(0.5, 1), random(0.5, 1)
   local corner = (1 - math.pi / 4) * radius ^ 2
   local legs = ("Box(1) = {0, 0, 0, 8, 5, %.15g}; Box(2) = {0, 0, 0, %.15g, 5, 6};"):format(thick, thick)
-  local keyway, deep, long, bevel = random(1.4, 1.6), 0, random(2, 3), random(0.3, 0.7)
+  local keyway, deep, long, bevel = 1.4, 0, random(2.9, 3), random(0.3, 0.7)
   local steps = 2000 -- part of the keyway inside the shaft
   for i = 1, steps do
     local x = 0.4 * (i - 0.5) / steps
