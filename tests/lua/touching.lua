@@ -138,9 +138,9 @@ Fillet{2}{13,15}{%d}]]):format(round))
 end
 
 -- A family of such products in a carton: cylinders and boxes, rounds of 2 to 40 % of the side, on the floor,
--- hovering and tilted. A box on the floor is refused: the rounds of its corners meet the floor in one vertex.
+-- hovering and tilted. The rounds at the corners of a box on the floor meet the floor in one vertex.
 local tried, meshed = 0, 0
-for n = 1, 200, check.whole and 1 or 67 do
+for n = 1, 200, check.whole and 1 or 59 do
   local draw = check.random(n)
   local is_box, place = n % 2 == 0, n // 2 % 3
   local a, b, h, lift = draw(16, 30), draw(16, 30), draw(12, 24), place > 0 and draw(6, 12) or 0
@@ -174,5 +174,5 @@ for n = 1, 200, check.whole and 1 or 67 do
     check.that(math.abs(quality.volume / (70 * 70 * 55 - taken) - 1) < 0.01, n .. ": volume")
   end
 end
-check.that(meshed >= 0.8 * tried, ("%d of %d filleted products meshed"):format(meshed, tried))
+check.that(meshed >= 0.9 * tried, ("%d of %d filleted products meshed"):format(meshed, tried))
 check.done()

@@ -5,11 +5,15 @@
 #include <lacuna/closure/detail/turns.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/newell.h>
+#include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/face_parts.h>
+#include <lacuna/topology/shared/names_of.h>
+#include <lacuna/topology/shared/patches.h>
 #include <lacuna/topology/shared/section.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -168,6 +172,83 @@ private:
     Vec3 out_; ///< away from the opposite end
 };
 
+/// Smooth edges between walls that leave a vertex of an end's rim together.
+std::vector<EdgeId> smooth_fans(const OpenVolume& volume, const RunContext& context)
+{
+    const Model& model = volume.model;
+    std::set<VertexId> at_rim;
+    for (const Role end : {Role::source, Role::target})
+        for (const EdgeUse& use : rim_uses(model, volume.faces(end)))
+            at_rim.insert({model[use.edge].from, model[use.edge].to});
+    std::map<VertexId, std::vector<EdgeId>> leaving;
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        const bool between_walls = uses.size() == 2 && uses[0].face != uses[1].face &&
+                                   std::ranges::all_of(uses, [&](const FaceUse& use) {
+                                       return volume.role[use.face.index()] == Role::wall;
+                                   });
+        if (!between_walls || model.edges[e].keeps_nodes) continue;
+        for (const VertexId vertex : {model.edges[e].from, model.edges[e].to})
+            if (at_rim.contains(vertex)) leaving[vertex].push_back(EdgeId(e));
+    }
+    std::erase_if(leaving, [](const auto& item) { return item.second.size() < 2; });
+    std::vector<EdgeId> fans;
+    if (leaving.empty()) return fans;
+    const std::vector<double> angle = angles_across(model, context);
+    for (auto& [vertex, edges] : leaving) {
+        std::erase_if(edges, [&](EdgeId edge) { return angle[edge.index()] >= kCreaseAngle; });
+        if (edges.size() > 1) fans.insert(fans.end(), edges.begin(), edges.end());
+    }
+    return fans;
+}
+
+/// Whether two walls may become one face: neither has a mesh of its own, and no set of the input tells them
+/// apart.
+bool may_join(const Face& a, const Face& b)
+{
+    return a.given_quads.empty() && b.given_quads.empty() && a.name == b.name && a.groups == b.groups &&
+           a.regions == b.regions && a.origin == b.origin;
+}
+
+/// Join the walls on both sides of such edges, and drop the edges. At most one column starts at a vertex of
+/// the rim, so the mesh could follow only one of the edges, and it would do so at a slant.
+void join_rounds(OpenVolume& volume, const RunContext& context)
+{
+    const std::vector<EdgeId> fans = smooth_fans(volume, context);
+    if (fans.empty()) return;
+    const Model before = volume.model;
+    geometry::UnionFind joined(before.faces.size());
+    std::vector<EdgeId> dropped;
+    for (const EdgeId edge : fans) {
+        const std::span<const FaceUse> uses = before.uses_of_edge(edge);
+        if (!may_join(before[uses[0].face], before[uses[1].face])) continue;
+        joined.unite_least(uses[0].face.index(), uses[1].face.index());
+        dropped.push_back(edge);
+    }
+    if (dropped.empty()) return;
+    ModelBuilder builder(before);
+    for (const EdgeId edge : dropped) builder[edge].points.clear(); // not even a seam of the joined face
+    std::vector<FaceId> kept;
+    std::vector<Role> role;
+    for (std::size_t f = 0; f < before.faces.size(); ++f) {
+        const std::size_t first = joined.find(f);
+        if (first == f) {
+            kept.push_back(FaceId(f));
+            role.push_back(volume.role[f]);
+            continue;
+        }
+        Face &into = builder.faces[first], &from = builder.faces[f];
+        into.triangles.insert(into.triangles.end(), from.triangles.begin(), from.triangles.end());
+        into.uv.clear();
+        into.surface = nullptr;
+        into.kind = "discrete";
+        from.triangles.clear();
+    }
+    builder.build_loops(context);
+    volume.model = extract(std::move(builder).finish(), kept);
+    volume.role = std::move(role);
+}
+
 } // namespace
 
 void split_round_rims(OpenVolume& volume, RoundsOf of, const RunContext& context)
@@ -178,14 +259,15 @@ void split_round_rims(OpenVolume& volume, RoundsOf of, const RunContext& context
     const auto has_rounds = [&](const std::vector<FaceId>& part) {
         return RoundRims(volume, part, smooth, of, context).has_rounds();
     };
-    if (std::ranges::none_of(parts(Role::source), has_rounds) &&
-        std::ranges::none_of(parts(Role::target), has_rounds))
-        return;
-    face_away(volume, context);
-    std::vector<double> turns = concave_turns(volume, context);
-    for (const Role end : {Role::source, Role::target})
-        for (const std::vector<FaceId>& part : parts(end))
-            if (RoundRims(volume, part, turns, of, context).run()) turns = concave_turns(volume, context);
+    if (std::ranges::any_of(parts(Role::source), has_rounds) ||
+        std::ranges::any_of(parts(Role::target), has_rounds)) {
+        face_away(volume, context);
+        std::vector<double> turns = concave_turns(volume, context);
+        for (const Role end : {Role::source, Role::target})
+            for (const std::vector<FaceId>& part : parts(end))
+                if (RoundRims(volume, part, turns, of, context).run()) turns = concave_turns(volume, context);
+    }
+    join_rounds(volume, context);
 }
 
 } // namespace lacuna::closure

@@ -16,11 +16,13 @@
 #include <lacuna/healing/shared/stitch.h>
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/hollows.h>
+#include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <iterator>
 #include <ranges>
+#include <set>
 #include <utility>
 
 namespace lacuna::fill {
@@ -32,6 +34,25 @@ namespace {
 constexpr const char* kRimsDivided =
     "note: rounds tangent to an end are divided at 45 degrees: the flatter half belongs to the end, the rest "
     "to the walls";
+
+/// Report faces that the pieces contain only as parts of the walls beside them.
+void note_joined(const topology::Model& whole, const std::vector<closure::StepPiece>& pieces,
+                 const RunContext& context)
+{
+    std::set<int> kept;
+    for (const closure::StepPiece& piece : pieces)
+        for (const topology::Face& face : piece.volume.model.faces)
+            if (face.origin == topology::Origin::given) kept.insert(face.tag);
+    std::vector<FaceId> joined;
+    for (const FaceId face : topology::all_faces(whole))
+        if (whole[face].origin == topology::Origin::given && !kept.contains(whole[face].tag))
+            joined.push_back(face);
+    if (joined.empty()) return;
+    log_line(context,
+             formatted("note: {} are meshed as parts of the walls beside them: their smooth edges meet "
+                       "in vertices of a rim",
+                       topology::entities_of(whole, joined)));
+}
 
 bool asks_nothing(const closure::CloseOptions& options)
 {
@@ -200,7 +221,8 @@ Volume with_rims_divided(const Volume& volume, const RunContext& context)
     const std::size_t faces = divided.volume.model.faces.size();
     closure::split_round_rims(divided.volume, closure::RoundsOf::walls, context);
     if (divided.volume.model.faces.size() == faces) return volume;
-    log_line(context, kRimsDivided);
+    if (divided.volume.model.faces.size() > faces) log_line(context, kRimsDivided);
+    note_joined(volume.volume.model, {{divided.volume, 0}}, context);
     divided.match.reset();
     divided.as_read.reset();
     divided.others.reset();
@@ -281,6 +303,7 @@ std::vector<closure::StepPiece> cut_into_pieces(const Volume& volume, const RunC
     std::vector<closure::StepPiece> pieces = closure::cut_into_pieces(volume.volume, context);
     if (pieces.size() == 1 && pieces.front().volume.model.faces.size() > volume.volume.model.faces.size())
         log_line(context, kRimsDivided);
+    note_joined(volume.volume.model, pieces, context);
     return pieces;
 }
 
