@@ -1,7 +1,5 @@
 -- SPDX-License-Identifier: MIT
--- CalculiX on periodic cells, a cyclic sector and written orientations; what fails where CalculiX is not
--- here is
--- left out.
+-- CalculiX on periodic cells, a cyclic sector and written orientations; left out where CalculiX is not here.
 local check = dofile(arg[0]:match("^(.*/)") .. "check.lua")
 local lacuna = require "lacuna"
 local params = lacuna.params { lacuna = "", scratch = "" }

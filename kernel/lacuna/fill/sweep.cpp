@@ -211,6 +211,7 @@ public:
         std::vector<std::string> notes;
         RunContext own = context_;
         own.log = [&](std::string_view line) { notes.emplace_back(line); };
+        note_joined(sealed_.volume.model, pieces, own);
         try {
             FilledParts mesh = sweep_pieces_true(sealed_, std::move(pieces), options_, sized_, own);
             const double share = hex_share(mesh);

@@ -35,25 +35,6 @@ constexpr const char* kRimsDivided =
     "note: rounds tangent to an end are divided at 45 degrees: the flatter half belongs to the end, the rest "
     "to the walls";
 
-/// Report faces that the pieces contain only as parts of the walls beside them.
-void note_joined(const topology::Model& whole, const std::vector<closure::StepPiece>& pieces,
-                 const RunContext& context)
-{
-    std::set<int> kept;
-    for (const closure::StepPiece& piece : pieces)
-        for (const topology::Face& face : piece.volume.model.faces)
-            if (face.origin == topology::Origin::given) kept.insert(face.tag);
-    std::vector<FaceId> joined;
-    for (const FaceId face : topology::all_faces(whole))
-        if (whole[face].origin == topology::Origin::given && !kept.contains(whole[face].tag))
-            joined.push_back(face);
-    if (joined.empty()) return;
-    log_line(context,
-             formatted("note: {} are meshed as parts of the walls beside them: their smooth edges meet "
-                       "in vertices of a rim",
-                       topology::entities_of(whole, joined)));
-}
-
 bool asks_nothing(const closure::CloseOptions& options)
 {
     const closure::CloseOptions none;
@@ -199,6 +180,24 @@ Volume override_class(Volume volume, topology::VolumeClass value)
     volume.volume.override_class = value;
     volume.classification = topology::classify(volume.volume);
     return volume;
+}
+
+void note_joined(const topology::Model& whole, const std::vector<closure::StepPiece>& pieces,
+                 const RunContext& context)
+{
+    std::set<int> kept;
+    for (const closure::StepPiece& piece : pieces)
+        for (const topology::Face& face : piece.volume.model.faces)
+            if (face.origin == topology::Origin::given) kept.insert(face.tag);
+    std::vector<FaceId> joined;
+    for (const FaceId face : topology::all_faces(whole))
+        if (whole[face].origin == topology::Origin::given && !kept.contains(whole[face].tag))
+            joined.push_back(face);
+    if (joined.empty()) return;
+    log_line(context,
+             formatted("note: {} are meshed as parts of the walls beside them: their smooth edges meet "
+                       "in vertices of a rim",
+                       topology::entities_of(whole, joined)));
 }
 
 void require_roles(const Volume& volume)

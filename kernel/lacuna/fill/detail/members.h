@@ -36,6 +36,10 @@ void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options
 /// `closure::split_round_rims()`). Unchanged if it has no such rounds, or if the user matched or closed it.
 Volume with_rims_divided(const Volume& volume, const RunContext& context);
 
+/// Note the faces that pieces of a whole contain only as parts of the walls beside them.
+void note_joined(const topology::Model& whole, const std::vector<closure::StepPiece>& pieces,
+                 const RunContext& context);
+
 /// Close a volume and check that it has a source and a target.
 /// @param region  name of the region, for messages.
 Volume close_to_sweep(const Volume& volume, const std::string& region, const RunContext& context);
