@@ -343,11 +343,16 @@ std::vector<CutTried> best_cuts(const CutPart& part, double least, std::size_t& 
 class Cutter {
 public:
     /// @param can_sweep  whether a part can be swept
+    /// @param may_step  whether a part that no cut helps can be swept, perhaps with a step in an end
     /// @param can_sweep_block  whether a block can be swept, if a part is divided into blocks
     /// @param least  the least distance between a cut and an edge beside it
-    Cutter(const CanSweep& can_sweep, const CanSweep& can_sweep_block, double least,
+    Cutter(const CanSweep& can_sweep, const CanSweep& may_step, const CanSweep& can_sweep_block, double least,
            const RunContext& context)
-        : can_sweep_(can_sweep), can_sweep_block_(can_sweep_block), least_(least), context_(context)
+        : can_sweep_(can_sweep),
+          may_step_(may_step),
+          can_sweep_block_(can_sweep_block),
+          least_(least),
+          context_(context)
     {
     }
 
@@ -367,17 +372,19 @@ public:
         pieces_ += made.size() - 1;
         std::vector<CutPart> all;
         for (CutPart& own : made) {
-            if (!own.has_ends && own.left > 0) {
-                std::vector<CutTried> cuts = cuts_of(own);
-                if (cuts.empty())
-                    all.push_back(std::move(own));
-                else
-                    std::ranges::move(cut_on(std::move(own), std::move(cuts.front().parts)),
-                                      std::back_inserter(all));
-                continue;
+            std::vector<CutTried> cuts;
+            if (!own.has_ends && own.left > 0) cuts = cuts_of(own);
+            std::vector<CutPart> parts;
+            if (cuts.empty())
+                parts.push_back(std::move(own));
+            else
+                parts = cut_on(std::move(own), std::move(cuts.front().parts));
+            if (CutPart& only = parts.front(); parts.size() == 1 && !only.has_ends) {
+                only.has_ends = find_ends(only.piece, may_step_, context_);
+                if (!only.has_ends && !(only.left > 0))
+                    pieces_ += divide(only, kMostPieces + 1 - pieces_, can_sweep_block_, context_);
             }
-            if (!own.has_ends) pieces_ += divide(own, kMostPieces + 1 - pieces_, can_sweep_block_, context_);
-            all.push_back(std::move(own));
+            std::ranges::move(parts, std::back_inserter(all));
         }
         const auto helps = [](const CutPart& own) { return own.has_ends || !own.blocks.empty(); };
         if (std::ranges::none_of(all, helps)) {
@@ -391,7 +398,7 @@ public:
     void start_again() { pieces_ = 1; }
 
 private:
-    const CanSweep &can_sweep_, &can_sweep_block_;
+    const CanSweep &can_sweep_, &may_step_, &can_sweep_block_;
     double least_;
     const RunContext& context_;
     std::size_t tried_ = 0, pieces_ = 1;
@@ -478,10 +485,13 @@ bool has_ends(const OpenVolume& piece)
 void partitions(const OpenVolume& volume, const CanSweep& can_sweep, double least, const TakePieces& take,
                 const RunContext& context)
 {
-    const CanSweep suits = [&](const OpenVolume& piece) {
-        return ends_suit_columns(piece) && !has_stepped_end(piece, context) && can_sweep(piece);
+    const CanSweep may_step = [&](const OpenVolume& piece) {
+        return ends_suit_columns(piece) && can_sweep(piece);
     };
-    Cutter cutter(suits, can_sweep, least, context);
+    const CanSweep suits = [&](const OpenVolume& piece) {
+        return !has_stepped_end(piece, context) && may_step(piece);
+    };
+    Cutter cutter(suits, may_step, can_sweep, least, context);
     const CutPart whole = part_of({volume}, context);
     std::vector<CutTried> cuts = cutter.cuts_of(whole);
     const auto parts_of_cut = [&](std::size_t number) {
