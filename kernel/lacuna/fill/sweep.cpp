@@ -270,13 +270,16 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     }
     Volume sealed = sealed_whole(volume, context);
     PieceMesher mesher(sealed, why, options, static_cast<bool>(request.options.size), context);
+    // A volume of which less than this share can be swept is filled with tetrahedra alone. A choice: on the
+    // bodies of the tests, pieces of such volumes took up to a minute and gave a fifth of hexahedra at most.
+    constexpr double kWorthMixing = 0.5;
     // Partitions with pieces that have no ends, by the share of the volume in the pieces with ends.
     std::multimap<double, std::vector<closure::StepPiece>, std::greater<>> partial;
     const auto take = [&](std::vector<closure::StepPiece> pieces) {
         const double share = swept_share(pieces);
         if (share == 1)
             mesher.mesh(std::move(pieces));
-        else if (mixed)
+        else if (mixed && share > kWorthMixing)
             partial.emplace(share, std::move(pieces));
         return mesher.share() == 1;
     };

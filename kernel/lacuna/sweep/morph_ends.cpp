@@ -25,7 +25,9 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
 {
     std::vector<std::optional<Vec3>> places(source.quads.nodes.size());
     for (const auto& [edge, image] : imprint.images) {
-        const std::vector<Index>& nodes = source.on_edge.at(edge);
+        const auto found = source.on_edge.find(edge);
+        if (found == source.on_edge.end()) continue; // given quads do not follow it
+        const std::vector<Index>& nodes = found->second;
         std::vector<double> at = seeds.fractions(edge);
         for (double& f : at) {
             f = image.from + f * (image.to - image.from);
