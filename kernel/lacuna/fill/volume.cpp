@@ -194,10 +194,9 @@ void note_joined(const topology::Model& whole, const std::vector<closure::StepPi
         if (whole[face].origin == topology::Origin::given && !kept.contains(whole[face].tag))
             joined.push_back(face);
     if (joined.empty()) return;
-    log_line(context,
-             formatted("note: {} are meshed as parts of the walls beside them: their smooth edges meet "
-                       "in vertices of a rim",
-                       topology::entities_of(whole, joined)));
+    log_line(context, formatted("note: joined with the walls beside them, because their smooth edges meet in "
+                                "a vertex of a rim: {}",
+                                topology::entities_of(whole, joined)));
 }
 
 void require_roles(const Volume& volume)

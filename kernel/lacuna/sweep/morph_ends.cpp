@@ -26,7 +26,7 @@ std::vector<std::optional<Vec3>> known_places(const surface::SourceMesh& source,
     std::vector<std::optional<Vec3>> places(source.quads.nodes.size());
     for (const auto& [edge, image] : imprint.images) {
         const auto found = source.on_edge.find(edge);
-        if (found == source.on_edge.end()) continue; // given quads do not follow it
+        if (found == source.on_edge.end()) continue; // given quads do not follow the edge
         const std::vector<Index>& nodes = found->second;
         std::vector<double> at = seeds.fractions(edge);
         for (double& f : at) {

@@ -45,8 +45,8 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - the pieces of up to five other cuts of the volume, each cut on in the same way.
 /// @param least  the least distance between a cut and an edge beside it, unless the volume itself is that
 ///               thin there [model length].
-/// @param take   called with pieces and their ends; those without ends cannot be swept. Only the volume
-///               itself if no cut helps.
+/// @param take   called with pieces and their ends; those without ends cannot be swept. If no cut helps, the
+///               volume itself is the only piece.
 /// @note  Cutting stops after 200 trial cuts in all, or at 64 pieces. O(facets log facets) for each cut.
 void partitions(const topology::OpenVolume& volume, const CanSweep& can_sweep, double least,
                 const TakePieces& take, const RunContext& context = {});
