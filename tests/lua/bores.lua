@@ -284,4 +284,34 @@ for _ = 1, check.whole and 5 or 1 do
   end
 end
 
+-- A block beside a rib, both on a plate. A face is a wall of the block and a part of an end of the rib, and
+-- the rib is lower than the block: where its slope ends, the rows of the block's wall need a node.
+for number = 1, check.whole and 20 or 3 do
+  local top, long, size = random(4, 5.8), random(6, 10), random(0.7, 1.2)
+  if number == 1 then top, long, size = 5.7, 8, 0.9 end
+  check.write(params.scratch .. "/rib.geo", ([[
+    SetFactory("OpenCASCADE");
+    Box(1) = {0, 0, 0, 4, 2, 6};
+    Point(101) = {0, -1, 0}; Point(102) = {%.15g, -1, 0}; Point(103) = {4, -1, %.15g};
+    Point(104) = {4, -1, 6}; Point(105) = {0, -1, 6};
+    Line(101) = {101, 102}; Line(102) = {102, 103}; Line(103) = {103, 104}; Line(104) = {104, 105};
+    Line(105) = {105, 101};
+    Line Loop(101) = {101:105}; Plane Surface(101) = {101}; Extrude{0, 1, 0}{Surface{101};}
+    Box(3) = {0, -1, -1, 11, 3, 1};
+    BooleanFragments{ Volume{1,2,3}; Delete; }{}
+  ]]):format(long, top))
+  local model = lacuna.load(params.scratch .. "/rib.geo")
+  local function at(x, y, z) return model:face { near = { x, y, z } } end
+  local block = model:open_volume { name = "block", source = at(2, 1, 0), target = at(2, 1, 6),
+    walls = { at(0, 1, 3), at(4, 1, 3), at(2, 2, 3), at(2, 0, 3) } }
+  local rib = model:open_volume { name = "rib", source = { at(2, 0, 3), at(4.5, 0, 1) },
+    target = at(2, -1, 2), walls = { at(4, -0.5, 0), at(2, -0.5, 6), at(0, -0.5, 3),
+      at((4 + long) / 2, -0.5, top / 2), at(4, -0.5, (6 + top) / 2) } }
+  local plate = model:open_volume { name = "plate", source = at(8, 1, -1),
+    target = { at(2, 1, 0), at(4, -0.5, 0), at(10.5, 1, 0) },
+    walls = { at(0, 0.5, -0.5), at(11, 0.5, -0.5), at(4, -1, -0.5), at(4, 2, -0.5) } }
+  local mesh = lacuna.assembly { block, rib, plate }:sweep { size = size }
+  check.near(mesh:quality().volume, 4 * 2 * 6 + 4 * 6 + top * (long - 4) / 2 + 33, 1e-9)
+end
+
 check.done()

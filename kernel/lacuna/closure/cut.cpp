@@ -84,7 +84,9 @@ public:
         add_partitions(made);
         if (parted_.partitions.empty()) refuse_miss();
         model_ = with_loops(std::move(model_));
-        return pieces_of(parted_, {"the plane"}, context_);
+        std::vector<StepPiece> pieces = pieces_of(parted_, {"the plane"}, context_);
+        if (least) refuse_slivers(pieces, *least);
+        return pieces;
     }
 
 private:
@@ -196,6 +198,21 @@ private:
             if (std::ranges::count_if(loops, is_round) % 2 != 0)
                 throw NotSweepable("closure.cut_thin", "the plane passes {} at a distance of {:.2g}",
                                    entity_of(model_, edge), found(std::abs(geometry::height(plane_, place))));
+        }
+    }
+
+    /// Refuse a cut that cuts off a piece thinner than `least`.
+    void refuse_slivers(const std::vector<StepPiece>& pieces, double least) const
+    {
+        for (const StepPiece& piece : pieces) {
+            const Model& model = piece.volume.model;
+            double most = 0;
+            for (const FaceId face : all_faces(model))
+                for (const Index p : corners_of(model[face]))
+                    most = std::max(most, std::abs(geometry::height(plane_, model.at(p))));
+            if (most < least)
+                throw NotSweepable("closure.cut_thin", "the plane cuts off a piece that is {:.2g} thick",
+                                   found(most));
         }
     }
 

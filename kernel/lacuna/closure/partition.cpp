@@ -278,13 +278,15 @@ struct CutTried {
 
 /// Cut a piece by each plane that may help and makes no cusp. The cuts that leave the least to cut come
 /// first.
-std::vector<CutTried> try_cuts(const CutPart& part, double least, std::size_t& tried,
+/// @param whole  whether to cut in all regions of a plane; otherwise in those that adjoin its edges.
+std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                const RunContext& context)
 {
     const OpenVolume& volume = part.piece.volume;
     std::vector<CutTried> cuts;
-    for (const auto& [plane, edges] : cut_planes(volume, part.bends, kMostRead)) {
+    for (auto& [plane, edges] : cut_planes(volume, part.bends, kMostRead)) {
         if (tried == kMostCuts) break;
+        if (whole) edges.clear();
         ++tried;
         // A cut is refused if the plane crosses given quads, passes an edge closely, or leaves the volume in
         // one piece.
@@ -305,11 +307,11 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, std::size_t& t
 /// The cuts of a piece that reduce the length left to cut in pieces without ends, best first. A cut into two
 /// pieces with ends is the only one. Cuts that leave the same length, by planes of coplanar faces or of equal
 /// features, are listed once.
-std::vector<CutTried> best_cuts(const CutPart& part, double least, std::size_t& tried,
+std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                 const CanSweep& can_sweep, const RunContext& context)
 {
     if (!(part.left > 0)) return {};
-    std::vector<CutTried> cuts = try_cuts(part, least, tried, context);
+    std::vector<CutTried> cuts = try_cuts(part, least, whole, tried, context);
     if (cuts.size() > kMostRead) cuts.resize(kMostRead);
     const auto without_ends = [](const CutTried& cut) {
         return std::ranges::count(cut.parts, false, &CutPart::has_ends);
@@ -361,7 +363,10 @@ public:
     {
         check_cancelled(context_);
         if (tried_ >= kMostCuts || pieces_ >= kMostPieces) return {};
-        return best_cuts(part, least_, tried_, can_sweep_, context_);
+        std::vector<CutTried> cuts = best_cuts(part, least_, false, tried_, can_sweep_, context_);
+        // A part with a bore through it stays in one piece if it is cut on one side of the bore only.
+        if (cuts.empty()) cuts = best_cuts(part, least_, true, tried_, can_sweep_, context_);
+        return cuts;
     }
 
     /// Cut the parts of a part in turn. Returns the part itself unless one of the resulting parts has ends or

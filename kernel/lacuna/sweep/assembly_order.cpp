@@ -139,8 +139,8 @@ std::vector<std::size_t> order_members(std::span<const AssemblyMember> members,
         if (came_with_mesh(members[m])) return {3, m, m};
         if (!members[m].options.boundary_layers.empty()) return {4, m, m};
         if (!all_placed(below[m])) return {9, m, m};
-        if (early[m] && !has(m, false, false, true) && !has(m, false, true, true)) return {5, m, m};
         if (has(m, false, true, false)) return {8, m, m};
+        if (early[m] && !has(m, false, false, true) && !has(m, false, true, true)) return {5, m, m};
         return {has(m, false, false, true) ? 6 : 7, m, m};
     };
     std::set<Step> to_come; // of the members that are not placed

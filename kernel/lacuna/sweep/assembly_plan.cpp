@@ -63,9 +63,17 @@ public:
         layers_.assign(members.size(), 1);
         for (const AssemblyMember& member : members) per_turn_.push_back(member.options.curvature);
         if (!periodic.empty()) grid_ = grid_of(members);
-        for (const auto& [m, face] : beside)
+        const auto add_beside = [&](std::size_t m, FaceId face) {
             for (const Loop& loop : border_loops(model(m), face))
                 for (const EdgeUse& use : loop.uses) beside_.insert(number(m, use.edge));
+        };
+        for (const auto& [m, face] : beside) add_beside(m, face);
+        for (const SharedFace& face : shared) {
+            const bool a = is_wall(face.a, face.face_a), b = is_wall(face.b, face.face_b);
+            // The rows of the wall have a node wherever an edge of the other member's end ends.
+            if (a && !b) add_beside(face.a, face.face_a);
+            if (b && !a) add_beside(face.b, face.face_b);
+        }
     }
 
     AssemblyPlan run()
@@ -347,6 +355,20 @@ private:
         }
     }
 
+    [[nodiscard]] bool is_wall(std::size_t m, FaceId face) const
+    {
+        return members_[m].volume->role[face.index()] == Role::wall;
+    }
+
+    /// Ends of the edges of a line, as shares of the line's length.
+    [[nodiscard]] std::vector<double> ends_along(std::size_t m, const std::vector<EdgeUse>& line) const
+    {
+        std::vector<double> ends{0};
+        for (const EdgeUse& use : line) ends.push_back(ends.back() + edges_[number(m, use.edge)].length);
+        for (double& end : ends) end /= ends.back();
+        return ends;
+    }
+
     /// Find the numbers of sides and layers that a member needs to keep its volume.
     void plan_sides(std::size_t m, std::span<const surface::LinkingSurface> links)
     {
@@ -455,8 +477,7 @@ private:
             for (const FaceId wall : members_[m].volume->faces(Role::wall)) join_opposite(m, wall, true);
         }
         for (const SharedFace& face : shared_) {
-            const bool rows = members_[face.a].volume->role[face.face_a.index()] == Role::wall ||
-                              members_[face.b].volume->role[face.face_b.index()] == Role::wall;
+            const bool rows = is_wall(face.a, face.face_a) || is_wall(face.b, face.face_b);
             join_opposite(face.a, face.face_a, rows);
             join_opposite(face.b, face.face_b, rows);
         }
@@ -908,19 +929,29 @@ private:
         return std::max(static_cast<int>(std::lround(layers)), static_cast<int>(most));
     }
 
+    /// Places of nodes on a side line: the heights of the member's layers, of which the nearest moves to each
+    /// end of an edge; or, if there are none, or two ends have the same nearest height, evenly between ends.
+    [[nodiscard]] std::vector<double> places_on(const std::vector<double>& ends, std::size_t m,
+                                                std::size_t count) const
+    {
+        std::vector<double> at{0};
+        at.insert(at.end(), heights_[m].begin(), heights_[m].end());
+        for (const double end : ends)
+            *std::ranges::min_element(at, {}, [&](double height) { return std::abs(height - end); }) = end;
+        return std::ranges::includes(at, ends) ? at : spread_between(ends, count);
+    }
+
     /// Place the nodes of side lines that consist of several edges, so that each vertex between two of these
-    /// edges is a node. An unswept member may have an edge that ends at such a vertex and needs this node.
+    /// edges is a node. Edges of other members may end at such a vertex and need this node.
     void plan_stacks(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines,
                      std::map<std::size_t, std::vector<Vec3>>& nodes, AssemblyPlan& plan)
     {
         const LayerSpec& spec = members_[m].options.layers;
         if (!spec.heights.empty() || spec.bias != 1) return; // the heights given by the user apply
-        plan.layers[m] = layers_of(m, lines);
+        plan.layers[m] = heights_[m].empty() ? layers_of(m, lines) : static_cast<int>(heights_[m].size());
         for (const std::vector<EdgeUse>& line : lines) {
-            std::vector<double> ends{0};
-            for (const EdgeUse& use : line) ends.push_back(ends.back() + edges_[number(m, use.edge)].length);
-            for (double& end : ends) end /= ends.back();
-            const std::vector<double> at = spread_between(ends, index(plan.layers[m]));
+            const std::vector<double> ends = ends_along(m, line);
+            const std::vector<double> at = places_on(ends, m, index(plan.layers[m]));
             for (std::size_t u = 0; u < line.size(); ++u) {
                 const MemberEdge& edge = edges_[number(m, line[u].edge)];
                 const auto [found, fresh] = nodes.try_emplace(same_.find(number(m, line[u].edge)));
@@ -1036,10 +1067,11 @@ private:
     std::vector<bool> common_; ///< for each edge, whether other members have it too
     /// For each set of same edges: minimum length of the first and the last side at cusps [model length].
     std::map<std::size_t, std::array<double, 2>> cusps_;
-    double grid_ = 0;              ///< spacing of the grid for nodes on periodic faces
-    std::set<std::size_t> tied_;   ///< sets of same edges on periodic faces
-    std::set<std::size_t> beside_; ///< edges shared with members that are not swept
-    /// For each member: its side lines of several edges, if an unswept member shares some of these edges.
+    double grid_ = 0;            ///< spacing of the grid for nodes on periodic faces
+    std::set<std::size_t> tied_; ///< sets of same edges on periodic faces
+    /// Edges of walls shared with members that are not swept, or with ends of other members.
+    std::set<std::size_t> beside_;
+    /// For each member: its side lines of several edges, of which some are in `beside_`.
     std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
     std::map<std::size_t, int> count_;                  ///< number of sides of each class

@@ -36,7 +36,8 @@ std::vector<StepPiece> cut_by_plane(const topology::OpenVolume& volume, const ge
 /// meshes fold no facets.
 /// @param least  the least distance between the cut and an edge beside it [model length]. Edges that meet the
 ///         plane, or share a vertex with such an edge, may be nearer: there, the volume itself is that thin.
-/// @throw NotSweepable "closure.cut_thin"  an edge is nearer; or the errors of `cut_by_plane()`.
+/// @throw NotSweepable "closure.cut_thin"  an edge is nearer, or a piece is thinner; or the errors of
+///         `cut_by_plane()`.
 std::vector<StepPiece> cut_at_edges(const topology::OpenVolume& volume, const geometry::Plane& plane,
                                     const std::vector<EdgeId>& edges, double least,
                                     const RunContext& context = {});

@@ -26,7 +26,8 @@ std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember
 /// 3. members with given meshes;
 /// 4. members with boundary layers;
 /// 5. members whose ends both have several faces, and members that must precede such a member. In this step,
-///    their ends must not be shared with a placed member;
+///    their ends must not be shared with a placed member, nor with a wall of a member still to come, whose
+///    rows are meshed first;
 /// 6. members that share an end with a placed member, and none with a wall of a member still to come;
 /// 7. members that share no end with a wall of a member still to come;
 /// 8. other members;

@@ -30,7 +30,8 @@ struct AssemblyPlan {
 ///
 /// Nodes are evenly spaced, except on side lines, where they follow the layers, and where rows of boundary
 /// layers end on an edge, which needs nodes at the rows' heights. Edges of faces shared with an unswept
-/// volume are treated as shared edges; side lines on such faces have a node at each vertex.
+/// volume are treated as shared edges. Side lines on such faces, and on walls that are a part of another
+/// member's end, have a node at each vertex.
 /// @param beside  the faces shared with volumes that are not swept: index of the member, and its face.
 /// @throw NotSweepable "assembly.layers"  members whose side lines are in one class request different numbers
 ///         of layers; "assembly.layers_differ"  rows of two members end on one edge with different heights;
