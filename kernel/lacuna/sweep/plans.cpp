@@ -53,8 +53,14 @@ std::string end_of(const OpenVolume& volume, bool turned)
 std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                           const RunContext& context)
 {
-    if (keeps_quads(volume, options)) return {{.keeps_end = true}};
     std::vector<Plan> plans;
+    if (keeps_quads(volume, options)) {
+        plans.push_back({.keeps_end = true});
+        // Rows along walls cannot end on the rim of a neighbour's quads at the source. They can if the same
+        // quads are made on the other end and swept onto these.
+        if (!options.boundary_layers.empty() && !options.beside.own_mesh) plans.push_back({.turned = true});
+        return plans;
+    }
     const std::string source = end_of(volume, false), target = end_of(volume, true);
     const bool kept = keeps_quads(links.turned(), options);
     if (kept)
