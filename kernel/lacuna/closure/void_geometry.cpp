@@ -155,11 +155,19 @@ std::optional<double> height_of(const geometry::FacetTree& shape, const geometry
 
 /// A bent face between four corners, if it is ruled or its rim lies on no quadric.
 std::optional<VoidFilling> fill_between_corners(const Model& model, const std::vector<Loop>& loops,
-                                                bool on_quadric, const RunContext& context)
+                                                const Vec3& normal, bool on_quadric,
+                                                const RunContext& context)
 {
     if (loops.size() != 1) return std::nullopt;
     const auto sides = four_corners(model, loops.front());
     if (sides.empty()) return std::nullopt;
+    // At a concave corner, such as a kink of a rough rim, the first facet would lie outside the rim.
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        const std::vector<Vec3> before = use_places(model, sides[(i + 3) % 4]),
+                                after = use_places(model, sides[i]);
+        const Vec3 in = after[0] - before[before.size() - 2], out = after[1] - after[0];
+        if (!(in.cross(out).dot(normal) > 0)) return std::nullopt;
+    }
     if (on_quadric && !is_ruled(model, sides)) return std::nullopt;
     return unless_refused([&] { return fill_transfinite(model, sides, nullptr, context); }); // it may fold
 }
@@ -235,7 +243,8 @@ VoidFilling fill(const OpenVolume& volume, const std::vector<Loop>& loops, const
                                 .attempt(error.message()));
         }
     } else if (auto patch = flat ? std::nullopt
-                                 : fill_between_corners(model, loops, told.has_value(), context)) {
+                                 : fill_between_corners(model, loops, newell.plane.normal, told.has_value(),
+                                                        context)) {
         result = std::move(*patch);
     } else if (told) {
         result = std::move(*told);

@@ -140,7 +140,15 @@ void add_mapped(const SeedTask& task, const FaceGrids& grids, Seeds& seeds, Prog
         if (mapped == grids.mapped.end()) continue;
         program.grids.push_back(
             {variables_of(seeds, pairs[0][0], program), variables_of(seeds, pairs[1][0], program)});
-        program.asked += quads_asked(task.model, seeds, face);
+        double quads = quads_asked(task.model, seeds, face);
+        for (std::size_t k = 0; task.sizing.counts_across && k < pairs.size(); ++k) {
+            // Quads are added across a narrow face; its sides along the face remain.
+            double wanted = sides_asked(seeds, pairs[k][0]) + sides_asked(seeds, pairs[k][1]);
+            for (const double sides : inside[k]) wanted += sides;
+            const auto lines = static_cast<double>(2 + inside[k].size());
+            quads *= std::max(1.0, task.sizing.gap * lines / wanted);
+        }
+        program.asked += quads;
     }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/detail/seed_task.h>
 #include <lacuna/topology/shared/use_places.h>
 
@@ -49,15 +50,19 @@ int sides_of(const Model& model, const Seeds& seeds, FaceId face)
     return total(seeds, edges_of(model, face));
 }
 
+double sides_asked(const Seeds& seeds, const std::vector<EdgeId>& edges)
+{
+    double sides = 0;
+    for (const EdgeId edge : edges) {
+        for (const SeedPiece& piece : seeds.pieces.at(edge)) sides += piece.fixed ? piece.count : piece.sides;
+    }
+    return sides;
+}
+
 double quads_asked(const Model& model, const Seeds& seeds, FaceId face)
 {
-    double length = 0, sides = 0;
-    for (const EdgeId edge : edges_of(model, face)) {
-        for (const SeedPiece& piece : seeds.pieces.at(edge)) {
-            length += piece.length;
-            sides += piece.fixed ? piece.count : piece.sides;
-        }
-    }
+    const std::vector<EdgeId> edges = edges_of(model, face);
+    const double length = length_of(model, edges), sides = sides_asked(seeds, edges);
     return face_area(model, face) * (sides / length) * (sides / length);
 }
 

@@ -17,8 +17,9 @@ using namespace topology;
 
 namespace {
 
-/// Levels that differ by less than this share of a member's height are treated as one. A layer boundary can
-/// bend to reach both, whereas a layer between them would be very thin. A choice.
+/// Levels that differ by less than this share of the height of the tallest member that is joined by walls are
+/// treated as one. A layer boundary can bend to reach both, whereas a layer between them would be very thin.
+/// A choice.
 constexpr double kSameLevel = 1e-2;
 
 /// Whether the layers of a member are free: neither the user nor a given mesh prescribes them.
@@ -73,6 +74,8 @@ AssemblyLevels::AssemblyLevels(std::span<const AssemblyMember> members, std::spa
       shared_(shared),
       height_(members.size()),
       length_(members.size(), 0),
+      read_(members.size()),
+      same_(members.size(), kSameLevel),
       levels_(members.size(), {0, 1})
 {
 }
@@ -90,7 +93,7 @@ void AssemblyLevels::read(std::size_t member, std::span<const surface::LinkingSu
         for (const EdgeUse& use : link.target.uses()) height_[member].emplace(use.edge, 1.0);
         for (const auto& [edge, height] : surface::heights_around(volume, link, context)) {
             height_[member].emplace(edge, height);
-            add_level(member, height);
+            read_[member].push_back(height);
         }
     }
 }
@@ -98,7 +101,7 @@ void AssemblyLevels::read(std::size_t member, std::span<const surface::LinkingSu
 bool AssemblyLevels::add_level(std::size_t member, double height)
 {
     std::vector<double>& levels = levels_[member];
-    if (std::ranges::any_of(levels, [&](double at) { return std::abs(at - height) < kSameLevel; }))
+    if (std::ranges::any_of(levels, [&](double at) { return std::abs(at - height) < same_[member]; }))
         return false;
     levels.insert(std::ranges::upper_bound(levels, height), height);
     return true;
@@ -152,9 +155,16 @@ std::vector<std::vector<double>> AssemblyLevels::heights(
 {
     std::vector<std::vector<double>> result(members_.size());
     const std::vector<Contact> all = contacts();
-    exchange(all);
     geometry::UnionFind groups(members_.size());
     for (const Contact& c : all) groups.unite(c.a, c.b);
+    std::map<std::size_t, double> tallest; // of each group [model length]
+    for (std::size_t m = 0; m < members_.size(); ++m)
+        tallest[groups.find(m)] = std::max(tallest[groups.find(m)], length_[m]);
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+        if (length_[m] > 0) same_[m] = kSameLevel * tallest.at(groups.find(m)) / length_[m];
+        for (const double height : read_[m]) add_level(m, height);
+    }
+    exchange(all);
     // Only groups in which some member has levels, and in which no member's number of layers is prescribed,
     // are constrained.
     std::vector<bool> concerned(members_.size(), false), set(members_.size(), false);

@@ -37,6 +37,9 @@ int total(const Seeds& seeds, const std::vector<EdgeId>& edges);
 /// Number of sides on the loops of a face.
 int sides_of(const topology::Model& model, const Seeds& seeds, FaceId face);
 
+/// Sum of the wanted numbers of sides of some edges.
+double sides_asked(const Seeds& seeds, const std::vector<EdgeId>& edges);
+
 /// Number of quads that the wanted sides around a face imply.
 double quads_asked(const topology::Model& model, const Seeds& seeds, FaceId face);
 
