@@ -152,6 +152,19 @@ do
   check.near(model:open_volume({ faces = left }):sweep():quality().volume, found, 0.01 * found)
 end
 
+-- Both tags of a face that a file lists twice name it.
+do
+  local model = load "Box(1)={0,0,0,2,1,1}; Rectangle(99)={0,0,0,2,1};"
+  check.equal(#model:faces(), 6)
+  local floor = model:face { near = { 1, 0.5, 0 } }.tag
+  local other = floor == 99 and 5 or 99
+  check.equal(model:faces({ tags = { other } })[1].tag, floor)
+  local all = { other }
+  for tag = 1, 6 do all[#all + 1] = tag end
+  check.near(model:open_volume({ faces = all }):sweep():quality().volume, 2, 1e-9)
+  check.equal(#model:faces { touching = other }, 4)
+end
+
 -- A pyramid without its base and two sides lacks the vertex between them: two flat faces close it, with a
 -- note.
 for sides = 5, whole and 8 or 5 do
