@@ -177,6 +177,17 @@ bool lies_in(const topology::Model& model, const topology::Face& face, const Eig
     });
 }
 
+/// The tag of the face that was kept where the file lists a face twice; empty for any other face.
+std::optional<int> kept_of_two(const topology::Model& model, int tag)
+{
+    for (const Message& note : model.notes) {
+        if (note.code() != "healing.repeated_face") continue;
+        const auto kept = static_cast<int>(note.entities().back().tag);
+        if (kept == tag || note.entities().front().tag == tag) return kept;
+    }
+    return std::nullopt;
+}
+
 /// The faces that `touching` names, which are not selected themselves, and their edges.
 struct Touched {
     std::vector<bool> face, edge;
@@ -238,17 +249,21 @@ bool matches(const topology::Model& model, FaceId id, const Selector& selector)
 
 /// Append the faces that `pick` returns. If there are none, raise an error with the reason and the model's
 /// faces.
-/// @param tag  of the face that is missing, if one is wanted by its tag.
+/// @param tag  of the wanted face, if one is wanted by its tag.
 template <class Pick>
 void append(lua_State* L, const Where& where, const topology::Model& model, std::vector<FaceId>& faces,
             const char* why, std::optional<int> tag, Pick&& pick)
 {
-    const std::size_t before = faces.size();
+    bool any = false;
     guard(L, [&] {
-        const std::vector<FaceId> found = pick();
-        faces.insert(faces.end(), found.begin(), found.end());
+        for (const FaceId face : pick()) {
+            any = true;
+            // Both tags of a face that the file lists twice may be named.
+            const bool again = tag && kept_of_two(model, *tag) && std::ranges::count(faces, face) > 0;
+            if (!again) faces.push_back(face);
+        }
     });
-    if (faces.size() > before) return;
+    if (any) return;
     const char* const subject = push_subject(L, where);
     guard(L, [&] {
         const std::vector<FaceId> there = topology::all_faces(model);
@@ -282,8 +297,7 @@ const char* push_meant_name(lua_State* L, const topology::Model& model, const ch
 const char* push_why_missing(lua_State* L, const topology::Model& model, int tag)
 {
     push_text(L, [&] {
-        constexpr std::string_view kLeftOut[] = {"cad.face_not_cut", "cad.narrow_face",
-                                                 "healing.repeated_face", "healing.thin_face"};
+        constexpr std::string_view kLeftOut[] = {"cad.face_not_cut", "cad.narrow_face", "healing.thin_face"};
         const auto note = std::ranges::find_if(model.notes, [&](const Message& of) {
             return std::ranges::find(kLeftOut, of.code()) != std::end(kLeftOut) && !of.entities().empty() &&
                    of.entities().front().tag == tag;
@@ -415,8 +429,11 @@ void read_selector(lua_State* L, int index, const char* call, Selector& selector
         fail(L, "%s: option 'within' is a distance from 'near', which is missing", call);
 }
 
-std::vector<FaceId> select(const topology::Model& model, const Selector& selector)
+std::vector<FaceId> select(const topology::Model& model, Selector selector)
 {
+    const auto kept = [&](int& tag) { tag = kept_of_two(model, tag).value_or(tag); };
+    if (selector.tags) std::ranges::for_each(*selector.tags, kept);
+    if (selector.touching_tag) kept(*selector.touching_tag);
     std::vector<FaceId> faces;
     for (const FaceId face : topology::all_faces(model))
         if (matches(model, face, selector)) faces.push_back(face);

@@ -34,8 +34,9 @@ struct Selector {
 
 void read_selector(lua_State* L, int index, const char* call, Selector& selector);
 
-/// The faces that a selector picks, in the model's order.
-std::vector<FaceId> select(const topology::Model& model, const Selector& selector);
+/// The faces that a selector picks, in the model's order. A tag of a face that the file lists twice picks the
+/// face that was kept.
+std::vector<FaceId> select(const topology::Model& model, Selector selector);
 
 /// Mark the empty array on top of the stack as the result of the selector at `selector`. While the array is
 /// empty, read_faces() refuses it and quotes the selector.

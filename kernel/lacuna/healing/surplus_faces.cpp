@@ -36,9 +36,10 @@ void leave_out_copies(LooseModel& loose, StitchReport& report, const std::vector
     std::vector<FaceId> order = alike;
     std::stable_sort(order.begin(), order.end(), [&](FaceId a, FaceId b) { return worth(a) > worth(b); });
     for (std::size_t i = stay; i < order.size(); ++i) {
-        report.notes.push_back({"healing.repeated_face",
-                                "{0} lies on {1} everywhere: the face is listed twice, and {0} is left out",
-                                entity_of(model, order[i]), entity_of(model, order[0])});
+        report.notes.push_back(
+            {"healing.repeated_face",
+             "{0} lies on {1} everywhere: the face is listed twice, and naming {0} names {1}",
+             entity_of(model, order[i]), entity_of(model, order[0])});
         ++report.faces_left_out;
         loose.remove(order[i]);
     }
