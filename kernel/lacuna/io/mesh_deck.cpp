@@ -907,7 +907,8 @@ Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedT
     return deck;
 }
 
-void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region, const std::string& element)
+void add_layer(Deck& deck, std::span<const mesh::CellNodes> cells, const std::string& region,
+               const std::string& element)
 {
     const auto is_taken = [&](const std::string& name) {
         return std::ranges::any_of(deck.sets, [&](const DeckSet& set) { return same_word(set.name, name); });
@@ -918,19 +919,19 @@ void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region
     DeckTag tag = 0;
     for (const DeckTag used : element_tags(deck)) tag = std::max(tag, used);
     DeckSet set{.tag = highest_tag(deck.sets) + 1, .name = name};
-    for (const Hex& cell : cells) {
-        const DeckShape shape = mesh::is_wedge(cell) ? DeckShape::wedge6 : DeckShape::hex8;
+    for (const mesh::CellNodes& cell : cells) {
+        const bool wedge = cell.count % 3 == 0 && cell.count < 27;
+        const DeckShape shape = *find_shape(3, wedge ? 6 : 8, static_cast<int>(cell.count));
         const ShapeWords& words = words_of(shape);
         std::string type = element;
         if (deck.format == DeckFormat::unv)
             type = std::to_string(words.unv);
         else if (deck.format == DeckFormat::nastran)
             type = words.nastran;
-        else if (shape == DeckShape::wedge6)
+        else if (wedge)
             type = layer_wedge(element);
         DeckBlock& block = deck.blocks[block_of(deck.blocks, shape, type)];
-        for (std::size_t k = 0; k < cell.size(); ++k)
-            if (k == 0 || cell[k] != cell[k - 1] || shape == DeckShape::hex8) block.nodes.push_back(cell[k]);
+        block.nodes.insert(block.nodes.end(), cell.begin(), cell.end());
         block.tags.push_back(++tag);
         block.regions.push_back(static_cast<Index>(deck.regions.size()) - 1);
         set.members.push_back(tag);
