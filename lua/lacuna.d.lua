@@ -210,7 +210,7 @@
 ---@field groups? "one"|"all" .msh: each cell is written in one physical group, or in all of its groups, which then overlap; default "one"
 ---@field gmsh_options? boolean .msh: also write a file with .opt appended to its name, with Gmsh's display options for cells and groups; default false
 ---@field interfaces? boolean assembly: the quads between volumes are written as elements too; default false
----@field orientation? boolean write the directions of the cells: as fields in .vtu, .vtk and .exo, as material axes in .inp and .bdf; default false
+---@field orientation? boolean write the directions of the cells: as fields in .vtu, .vtk and .exo, as material axes in .inp, .bdf and .feb; default false
 ---@field partitions? integer|"processes" .pvtu and .msh: number of parts; for .pvtu the default is the number of processes
 ---@field ghosts? integer number of rows of neighbouring parts' cells that each part has as ghost cells; default 0
 
@@ -833,7 +833,7 @@ function lacuna.assembly(volumes) end
 
 ---@class lacuna.InterfaceOptions
 ---@field faces string|integer|(string|integer|string[])[] "all", a group, or an array of groups and pairs of regions; in the mesh of one sweep also numbers of layers, each the number below a split
----@field element? string Abaqus element type of the cells: "COH3D8", "GK3D8", or a type that begins with one of these, or "none"; default "COH3D8"
+---@field element? string Abaqus element type of the cells of order 1: "COH3D8", "GK3D8", or a type that begins with one of these, or "none"; default "COH3D8"
 ---@field name? string region and group of the cells; default "interface"
 
 --- Duplicate the nodes of faces between two regions or layers, and insert a cell of zero thickness at each.

@@ -848,7 +848,7 @@ class Mesh(AnyMesh):
             options for cells and groups; default False
         interfaces: bool; assembly: the quads between volumes are written as elements too; default False
         orientation: bool; write the directions of the cells: as fields in .vtu, .vtk and .exo, as material
-            axes in .inp and .bdf; default False
+            axes in .inp, .bdf and .feb; default False
         partitions: int | "processes"; .pvtu and .msh: number of parts; for .pvtu the default is the number of
             processes
         ghosts: int; number of rows of neighbouring parts' cells that each part has as ghost cells; default 0
@@ -1180,7 +1180,7 @@ class AssemblyMesh(AnyMesh):
             options for cells and groups; default False
         interfaces: bool; assembly: the quads between volumes are written as elements too; default False
         orientation: bool; write the directions of the cells: as fields in .vtu, .vtk and .exo, as material
-            axes in .inp and .bdf; default False
+            axes in .inp, .bdf and .feb; default False
         partitions: int | "processes"; .pvtu and .msh: number of parts; for .pvtu the default is the number of
             processes
         ghosts: int; number of rows of neighbouring parts' cells that each part has as ghost cells; default 0
@@ -1429,8 +1429,8 @@ def split_interface(mesh, faces, **keywords):
 
     faces: str | int | list[str | int | list[str]]; "all", a group, or an array of groups and pairs of
         regions; in the mesh of one sweep also numbers of layers, each the number below a split
-    element: str; Abaqus element type of the cells: "COH3D8", "GK3D8", or a type that begins with one of
-        these, or "none"; default "COH3D8"
+    element: str; Abaqus element type of the cells of order 1: "COH3D8", "GK3D8", or a type that begins with
+        one of these, or "none"; default "COH3D8"
     name: str; region and group of the cells; default "interface"
     """
     return call("module", "split_interface", mesh, options_of(None, keywords, faces=faces))

@@ -84,6 +84,29 @@ for _, key in ipairs { "*NODE", "*ELEMENT, TYPE=C3D8", "source", "target" } do
   check.equal(after[key], before[key], key)
 end
 
+-- Nodes of periodic faces are groups of nodes.
+do
+  local faces = { { "wall_1", "wall_3" }, { "source", "target" } }
+  local mesh = prism({ sides = 4 }, { layers = 2, size = 0.5, periodic = faces })
+  mesh:write(at "periodic.med")
+  lacuna.convert(at "periodic.med", at "periodic.inp")
+  mesh:write(at "own.inp")
+  local function members(name, set)
+    local file <close> = assert(io.open(at(name)))
+    local text, list = file:read "a", {}
+    local rows = text:match("%*NSET, NSET=" .. set .. "\n([^*]*)")
+    for n in rows:gmatch "%d+" do list[#list + 1] = tonumber(n) end
+    table.sort(list)
+    return table.concat(list, " ")
+  end
+  for p = 1, #faces do
+    for _, side in ipairs { "_a", "_b" } do
+      local set = "periodic_" .. p .. side
+      check.equal(members("periodic.inp", set), members("own.inp", set))
+    end
+  end
+end
+
 -- Units: declared for the axes, and read.
 lacuna.load(at "deck.inp", { unit = "cm" }):open_volume { along = { vector = { 0, 0, 1 } },
   source = lacuna.load(at "deck.inp", { unit = "cm" }):face { name = "target" }.tag }

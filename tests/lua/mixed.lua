@@ -257,6 +257,21 @@ do
   local both = lacuna.assembly { hollow, body }:sweep(options)
   check_mesh(both, 1)
   check.that(both.nodes < mesh.nodes + body:sweep(options).nodes, "the parts share no nodes")
+  -- Split between tetrahedra of order 2: wedges of no thickness, with the nodes of the sides of both.
+  options.order = 2
+  local second = lacuna.assembly { hollow, body }:sweep(options)
+  local split = lacuna.split_interface(second, { faces = "all" })
+  check.equal(split.tets, second.tets)
+  check.that(split.interface_cells > 0)
+  split:write(path("split.vtk"), { binary = false })
+  local file <close> = assert(io.open(path("split.vtk")))
+  local wedges = 0
+  for kind in file:read("a"):match("CELL_TYPES %d+\n([%d%s]*)"):gmatch "%d+" do
+    wedges = wedges + (kind == "26" and 1 or 0)
+  end
+  check.equal(wedges, split.interface_cells)
+  -- A closed surface of n triangles has n / 2 + 2 corners, each a node between two, and 2 n + 2 nodes in all.
+  check.equal(split.nodes - second.nodes, split.interface_cells * 5 / 2 + 4)
 end
 
 -- A cube below a roof: the cube is swept, the roof is filled from the quads between them.

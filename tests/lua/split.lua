@@ -338,7 +338,227 @@ local quadratic = lacuna.assembly {
   block_model { 1, 2, 0, 1, 0, 1 }:open_volume { source = "source", target = "target", name = "b",
     walls = { "south", "north", "west", "east" } } }
   :sweep { layers = 1, size = 0.5, order = 2, serendipity = true }
-refused(quadratic, { faces = "all" }, "order 2", '"none"')
+
+-- --- order 2 ---------------------------------------------------------------------------------------------
+
+-- Cells of order 2 have the middle nodes of the sides of both regions, and a node of their own between every
+-- two opposite nodes, where a mixed element has its multipliers.
+
+-- Points, cells as { type =, nodes of the file }, and the region of each cell of a legacy VTK file.
+local function vtk(path)
+  local text, deck = read(path), { points = {}, cells = {} }
+  local function block(head)
+    local from = select(2, text:find("\n" .. head .. " [^\n]*\n"))
+    local all = {}
+    for word in text:sub(from + 1):match("^[%d%s%.%-%+e]+"):gmatch "%S+" do all[#all + 1] = tonumber(word) end
+    return all
+  end
+  local at_points, cells, types = block "POINTS", block "CELLS", block "CELL_TYPES"
+  for k = 1, #at_points, 3 do table.insert(deck.points, { table.unpack(at_points, k, k + 2) }) end
+  local k = 1
+  for _, kind in ipairs(types) do
+    deck.cells[#deck.cells + 1] = { type = kind, table.unpack(cells, k + 1, k + cells[k]) }
+    k = k + cells[k] + 1
+  end
+  return deck
+end
+local kSolids = { [25] = 20, [29] = 27, [26] = 15, [32] = 18, [24] = 10, [27] = 13 }
+local function key_of_place(p) return ("%.9f %.9f %.9f"):format(p[1], p[2], p[3]) end
+-- Cells without thickness: their corners 1-4 lie at the places of corners 5-8.
+local function thin_cells(deck)
+  local thin, thick = {}, {}
+  for _, cell in ipairs(deck.cells) do
+    if kSolids[cell.type] then
+      local corners = cell.type == 26 or cell.type == 32
+      local half, is_thin = corners and 3 or 4, cell.type ~= 24 and cell.type ~= 27
+      for c = 1, half do
+        local low, high = deck.points[cell[c] + 1], deck.points[cell[c + half] + 1]
+        is_thin = is_thin and key_of_place(low) == key_of_place(high)
+      end
+      table.insert(is_thin and thin or thick, cell)
+    end
+  end
+  return thin, thick
+end
+-- Corners and middle nodes of the sides of a cell's bottom and top, in VTK's order; of hex27 their centres.
+local kBottom, kTop = { 1, 2, 3, 4, 9, 10, 11, 12, 25 }, { 5, 6, 7, 8, 13, 14, 15, 16, 26 }
+
+local function blocks(full, periodic, boxes)
+  local volumes = {}
+  for name, box in pairs(boxes or { a = { 0, 1, 0, 1, 0, 1 }, b = { 1, 2, 0, 1, 0, 1 } }) do
+    volumes[#volumes + 1] = { name = name, box = box }
+  end
+  table.sort(volumes, function(a, b) return a.name < b.name end)
+  for k, one in ipairs(volumes) do
+    volumes[k] = block_model(one.box):open_volume { source = "source", target = "target", name = one.name,
+      walls = { "south", "north", "west", "east" } }
+  end
+  return lacuna.assembly(volumes):sweep { layers = 2, size = 0.5, order = 2, serendipity = not full,
+    periodic = periodic }
+end
+
+for _, full in ipairs { false, true } do
+  local whole = blocks(full, { { "south", "north" } })
+  local split = lacuna.split_interface(whole, { faces = "all", name = "glue" })
+  local nodes, solid = full and 27 or 20, full and 29 or 25
+  -- 21 nodes of four quads of order 2 are doubled (25 with centres), and each pair has a node between.
+  check.equal(split.interface_cells, 4)
+  check.equal(split.nodes, whole.nodes + (full and 2 * 25 or 21 + 9))
+  check.equal(split.hexes, whole.hexes)
+  check.near(split:quality().min_scaled_jacobian, whole:quality().min_scaled_jacobian, 1e-12)
+  split:write(at "thin.vtk", { binary = false })
+  local deck = vtk(at "thin.vtk")
+  check.equal(#deck.points, split.nodes)
+  local thin, thick = thin_cells(deck)
+  check.equal(#thin, 4)
+  check.equal(#thick, whole.hexes)
+  local of, used = {}, {}
+  for _, cell in ipairs(thick) do
+    check.equal(cell.type, solid)
+    check.equal(#cell, nodes, "neighbours keep order 2")
+    local x = 0
+    for c = 1, 8 do x = x + deck.points[cell[c] + 1][1] / 8 end
+    for _, n in ipairs(cell) do
+      check.that(not of[n] or of[n] == (x < 1 and "a" or "b"), "a node of both sides")
+      of[n], used[n] = x < 1 and "a" or "b", true
+    end
+  end
+  -- Sides of the neighbours, by their nodes: a side of the interface is one of each neighbour's.
+  local sides = {}
+  local kFaces = { { 1, 4, 3, 2, 12, 11, 10, 9, 25 }, { 5, 6, 7, 8, 13, 14, 15, 16, 26 },
+    { 1, 2, 6, 5, 9, 18, 13, 17, 23 }, { 2, 3, 7, 6, 10, 19, 14, 18, 22 }, { 3, 4, 8, 7, 11, 20, 15, 19, 24 },
+    { 4, 1, 5, 8, 12, 17, 16, 20, 21 } }
+  local function side_key(cell, face)
+    local list = {}
+    for k = 1, full and 9 or 8 do list[k] = ("%06d"):format(cell[face[k]]) end
+    table.sort(list)
+    return table.concat(list, " ")
+  end
+  for _, cell in ipairs(thick) do
+    for _, face in ipairs(kFaces) do sides[side_key(cell, face)] = true end
+  end
+  local between = {}
+  for _, cell in ipairs(thin) do
+    check.equal(cell.type, solid)
+    check.equal(#cell, nodes)
+    check.that(sides[side_key(cell, kBottom)] and sides[side_key(cell, kTop)], "the interface conforms")
+    for k = 1, full and 9 or 8 do
+      check.equal(of[cell[kBottom[k]]], "a")
+      check.equal(of[cell[kTop[k]]], "b")
+      local low, high = deck.points[cell[kBottom[k]] + 1], deck.points[cell[kTop[k]] + 1]
+      check.equal(key_of_place(low), key_of_place(high))
+    end
+    -- The other nodes are of no neighbour, and lie where the two they stand between are.
+    local upright = { [17] = 1, [18] = 2, [19] = 3, [20] = 4, [21] = 12, [22] = 10, [23] = 9, [24] = 11,
+      [27] = 25 }
+    for k, low in pairs(upright) do
+      if k <= nodes then
+        check.that(not of[cell[k]], "a node of its own")
+        local pair = cell[low]
+        check.that(not between[cell[k]] or between[cell[k]] == pair, "cells share the node between two nodes")
+        between[cell[k]], used[cell[k]] = pair, true
+        check.equal(key_of_place(deck.points[cell[k] + 1]), key_of_place(deck.points[pair + 1]))
+      end
+    end
+  end
+  check.equal(size(between), full and 25 or 9)
+  check.equal(size(used), split.nodes, "every node is one of a cell")
+  -- The nodes that the mesh gives are those of the file.
+  for n = 1, split.nodes, 7 do
+    local x, y, z = split:node(n)
+    check.equal(key_of_place { x, y, z }, key_of_place(deck.points[n]))
+  end
+  local places = split:coordinates()
+  check.equal(places.rows, split.nodes)
+  for n, x, y, z in places:each() do check.equal(key_of_place { x, y, z }, key_of_place(deck.points[n])) end
+  -- Periodic pairs hold all nodes of the cells on the two faces.
+  local function members(name)
+    local list = {}
+    for n in read(at "thin.vtk"):match("\nnodes:" .. name .. " [^\n]*\n([^\n]*)"):gmatch "%d+" do
+      list[#list + 1] = deck.points[tonumber(n) + 1]
+    end
+    return list
+  end
+  local near, image, on_face = members "periodic_1_a", members "periodic_1_b", 0
+  check.equal(#near, #image)
+  for k, p in ipairs(near) do
+    check.equal(key_of_place { p[1], p[2] + 1, p[3] }, key_of_place(image[k]))
+  end
+  for _, p in ipairs(deck.points) do on_face = on_face + (math.abs(p[2]) < 1e-9 and 1 or 0) end
+  check.equal(#near, on_face)
+
+  -- Round trips: the same cells from every format that holds them.
+  local plain = lacuna.split_interface(blocks(full), { faces = "all", name = "glue" })
+  plain:write(at "thin.vtk", { binary = false })
+  local endings = full and { "msh", "vtu", "exo" } or { "msh", "vtu", "exo", "bdf", "unv" }
+  if pcall(plain.write, plain, at "thin.med") then endings[#endings + 1] = "med" end
+  local function shape_of(path)
+    local own = vtk(path)
+    local list = {}
+    for _, cell in ipairs((thin_cells(own))) do
+      local row = { cell.type }
+      for _, n in ipairs(cell) do row[#row + 1] = n .. " at " .. key_of_place(own.points[n + 1]) end
+      list[#list + 1] = table.concat(row, ", ")
+    end
+    table.sort(list)
+    return table.concat(list, "\n"), #own.points
+  end
+  local expected = shape_of(at "thin.vtk")
+  for _, ending in ipairs(endings) do
+    plain:write(at("thin." .. ending))
+    lacuna.convert(at("thin." .. ending), at "back.vtk", { binary = false })
+    local found, points = shape_of(at "back.vtk")
+    check.equal(found, expected, ending)
+    check.equal(points, plain.nodes, ending)
+  end
+  plain:write(at "thin.feb")
+  local feb = read(at "thin.feb")
+  check.that(feb:find(('<Elements type="hex%d" name="glue'):format(nodes)), "FEBio")
+  -- Formats that have no such element say so.
+  for _, ending in ipairs { "inp", "k" } do
+    check.fails(function() plain:write(at("no." .. ending)) end,
+      "no element of " .. nodes .. " nodes without", '"none"', ".med")
+  end
+end
+-- Junctions, the tip of a crack, and layers.
+do
+  local cross = blocks(false, nil, { a = { 0, 1, 0, 1, 0, 1 }, b = { 1, 2, 0, 1, 0, 1 },
+    c = { 1, 2, 1, 2, 0, 1 }, d = { 0, 1, 1, 2, 0, 1 } })
+  local function counts(faces)
+    lacuna.split_interface(cross, { faces = faces }):write(at "cross.vtk", { binary = false })
+    local deck, on_line, own = vtk(at "cross.vtk"), {}, {}
+    local thin, thick = thin_cells(deck)
+    local of_cells = {}
+    for _, cell in ipairs(thick) do for _, n in ipairs(cell) do of_cells[n] = true end end
+    for n, p in ipairs(deck.points) do
+      if math.abs(p[1] - 1) + math.abs(p[2] - 1) < 1e-9 then
+        local key = key_of_place(p)
+        on_line[key] = (on_line[key] or 0) + (of_cells[n - 1] and 1 or 0)
+        own[key] = (own[key] or 0) + (of_cells[n - 1] and 0 or 1)
+      end
+    end
+    check.equal(size(on_line), 5, "corners and middle nodes of two layers")
+    local corner, middle = key_of_place { 1, 1, 0 }, key_of_place { 1, 1, 0.25 }
+    check.equal(own[middle] or 0, 0, "no node between middle nodes of cells of 20 nodes")
+    check.equal(on_line[corner], on_line[middle], "middle nodes are doubled like corners")
+    return on_line[corner], own[corner], #thin
+  end
+  local function expect(faces, doubled, between, cells)
+    local d, b, c = counts(faces)
+    check.equal(d, doubled)
+    check.equal(b, between)
+    check.equal(c, cells)
+  end
+  expect("all", 4, 4, 16)
+  expect({ { "a", "b" } }, 1, 1, 4) -- the tip: one node, and the middle node of the last cells
+  expect({ { "a", "b" }, { "c", "d" } }, 2, 1, 8) -- both pairs of cells stand between the same two nodes
+  expect({ { "a", "b" }, { "b", "c" } }, 2, 1, 8)
+  local single = block_model { 0, 1, 0, 1, 0, 1 }:open_volume { source = "source", target = "target",
+    walls = { "south", "north", "west", "east" } }:sweep { layers = 3, size = 0.5, order = 2 }
+  local plies = lacuna.split_interface(single, { faces = { 1, 2 } })
+  check.equal(plies.interface_cells, 8)
+  check.equal(plies.nodes, single.nodes + 2 * (25 + 25))
+end
 
 -- --- CalculiX --------------------------------------------------------------------------------------------
 
@@ -467,7 +687,8 @@ end
 second_order(quadratic, { faces = "all" }, { "a_west", "b_east" }, { "a", "b" })
 second_order(ply(2, 3), { faces = { 2 } }, { "source", "target" }, { "ply" })
 
--- Of the names of thin layers, those that CalculiX knows bend as a beam of the same section.
+-- Of the names of thin layers, those that CalculiX knows (2.20: none) bend as a beam of the same section; so
+-- does C3D8I.
 local strip = block_model { 0, 10, 0, 1, 0, 0.2 }:open_volume { source = "source", target = "target",
   walls = { "south", "north", "west", "east" }, name = "strip" }:sweep { layers = 1, size = 0.5 }
 local known = 0

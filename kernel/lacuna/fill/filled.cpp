@@ -128,6 +128,16 @@ void hold_nodes(FilledParts& mesh, const RunContext& context)
     }
 }
 
+namespace {
+
+/// Set the places of all nodes of a mesh that was split, also of those that no part has.
+void place_owned(const FilledParts& mesh, std::span<Vec3> nodes)
+{
+    for (std::size_t n = 0; n < mesh.owner.size(); ++n) nodes[n] = node(mesh, n);
+}
+
+} // namespace
+
 WholeCells whole_cells(const FilledParts& mesh_of_all)
 {
     const sweep::SweptAssembly& swept = mesh_of_all.swept;
@@ -167,12 +177,23 @@ WholeCells whole_cells(const FilledParts& mesh_of_all)
             whole.curved.push_back(cell);
         }
     }
+    place_owned(mesh_of_all, whole.nodes);
     return whole;
 }
 
 io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options, bool interfaces,
                     const RunContext& context)
 {
+    const io::Format& format = io::format_of(options.format);
+    for (const SplitInterface& split : mesh.interfaces)
+        if (!format.has_thin_order2 && !split.cells.empty() && split.cells.front().count > 8)
+            throw InvalidInput(
+                Message("fill.interface_order", "{} has no element of {} nodes without thickness",
+                        format.word, split.cells.front().count)
+                    .remedy("split with element = \"none\", sweep with order = 1, or write {}",
+                            io::endings_of([](const io::Format& of) {
+                                return of.has_hex27 && of.has_thin_order2 && of.has_option("with");
+                            })));
     std::vector<mesh::LayeredPart> swept;
     for (std::size_t p = 0; p < mesh.swept.parts.size(); ++p)
         swept.push_back({mesh.swept.parts[p].mesh, nullptr, mesh.swept.numbering[p]});
@@ -180,6 +201,7 @@ io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options,
     for (const FilledTets& part : mesh.tets) tets.push_back({part.mesh, part.number});
     io::Deck deck = io::deck_of(swept, tets, mesh.swept.nodes, options, interfaces, context);
     deck.unit = mesh.unit;
+    place_owned(mesh, deck.points);
     for (const SplitInterface& split : mesh.interfaces)
         io::add_layer(deck, split.cells, split.region, split.element);
     return deck;

@@ -47,8 +47,8 @@ struct FilledTets {
 struct SplitInterface {
     std::string region;  ///< name of the cells
     std::string element; ///< their Abaqus name: "COH3D8"
-    std::vector<Hex>
-        cells; ///< by nodes of the whole mesh, from one side to the other; wedges as `mesh::is_wedge()` says
+    /// By nodes of the whole mesh, in the order of their shape; the bottom is a side of the first region.
+    std::vector<mesh::CellNodes> cells;
 };
 
 /// Faces of two regions that touch, or face each other within a gap, without common nodes.
@@ -75,8 +75,8 @@ struct FilledParts {
     std::string unit{};                   ///< as `Volume::unit`
     bool copied = false;                  ///< as in `FilledVolume`
     std::vector<io::ColumnSet> columns{}; ///< as in `FilledVolume`; `part` is the index in `swept.parts`
-    /// After `split_interface()`: for each node, a part that has it, and its number in that part. Otherwise
-    /// empty.
+    /// After `split_interface()`: for each node, a part that has it or a node at the same place, and its
+    /// number in that part. Otherwise empty.
     std::vector<std::array<Index, 2>> owner{};
 };
 
@@ -135,7 +135,8 @@ WholeCells whole_cells(const FilledParts& mesh);
 /// written in this way.
 /// @pre  the parts store their nodes.
 /// @param interfaces  as `io::MeshFileOptions::interfaces`
-/// @throw  the errors of `io::write_parts()`
+/// @throw  the errors of `io::write_parts()`; InvalidInput "fill.interface_order"  the mesh has cells of zero
+///         thickness of order 2, and the format has no such element.
 io::Deck whole_deck(const FilledParts& mesh, const io::MeshDeckOptions& options, bool interfaces = false,
                     const RunContext& context = {});
 
@@ -174,8 +175,9 @@ struct InterfaceFaces {
 /// the mesh, all parts around its end stay connected, so nodes there are not duplicated. Existing nodes keep
 /// their numbers; duplicates are numbered after them. Nodes 1 to 4 of a cell lie on the part that was meshed
 /// first, and its stacking direction is from nodes 1-4 to nodes 5-8. Duplicates on a periodic face are paired
-/// with nodes of the part at the image of that face. At order 2, middle nodes are duplicated in the same way;
-/// cells are then not possible.
+/// with nodes of the part at the image of that face. At order 2, middle nodes are duplicated in the same way,
+/// and each two opposite nodes of a cell get a node between them, as cells of 20 or 27 nodes have: mixed
+/// elements keep their multipliers there. Cells that share the two nodes share the node between them.
 ///
 /// A mesh that is split at levels becomes one part between each two levels. Faces below level k are the group
 /// `level_k:target`, those above it `level_k:source`.
@@ -183,7 +185,6 @@ struct InterfaceFaces {
 ///                     "fill.interface_element"  the element is not a zero-thickness one (COH3D8, GK3D8).
 ///                     "fill.interface_levels"   a level is not inside the mesh, or the mesh has several
 ///                                               parts.
-///                     "fill.interface_order"    the mesh is of order 2, and the element is not NONE.
 ///                     "fill.interface_split"    the mesh was split before.
 /// @note  O(n log n) in the sides of the skins, O(n) in the nodes.
 FilledParts split_interface(FilledParts mesh, InterfaceFaces faces, const RunContext& context = {});

@@ -25,11 +25,13 @@ struct PartSkin {
     std::vector<Index> patch{};           ///< by side: its patch
 };
 
+/// Number of corners of a side, of order 1 or 2.
+std::size_t corners_of(const mesh::CellNodes& side) { return side.count == 3 || side.count == 6 ? 3 : 4; }
+
 /// Corners of a side, sorted.
 Quad key_of(const mesh::CellNodes& side)
 {
-    const std::size_t corners = side.count == 3 || side.count == 6 ? 3 : 4;
-    return face_key({side.node[0], side.node[1], side.node[2], side.node[corners - 1]});
+    return face_key({side.node[0], side.node[1], side.node[2], side.node[corners_of(side) - 1]});
 }
 
 template <class Mesh>
@@ -64,6 +66,7 @@ public:
         for (std::size_t p = 0; p < numbers_.size(); ++p)
             parts_.push_back(skin_of(mesh.swept.parts[p].mesh, mesh.regions[p], numbers_[p]));
         for (FilledTets& tets : mesh.tets) parts_.push_back(skin_of(tets.mesh, tets.region, tets.number));
+        for (const sweep::Swept& part : mesh.swept.parts) is_full_ = is_full_ || part.mesh.middles.full;
     }
 
     void split(const RunContext& context)
@@ -72,10 +75,12 @@ public:
         choose();
         number_nodes();
         add_cells(context);
+        pair_between();
         mesh_.owner.resize(mesh_.swept.nodes);
         for (std::size_t p = 0; p < parts_.size(); ++p)
             for (std::size_t n = 0; n < parts_[p].number->size(); ++n)
                 mesh_.owner[index((*parts_[p].number)[n])] = {static_cast<Index>(p), static_cast<Index>(n)};
+        for (const auto& [ends, node] : between_) mesh_.owner[index(node)] = mesh_.owner[index(ends.first)];
         // New nodes break the consecutive numbering, so the number of every node is listed.
         for (std::size_t p = 0; p < mesh_.swept.parts.size(); ++p) {
             const std::vector<Index>& number = numbers_[p];
@@ -241,10 +246,8 @@ private:
                 across.node[k] = other.node[static_cast<std::size_t>(
                     std::ranges::find(side.nodes_b, side.nodes_a.node[k]) - side.nodes_b.begin())];
             ++(std::ranges::equal(across, own) ? closed : split);
-            if (std::ranges::equal(across, own) || faces_.element == kNoCells) continue;
-            const auto last = own.count - 1; // a triangle's fourth corner is its third
-            made.cells.push_back({own.node[0], own.node[1], own.node[2], own.node[last], across.node[0],
-                                  across.node[1], across.node[2], across.node[last]});
+            if (!std::ranges::equal(across, own) && faces_.element != kNoCells)
+                made.cells.push_back(cell_of(own, across));
         }
         if (split == 0)
             throw InvalidInput(Message("fill.interface_none",
@@ -261,6 +264,62 @@ private:
                                        : formatted("split_interface: {} cells of {}", split, faces_.element));
     }
 
+    /// The cell between a side and its duplicate.
+    mesh::CellNodes cell_of(const mesh::CellNodes& low, const mesh::CellNodes& high)
+    {
+        mesh::CellNodes cell;
+        const std::size_t corners = corners_of(low);
+        const auto add = [&](Index node) { cell.node[cell.count++] = node; };
+        const auto add_between = [&](std::size_t k) { add(between(low.node[k], high.node[k])); };
+        const auto add_sides = [&](std::size_t begin, std::size_t end) {
+            for (const mesh::CellNodes* side : {&low, &high})
+                for (std::size_t k = begin; k < end; ++k) add(side->node[k]);
+        };
+        add_sides(0, corners);
+        if (low.count == corners) return cell;
+        add_sides(corners, 2 * corners);
+        for (std::size_t k = 0; k < corners; ++k) add_between(k);
+        if (!is_full_) return cell;
+        constexpr std::array<std::size_t, 7> kUprightFaces{0, 1, 2, 3,
+                                                           1, 0, 2}; // of a wedge, of a hexahedron
+        for (std::size_t f = 0; f < corners; ++f)
+            add_between(corners + kUprightFaces[f + (corners == 4 ? 3 : 0)]);
+        if (corners == 3) return cell;
+        add_sides(8, 9);
+        add_between(8);
+        return cell;
+    }
+
+    /// The node of a cell between two opposite nodes.
+    Index between(Index a, Index b)
+    {
+        const auto [at, is_new] = between_.try_emplace(std::minmax(a, b),
+                                                       static_cast<Index>(mesh_.swept.nodes));
+        if (is_new) ++mesh_.swept.nodes;
+        return at->second;
+    }
+
+    /// Pair the nodes between two nodes of a periodic face with those between their images.
+    void pair_between()
+    {
+        for (mesh::PeriodicNodes& periodic : mesh_.swept.periodic) {
+            std::map<Index, Index> image;
+            for (const auto& [a, b] : periodic.pairs) image[a] = b;
+            const auto image_of = [&](Index node) {
+                const auto at = image.find(node);
+                return at == image.end() ? Index(-1) : at->second;
+            };
+            for (const auto& [ends, node] : between_)
+                if (const auto other = between_.find(
+                        std::minmax(image_of(ends.first), image_of(ends.second)));
+                    other != between_.end())
+                    periodic.pairs.push_back({node, other->second});
+        }
+    }
+
+    /// Nodes of cells of order 2 between two opposite nodes, by these.
+    std::map<std::pair<Index, Index>, Index> between_{};
+    bool is_full_ = false;                      ///< cells of order 2 have centres
     std::vector<std::vector<Index>> numbers_{}; ///< by swept part and its node: the number in the whole mesh
     FilledParts& mesh_;
     const InterfaceFaces& faces_;
@@ -361,8 +420,7 @@ FilledParts split_interface(FilledParts mesh, InterfaceFaces faces, const RunCon
 {
     hold_nodes(mesh, context);
     const std::string& element = faces.element;
-    const bool is_thin = element.starts_with("COH3D8") || element.starts_with("GK3D8");
-    if (!is_thin && element != kNoCells)
+    if (!element.starts_with("COH3D8") && !element.starts_with("GK3D8") && element != kNoCells)
         throw InvalidInput(Message("fill.interface_element",
                                    "split_interface: cells of element = \"{}\" cannot have zero thickness",
                                    found(element))
@@ -371,12 +429,6 @@ FilledParts split_interface(FilledParts mesh, InterfaceFaces faces, const RunCon
     if (!mesh.interfaces.empty())
         throw InvalidInput(Message("fill.interface_split", "split_interface: the mesh was split before")
                                .remedy("name all faces in one call"));
-    if (is_thin &&
-        std::ranges::any_of(mesh.swept.parts, [](const sweep::Swept& part) { return part.mesh.order() > 1; }))
-        throw InvalidInput(
-            Message("fill.interface_order", "split_interface: {} has eight nodes, and the mesh is of order 2",
-                    element)
-                .remedy("use element = \"none\" for a split without cells, or sweep with order = 1"));
     if (!faces.levels.empty()) mesh = divided_at(std::move(mesh), faces);
     if (faces.groups.empty() && faces.pairs.empty() && !faces.all)
         throw InvalidInput(Message("fill.interface_none", "split_interface: no faces are named")

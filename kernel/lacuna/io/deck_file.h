@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -46,9 +47,17 @@ struct MeshDeckOptions {
 /// Indices of sets in a deck, by the kind of the set and the group that it holds.
 using GroupSets = std::map<std::pair<DeckSet::Kind, std::string>, std::size_t>;
 
+/// The sets of a deck by their names in capitals, as far as they were counted; and their highest tag.
+struct SetNames {
+    std::size_t counted = 0;
+    std::unordered_map<std::string, std::vector<std::size_t>> sets{}; ///< ascending indices
+    int highest_tag = 0;
+};
+
 /// Entities of a deck that come from meshes joined to it earlier.
 struct JoinedBefore {
     GroupSets sets{};                       ///< sets of the meshes' groups
+    SetNames names{};                       ///< all sets of the deck
     std::map<std::string, Index> regions{}; ///< regions, by the names of the meshes
     std::size_t meshes = 0;                 ///< number of meshes that were added
     /// The number of each node of the next mesh among the nodes of all meshes that join a deck of a file.

@@ -26,7 +26,10 @@ std::size_t kind_of(DeckShape shape) { return shape_info(shape).corners == 8 ? 0
 struct Bulk {
     explicit Bulk(std::span<const BulkPart> own) : parts(own)
     {
-        for (const BulkPart& part : parts) points += own_points(part);
+        for (const BulkPart& part : parts) {
+            points += own_points(part);
+            for (const std::size_t set : part.place.sets) of_set[set].push_back(&part);
+        }
     }
 
     /// Number of cells of a shape in the parts before each part; the last entry is the total.
@@ -115,8 +118,8 @@ struct Bulk {
     [[nodiscard]] std::size_t cells_in(std::size_t set) const
     {
         std::size_t sum = 0;
-        for (const BulkPart& part : parts)
-            if (std::ranges::binary_search(part.place.sets, set)) sum += part.mesh.cell_count();
+        if (const auto own = of_set.find(set); own != of_set.end())
+            for (const BulkPart* part : own->second) sum += part->mesh.cell_count();
         return sum;
     }
 
@@ -131,17 +134,18 @@ struct Bulk {
             for (; held != set.members.end() && *held < below; ++held)
                 all.add(static_cast<std::size_t>(*held), static_cast<std::size_t>(*held) + 1);
         };
-        for (const BulkPart& part : parts) {
-            if (!std::ranges::binary_search(part.place.sets, number)) continue;
-            take_held(part.place.first_cell);
-            const auto first = static_cast<std::size_t>(part.place.first_cell);
-            all.add(first, first + part.mesh.cell_count());
+        for (const BulkPart* part : of_set.at(number)) {
+            take_held(part->place.first_cell);
+            const auto first = static_cast<std::size_t>(part->place.first_cell);
+            all.add(first, first + part->mesh.cell_count());
         }
         take_held(std::numeric_limits<DeckTag>::max());
         return Numbers(std::move(all));
     }
 
     std::span<const BulkPart> parts;
+    std::map<std::size_t, std::vector<const BulkPart*>>
+        of_set; ///< parts whose cells are in a set of the deck
     std::size_t points = 0;
 };
 
@@ -210,10 +214,9 @@ private:
     {
         // All created cells of a part are in the same sets.
         std::vector<int> list_of_part(bulk_.parts.size(), 0);
-        for (std::size_t s = 0; s < deck_.sets.size(); ++s)
-            for (std::size_t p = 0; p < list_of_part.size(); ++p)
-                if (std::ranges::binary_search(bulk_.parts[p].place.sets, s))
-                    list_of_part[p] = lists_.extended(list_of_part[p], static_cast<int>(s));
+        for (std::size_t p = 0; p < list_of_part.size(); ++p)
+            for (const std::size_t s : bulk_.parts[p].place.sets)
+                list_of_part[p] = lists_.extended(list_of_part[p], static_cast<int>(s));
         std::size_t e = 0;
         for (std::size_t b = 0; b < deck_.blocks.size(); ++b) {
             const DeckBlock& block = deck_.blocks[b];

@@ -79,7 +79,7 @@ std::vector<FormatRow> make_table()
     row = deck_format(".inp", "an Abaqus deck", "Abaqus", abaqus, Format::Skin::nodes_and_sides, abaqus_file,
                       read_abaqus);
     row.options = "element orientation with without renumber first_node first_cell interfaces";
-    row.has_contacts = true;
+    row.has_contacts = true, row.has_thin_order2 = false;
     table.push_back(row);
     for (const char* ending : {".bdf", ".nas", ".dat"}) {
         row = deck_format(ending, "a Nastran deck", "Nastran", nastran, Format::Skin::nodes, nastran_file,
@@ -102,7 +102,7 @@ std::vector<FormatRow> make_table()
     for (const char* ending : {".k", ".key", ".dyn"}) {
         row = deck_format(ending, "an LS-DYNA deck", "LS-DYNA", dyna, Format::Skin::nodes_and_sides,
                           dyna_file, read_dyna);
-        row.has_contacts = true;
+        row.has_contacts = true, row.has_thin_order2 = false;
         table.push_back(row);
     }
     row = deck_format(".feb", "a FEBio file", "FEBio", febio, Format::Skin::nodes_and_sides, febio_file,

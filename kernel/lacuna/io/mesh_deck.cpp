@@ -2,6 +2,7 @@
 #include <lacuna/io/detail/mesh_deck.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/core/shared/constants.h>
 #include <lacuna/io/cell_field.h>
 #include <lacuna/io/detail/abaqus.h>
 #include <lacuna/io/detail/cell_shapes.h>
@@ -419,9 +420,12 @@ private:
     {
         tidy(set);
         const auto put = [&](DeckSet& into) -> const DeckSet& {
+            const bool rises = into.sides.empty() && set.sides.empty() &&
+                               (into.members.empty() || set.members.empty() ||
+                                into.members.back() < set.members.front());
             into.members.insert(into.members.end(), set.members.begin(), set.members.end());
             into.sides.insert(into.sides.end(), set.sides.begin(), set.sides.end());
-            tidy(into);
+            if (!rises) tidy(into);
             into.listed |= set.listed;
             return into;
         };
@@ -430,38 +434,54 @@ private:
             (added_.before ? added_.before->sets : own).try_emplace({set.kind, group}, deck_.sets.size());
         if (!fresh) return put(deck_.sets[known->second]);
         const auto find = [&](const std::string& name) {
-            return std::ranges::find_if(deck_.sets, [&](const DeckSet& other) {
-                if (other.kind != set.kind || !same_word(other.name, name)) return false;
+            const std::vector<std::size_t>& named = sets_named(name);
+            const auto at = std::ranges::find_if(named, [&](std::size_t s) {
+                const DeckSet& other = deck_.sets[s];
+                if (other.kind != set.kind) return false;
                 const bool none = other.members.empty() && other.sides.empty();
                 // If the deck does not store cells, the set of all cells of a mesh is empty. It is recognised
                 // by being empty and created by this mesh.
-                if (none && !stores()) return set.members.empty() && &other >= deck_.sets.data() + first_set_;
+                if (none && !stores()) return set.members.empty() && s >= first_set_;
                 return none ? is_emptied(name) : other.members == set.members && other.sides == set.sides;
             });
+            return at == named.end() ? kNoIndex : *at;
         };
         set.name = free_name(wanted, options_.format, [&](const std::string& name) {
-            return find(name) == deck_.sets.end() && is_taken(set.kind, name);
+            return find(name) == kNoIndex && is_taken(set.kind, name);
         });
         constexpr const char* kKinds[] = {"nodes", "elements", "sides"}; // in the order of DeckSet::Kind
         const bool behind = options_.format == DeckFormat::abaqus && group.ends_with(kSkin);
         if (!behind && set.name != free_name(wanted, options_.format, [](const auto&) { return false; }))
             renamed_.emplace(formatted("its set of {} {}", kKinds[static_cast<int>(set.kind)], wanted),
                              set.name);
-        if (const auto same = find(set.name); same != deck_.sets.end()) {
-            known->second = static_cast<std::size_t>(same - deck_.sets.begin());
-            deck_.gap.replaced[{same->kind, same->name}] = 1;
-            return put(*same);
+        if (const std::size_t same = find(set.name); same != kNoIndex) {
+            known->second = same;
+            deck_.gap.replaced[{deck_.sets[same].kind, deck_.sets[same].name}] = 1;
+            return put(deck_.sets[same]);
         }
-        set.tag = highest_tag(deck_.sets) + 1;
+        set.tag = names().highest_tag + 1;
         return deck_.sets.emplace_back(std::move(set));
     }
 
-    [[nodiscard]] bool is_taken(DeckSet::Kind kind, const std::string& name) const
+    /// The names of the deck's sets, with those that were added since the last call.
+    SetNames& names()
+    {
+        SetNames& names = added_.before ? added_.before->names : names_;
+        for (; names.counted < deck_.sets.size(); ++names.counted) {
+            const DeckSet& set = deck_.sets[names.counted];
+            names.sets[upper(set.name)].push_back(names.counted);
+            names.highest_tag = std::max(names.highest_tag, set.tag);
+        }
+        return names;
+    }
+    const std::vector<std::size_t>& sets_named(const std::string& name) { return names().sets[upper(name)]; }
+
+    [[nodiscard]] bool is_taken(DeckSet::Kind kind, const std::string& name)
     {
         if (kind != DeckSet::Kind::nodes && find_word(texts_.surfaces, name) != texts_.surfaces.end())
             return true;
-        return std::ranges::any_of(deck_.sets, [&](const DeckSet& set) {
-            return share_names(options_.format, kind, set.kind) && same_word(set.name, name);
+        return std::ranges::any_of(sets_named(name), [&](std::size_t s) {
+            return share_names(options_.format, kind, deck_.sets[s].kind);
         });
     }
 
@@ -743,6 +763,7 @@ private:
     Index place_ = -1, region_ = -1;             ///< region that the volume replaces, and region of the cells
     Index extended_ = -1;                        ///< region of an earlier mesh that the cells extend
     DeckTag first_cell_ = 1;
+    SetNames names_;                         ///< of the deck's sets, if no mesh was added before
     std::size_t first_set_ = 0;              ///< number of sets before the mesh was added
     std::vector<std::uint32_t> cells_;       ///< cell of each quad of the skin
     std::vector<int> sides_;                 ///< for each of these quads, the number of the face in the cell
@@ -907,7 +928,8 @@ Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedT
     return deck;
 }
 
-void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region, const std::string& element)
+void add_layer(Deck& deck, std::span<const mesh::CellNodes> cells, const std::string& region,
+               const std::string& element)
 {
     const auto is_taken = [&](const std::string& name) {
         return std::ranges::any_of(deck.sets, [&](const DeckSet& set) { return same_word(set.name, name); });
@@ -918,19 +940,19 @@ void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region
     DeckTag tag = 0;
     for (const DeckTag used : element_tags(deck)) tag = std::max(tag, used);
     DeckSet set{.tag = highest_tag(deck.sets) + 1, .name = name};
-    for (const Hex& cell : cells) {
-        const DeckShape shape = mesh::is_wedge(cell) ? DeckShape::wedge6 : DeckShape::hex8;
+    for (const mesh::CellNodes& cell : cells) {
+        const bool wedge = cell.count % 3 == 0 && cell.count < 27;
+        const DeckShape shape = *find_shape(3, wedge ? 6 : 8, static_cast<int>(cell.count));
         const ShapeWords& words = words_of(shape);
         std::string type = element;
         if (deck.format == DeckFormat::unv)
             type = std::to_string(words.unv);
         else if (deck.format == DeckFormat::nastran)
             type = words.nastran;
-        else if (shape == DeckShape::wedge6)
+        else if (wedge)
             type = layer_wedge(element);
         DeckBlock& block = deck.blocks[block_of(deck.blocks, shape, type)];
-        for (std::size_t k = 0; k < cell.size(); ++k)
-            if (k == 0 || cell[k] != cell[k - 1] || shape == DeckShape::hex8) block.nodes.push_back(cell[k]);
+        block.nodes.insert(block.nodes.end(), cell.begin(), cell.end());
         block.tags.push_back(++tag);
         block.regions.push_back(static_cast<Index>(deck.regions.size()) - 1);
         set.members.push_back(tag);

@@ -82,6 +82,8 @@ void write_view(const FormatRow& format, const View& view, const std::function<m
     write_file(path, file.sections, file.sizes, context, team);
 }
 
+/// Whether the format has named sets of nodes. MED has, though its nodes need no numbers.
+bool has_sets(const Format& format) { return format.is_numbered || format.deck == DeckFormat::med; }
 bool has_fields(const Format& format) { return !format.is_numbered || format.deck == DeckFormat::exodus; }
 
 /// Write swept meshes with the regions and sets of a deck.
@@ -92,7 +94,7 @@ void write_as_deck(const Format& format, std::span<BulkPart> parts, const Output
     deck_options.format = format.deck;
     const Deck deck = deck_without_bulk(parts, deck_options, options.interfaces, context);
     const std::shared_ptr<mesh::MeshView> view = view_of(deck, format, parts);
-    add_periodic(options.periodic, format.is_numbered, *view);
+    add_periodic(options.periodic, has_sets(format), *view);
     if (options.orientation) add_orientation(parts, has_fields(format), *view);
     std::vector<std::string> notes;
     if (format.is_folder && !options.periodic.empty())
@@ -205,7 +207,7 @@ void write_deck(const Deck& deck, const Format& format, const OutputPath& path, 
     }
     const FormatRow& row = row_of(format);
     const std::shared_ptr<mesh::MeshView> view = view_of(deck, format);
-    add_periodic(options.periodic, format.is_numbered, *view);
+    add_periodic(options.periodic, has_sets(format), *view);
     std::vector<BulkPart> oriented;
     for (const mesh::HexMesh* mesh : options.oriented) oriented.push_back({*mesh, nullptr, nullptr});
     if (options.orientation) add_orientation(oriented, has_fields(format), *view);

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <unordered_set>
 
 namespace lacuna::surface {
@@ -182,21 +181,29 @@ void RimFacets::find_sides()
             }
         }
     }
-    std::unordered_map<std::uint64_t, Vec3> first;
+    sides_.resize(model.points.size());
+    std::vector<std::vector<std::pair<Index, Vec3>>> first(model.points.size()); // by the lower end of a side
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const bool wall = volume_.role[f] == Role::wall;
         for (const Triangle& t : model.faces[f].triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
                 const bool across = end_of_[index(a)] != 0 && end_of_[index(b)] != 0;
-                if ((!wall && !across) || rim.contains(edge_key(a, b))) continue;
+                if ((!wall && !across) || (across && rim.contains(edge_key(a, b)))) continue;
                 const Vec3 own = facet_area_vector(model, t);
-                const auto [other, fresh] = first.try_emplace(edge_key(a, b), own);
-                if (fresh) continue;
+                auto& known = first[index(std::min(a, b))];
+                // Latest first: the facets of a fan usually follow each other.
+                const auto other = std::find_if(known.rbegin(), known.rend(), [&](const auto& side) {
+                    return side.first == std::max(a, b);
+                });
+                if (other == known.rend()) {
+                    known.emplace_back(std::max(a, b), own);
+                    continue;
+                }
                 const double turn = geometry::angle_between(other->second, own);
                 if (turn < kFileAccuracy) continue;
-                sides_[a].push_back({b, turn});
-                sides_[b].push_back({a, turn});
+                sides_[index(a)].push_back({b, turn});
+                sides_[index(b)].push_back({a, turn});
             }
         }
     }
@@ -239,12 +246,10 @@ std::vector<Index> RimFacets::crease_from(Index rim) const
     std::vector<Index> crease{rim};
     std::unordered_set<Index> passed{rim};
     while (crease.size() == 1 || end_of_[index(crease.back())] == 0) {
-        const auto sides = sides_.find(crease.back());
-        if (sides == sides_.end()) return {};
         const Vec3& here = model.at(crease.back());
         Index next = -1;
         double most = 0;
-        for (const Side& side : sides->second) {
+        for (const Side& side : sides_[index(crease.back())]) {
             double turn = side.turn;
             if (crease.size() > 1) {
                 const Vec3 back = here - model.at(crease[crease.size() - 2]);

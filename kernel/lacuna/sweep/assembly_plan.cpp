@@ -46,6 +46,44 @@ constexpr double kInset = 1e-3;
 /// families of blocks need far fewer.
 constexpr int kRounds = 64;
 
+/// Points in the order in which they were added, found by their place in a grid of cells.
+class PointsByPlace {
+public:
+    explicit PointsByPlace(double cell) : cell_(cell) {}
+
+    [[nodiscard]] const std::vector<Vec3>& points() const { return points_; }
+    void add(const Vec3& p)
+    {
+        cells_[cell_at(p)].push_back(points_.size());
+        points_.push_back(p);
+    }
+    /// The first point within the tolerance. If there is none, the place becomes a point.
+    std::size_t find_or_add(const Vec3& p, double tolerance)
+    {
+        std::size_t first = points_.size();
+        const Cell low = cell_at(p.array() - tolerance), high = cell_at(p.array() + tolerance);
+        for (Cell at = low; at[0] <= high[0]; ++at[0])
+            for (at[1] = low[1]; at[1] <= high[1]; ++at[1])
+                for (at[2] = low[2]; at[2] <= high[2]; ++at[2])
+                    if (const auto cell = cells_.find(at); cell != cells_.end())
+                        for (const std::size_t other : cell->second)
+                            if ((points_[other] - p).norm() <= tolerance) first = std::min(first, other);
+        if (first == points_.size()) add(p);
+        return first;
+    }
+
+private:
+    using Cell = std::array<double, 3>; ///< whole numbers
+    [[nodiscard]] Cell cell_at(const Vec3& p) const
+    {
+        return {std::floor(p.x() / cell_), std::floor(p.y() / cell_), std::floor(p.z() / cell_)};
+    }
+
+    double cell_;
+    std::vector<Vec3> points_;
+    std::map<Cell, std::vector<std::size_t>> cells_;
+};
+
 class Planner {
 public:
     Planner(std::span<const AssemblyMember> members, std::span<const SharedFace> shared,
@@ -205,16 +243,12 @@ private:
     void tie_corners()
     {
         if (periodic_.empty()) return;
-        std::vector<Vec3> places;
         std::vector<char> fixed;
         std::vector<Tie> ties;
         const auto corner = [&](const Vec3& p, double tolerance) {
-            const auto found = std::ranges::find_if(
-                places, [&](const Vec3& other) { return (other - p).norm() <= tolerance; });
-            if (found != places.end()) return static_cast<std::size_t>(found - places.begin());
-            places.push_back(p);
-            fixed.push_back(0);
-            return places.size() - 1;
+            const std::size_t place = corners_.find_or_add(p, tolerance);
+            fixed.resize(corners_.points().size());
+            return place;
         };
         for (const PeriodicFaces& pair : periodic_)
             for (const auto& [own, image] : pair.edges) {
@@ -232,8 +266,10 @@ private:
                     const std::size_t c = corner(end, model(edges_[e].member).tolerance);
                     fixed[c] = 1;
                 }
+        std::vector<Vec3> places = corners_.points();
         tie_points(places, fixed, ties, grid_);
-        corners_ = std::move(places);
+        corners_ = PointsByPlace(cell());
+        for (const Vec3& p : places) corners_.add(p);
     }
 
     /// Move the nodes of a periodic edge onto the edge that represents all its images.
@@ -810,13 +846,11 @@ private:
         std::vector<double> at;
         for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
         // If one of the members requires a spacing of layers, use it.
-        for (const auto& [m, sides] : sides_) {
-            const bool by_levels = std::cmp_equal(heights_[m].size(), count);
-            const LayerSpec& spec = members_[m].options.layers;
-            if (spec.heights.empty() && spec.bias == 1 && !by_levels) continue;
-            for (const EdgeUse& side : sides) {
-                const std::size_t own = number(m, side.edge);
-                if (same_.find(own) != same_.find(e)) continue;
+        if (const auto lines = side_lines_.find(same_.find(e)); lines != side_lines_.end())
+            for (const auto& [m, side] : lines->second) {
+                const bool by_levels = std::cmp_equal(heights_[m].size(), count);
+                const LayerSpec& spec = members_[m].options.layers;
+                if (spec.heights.empty() && spec.bias == 1 && !by_levels) continue;
                 LayerSpec whole = spec;
                 if (by_levels)
                     whole.heights = heights_[m];
@@ -824,9 +858,8 @@ private:
                     whole.count = count;
                 at = layer_heights(whole);
                 if (members_[m].volume->turned_round && !by_levels) reverse_heights(at);
-                if (side.reversed == run_alike(edges_[own], edge)) reverse_heights(at);
+                if (side.reversed == run_alike(edges_[number(m, side.edge)], edge)) reverse_heights(at);
             }
-        }
         if (const auto found = bias_.find(same_.find(e)); found != bias_.end() && !edge.closed) {
             at = layer_heights({.count = count, .bias = found->second.second, .heights = {}});
             if (!run_alike(edges_[found->second.first], edge)) reverse_heights(at);
@@ -883,6 +916,12 @@ private:
         plan.layers.assign(members_.size(), 0);
         std::map<std::size_t, std::vector<Vec3>> nodes;
         const std::vector<bool> on_frame = find_frame();
+        for (const auto& [m, sides] : sides_)
+            for (const EdgeUse& side : sides)
+                side_lines_[same_.find(number(m, side.edge))].emplace_back(m, side);
+        for (std::size_t e = 0; e < edges_.size(); ++e)
+            if (model(edges_[e].member)[edges_[e].edge].curve != nullptr)
+                curved_one_.emplace(same_.find(e), e);
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             // The triangles of a face without quads only define its shape. Given nodes on its rim are dropped
             // if the planned number of sides differs.
@@ -1005,9 +1044,17 @@ private:
     /// The stored position of a vertex. All edges and members that meet there use the same bits.
     const Vec3& corner_at(const Vec3& p, double tolerance)
     {
-        for (const Vec3& corner : corners_)
-            if ((corner - p).norm() <= tolerance) return corner;
-        return corners_.emplace_back(p);
+        return corners_.points()[corners_.find_or_add(p, tolerance)];
+    }
+
+    /// Width of the cells in which corners are searched: a few tolerances, and no less than the resolution of
+    /// the coordinates.
+    [[nodiscard]] double cell() const
+    {
+        double width = 0;
+        for (std::size_t m = 0; m < members_.size(); ++m)
+            width = std::max({width, 4 * model(m).tolerance, kRoundoff * model(m).diagonal});
+        return width;
     }
 
     /// Of the same edge in several members, the index of the one with given nodes. Without given nodes, the
@@ -1018,11 +1065,8 @@ private:
         if (const auto kept = kept_one_.find(root);
             kept != kept_one_.end() && sides_of(kept->second) == count_.at(classes_.find(e)))
             return kept->second;
-        for (std::size_t other = 0; other < edges_.size(); ++other) {
-            if (same_.find(other) == root && model(edges_[other].member)[edges_[other].edge].curve != nullptr)
-                return other;
-        }
-        return root;
+        const auto curved = curved_one_.find(root);
+        return curved == curved_one_.end() ? root : curved->second;
     }
 
     /// Put nodes in the direction of a member's edge. On a closed edge they start at the node nearest to the
@@ -1064,7 +1108,8 @@ private:
         rows_; ///< for each set of same edges, in the direction of the first
     /// For each set of same edges, one edge of it that has given nodes.
     std::map<std::size_t, std::size_t> kept_one_;
-    std::vector<bool> common_; ///< for each edge, whether other members have it too
+    std::map<std::size_t, std::size_t> curved_one_; ///< for each set of same edges: the first with a curve
+    std::vector<bool> common_;                      ///< for each edge, whether other members have it too
     /// For each set of same edges: minimum length of the first and the last side at cusps [model length].
     std::map<std::size_t, std::array<double, 2>> cusps_;
     double grid_ = 0;            ///< spacing of the grid for nodes on periodic faces
@@ -1074,8 +1119,10 @@ private:
     /// For each member: its side lines of several edges, of which some are in `beside_`.
     std::map<std::size_t, std::vector<std::vector<EdgeUse>>> stacks_;
     std::map<std::size_t, std::vector<EdgeUse>> sides_; ///< for each member: side lines of one edge
-    std::map<std::size_t, int> count_;                  ///< number of sides of each class
-    std::vector<int> per_turn_, layers_;                ///< numbers that each member needs to keep its volume
+    /// For each set of same edges: members of which it is a side line of one edge.
+    std::map<std::size_t, std::vector<std::pair<std::size_t, EdgeUse>>> side_lines_;
+    std::map<std::size_t, int> count_;   ///< number of sides of each class
+    std::vector<int> per_turn_, layers_; ///< numbers that each member needs to keep its volume
     AssemblyLevels levels_;
     /// For each member, heights of its layers that result from its levels, counted from its source.
     std::vector<std::vector<double>> heights_;
@@ -1091,7 +1138,7 @@ private:
     std::set<std::size_t> stacked_;
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
-    std::vector<Vec3> corners_;           ///< stored positions of vertices; see `corner_at()`
+    PointsByPlace corners_{cell()};       ///< stored positions of vertices; see `corner_at()`
     mutable std::vector<double> spacing_; ///< for each member's rim
 };
 

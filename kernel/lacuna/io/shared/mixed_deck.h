@@ -31,9 +31,10 @@ Deck deck_of(std::span<const mesh::LayeredPart> swept, std::span<const NumberedT
 
 /// Append cells to a deck, between existing nodes. They form a new region and a new set (in Nastran a region
 /// only).
-/// @param cells    hexahedra and wedges (`mesh::is_wedge()`), as indices in `Deck::points`
+/// @param cells    hexahedra and wedges of order 1 or 2, as indices in `Deck::points`
 /// @param element  Abaqus type of the hexahedra, such as "COH3D8"
-void add_layer(Deck& deck, std::span<const Hex> cells, const std::string& region, const std::string& element);
+void add_layer(Deck& deck, std::span<const mesh::CellNodes> cells, const std::string& region,
+               const std::string& element);
 
 /// List contact pairs of meshes that were added to a deck, with the sets of their sides.
 void add_contacts(Deck& deck, std::span<const mesh::ContactPair> pairs, const JoinedBefore& before);

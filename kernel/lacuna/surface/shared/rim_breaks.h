@@ -71,7 +71,7 @@ private:
     const topology::OpenVolume& volume_;
     std::span<const LinkingSurface> links_;
     std::vector<char> end_of_; ///< for each model point: 1 on the source's rims, 2 on the target's
-    std::map<Index, std::vector<Side>> sides_; ///< facet sides at each point
+    std::vector<std::vector<Side>> sides_; ///< facet sides at each point
     /// Creases computed so far, by their first point on a rim. An entry is empty if no crease starts there.
     std::map<Index, std::vector<Index>> creases_;
 };
