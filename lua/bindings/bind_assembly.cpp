@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Assembly: several volumes meshed as one, and its mesh. Sweeping and writing add their methods.
 #include "bindings/classes.h"
-#include "bindings/names.h"
 #include "bindings/options.h"
 
 #include <algorithm>
@@ -85,12 +84,6 @@ int assembly_to_string(lua_State* L)
 
 // --- interfaces -----------------------------------------------------------------------------------------
 
-void read_text(lua_State* L, int index, const Where& where, std::string& text)
-{
-    const char* word = read_plain_name(L, index, where);
-    guard(L, [&] { text = word; });
-}
-
 /// "all", a group, a number of layers, or an array of groups, numbers and pairs of regions
 void read_interface_faces(lua_State* L, int index, const Where& where, fill::InterfaceFaces& faces)
 {
@@ -125,22 +118,10 @@ void read_interface_faces(lua_State* L, int index, const Where& where, fill::Int
     read_array(L, index, where, expected, add);
 }
 
-void read_layer_element(lua_State* L, int index, const Where& where, fill::InterfaceFaces& faces)
-{
-    const char* word = read_string(L, index, where);
-    guard(L, [&] {
-        faces.element = word;
-        for (char& c : faces.element) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    });
-}
-
-void read_interface_name(lua_State* L, int index, const Where& where, fill::InterfaceFaces& faces)
-{
-    read_text(L, index, where, faces.region);
-}
-
 const Option<fill::InterfaceFaces> kInterfaceOptions[] = {
-    {"faces", read_interface_faces}, {"element", read_layer_element}, {"name", read_interface_name}};
+    {"faces", read_interface_faces},
+    {"element", capitals<&fill::InterfaceFaces::element>},
+    {"name", plain_name<&fill::InterfaceFaces::region>}};
 
 /// mesh = lacuna.split_interface(mesh, { faces =, element =, name = })
 int split_interface(lua_State* L)
@@ -201,34 +182,37 @@ void push_contacts(lua_State* L, const std::vector<fill::Contact>& contacts)
     });
 }
 
-void read_gap(lua_State* L, int index, const Where& where, double& gap)
+template <class Of>
+void read_gap(lua_State* L, int index, const Where& where, Of& of)
 {
-    gap = read_number(L, index, where);
-    if (gap < 0) fail_value(L, where, "a distance, 0 or larger", index);
+    of.gap = read_number(L, index, where);
+    if (of.gap < 0) fail_value(L, where, "a distance, 0 or larger", index);
 }
-void read_request_gap(lua_State* L, int index, const Where& where, fill::ContactRequest& request)
+const Option<fill::ContactRequest> kFindOptions[] = {{"gap", read_gap<fill::ContactRequest>}};
+
+/// Read { gap = } at index 2, and push the contacts that `find` returns.
+template <class Find>
+int push_found_contacts(lua_State* L, const Find& find)
 {
-    read_gap(L, index, where, request.gap);
+    auto& request = temporary<fill::ContactRequest>(L);
+    read_options(L, 2, "contacts", kFindOptions, request);
+    RunContext& context = push_context(L);
+    auto& contacts = temporary<std::vector<fill::Contact>>(L);
+    guard(L, [&] { contacts = find(request, context); });
+    push_contacts(L, contacts);
+    return 1;
 }
-const Option<fill::ContactRequest> kFindOptions[] = {{"gap", read_request_gap}};
 
 /// contacts = assembly:contacts { gap = }
 int assembly_contacts(lua_State* L)
 {
     lua_settop(L, 2);
     const auto& assembly = hold<AssemblyState>(L, 1);
-    auto& request = temporary<fill::ContactRequest>(L);
-    read_options(L, 2, "contacts", kFindOptions, request);
-    RunContext& context = push_context(L);
-    auto& contacts = temporary<std::vector<fill::Contact>>(L);
-    guard(L, [&] {
+    return push_found_contacts(L, [&](const fill::ContactRequest& request, const RunContext& context) {
         std::vector<fill::Member> members;
-        for (const AssemblyState::Entry& entry : assembly.entries)
-            members.push_back({entry.volume.get(), entry.mesh.get(), entry.meshes.get()});
-        contacts = fill::contacts(members, request, context);
+        for (const AssemblyState::Entry& entry : assembly.entries) members.push_back(entry.member());
+        return fill::contacts(members, request, context);
     });
-    push_contacts(L, contacts);
-    return 1;
 }
 
 /// contacts = model:contacts { gap = }
@@ -236,16 +220,10 @@ int model_contacts(lua_State* L)
 {
     lua_settop(L, 2);
     const Box<ModelState>& model = hold_model(L, 1);
-    auto& request = temporary<fill::ContactRequest>(L);
-    read_options(L, 2, "contacts", kFindOptions, request);
-    RunContext& context = push_context(L);
-    auto& contacts = temporary<std::vector<fill::Contact>>(L);
-    guard(L, [&] {
+    return push_found_contacts(L, [&](const fill::ContactRequest& request, const RunContext& context) {
         refresh(*model, context);
-        contacts = fill::contacts(model->model, request, context);
+        return fill::contacts(model->model, request, context);
     });
-    push_contacts(L, contacts);
-    return 1;
 }
 
 int mesh_contacts(lua_State* L)
@@ -260,15 +238,8 @@ const Word<bool> kContactTypes[] = {{"tie", true}, {"contact", false}};
 template <std::size_t Side>
 void read_region(lua_State* L, int index, const Where& where, Pair& pair)
 {
-    read_text(L, index, where, pair.regions[Side]);
-}
-void read_pair_name(lua_State* L, int index, const Where& where, Pair& pair)
-{
-    read_text(L, index, where, pair.name);
-}
-void read_pair_gap(lua_State* L, int index, const Where& where, Pair& pair)
-{
-    read_gap(L, index, where, pair.gap);
+    const char* const name = read_plain_name(L, index, where);
+    guard(L, [&] { pair.regions[Side] = name; });
 }
 void ignore(lua_State*, int, const Where&, Pair&) {}
 
@@ -277,8 +248,8 @@ void ignore(lua_State*, int, const Where&, Pair&) {}
 const Option<Pair> kPairOptions[] = {
     {"a", read_region<0>},
     {"b", read_region<1>},
-    {"name", read_pair_name},
-    {"gap", read_pair_gap},
+    {"name", plain_name<&Pair::name>},
+    {"gap", read_gap<Pair>},
     {"type", word<&Pair::tied, kContactTypes>},
     {"least", ignore},
     {"width", ignore},
@@ -305,13 +276,11 @@ void read_pairs(lua_State* L, int index, const Where& where, fill::ContactReques
 
 /// `pairs` is read last: a pair without a gap or a type takes those of the request.
 const Option<fill::ContactRequest> kContactOptions[] = {
-    {"gap", read_request_gap},
+    {"gap", read_gap<fill::ContactRequest>},
     {"type", word<&fill::ContactRequest::tied, kContactTypes>},
     {"pairs", read_pairs}};
 
 // --- its mesh -------------------------------------------------------------------------------------------
-
-int mesh_nodes(lua_State* L) { return give(L, check<AssemblyMeshState>(L, 1).swept.nodes); }
 
 std::vector<fill::Region>& push_regions(lua_State* L, const AssemblyMeshState& state)
 {
@@ -377,47 +346,6 @@ int mesh_fidelity(lua_State* L)
     return 1;
 }
 
-/// x, y, z = mesh:node(i)
-int node(lua_State* L)
-{
-    lua_settop(L, 2);
-    const auto& state = check<AssemblyMeshState>(L, 1);
-    for (const double x : fill::node(state, check_number(L, "node", state.swept.nodes))) lua_pushnumber(L, x);
-    return 3;
-}
-
-/// Name of the method that returns a cell of a shape, for messages.
-template <mesh::CellShape Shape>
-constexpr const char* kCellCall = Shape == mesh::CellShape::hex8       ? "hex"
-                                  : Shape == mesh::CellShape::wedge6   ? "wedge"
-                                  : Shape == mesh::CellShape::pyramid5 ? "pyramid"
-                                                                       : "tet";
-
-/// n1, ... = mesh:hex(i), mesh:wedge(i), mesh:pyramid(i) or mesh:tet(i); cells are numbered part by part
-template <mesh::CellShape Shape>
-int cell(lua_State* L)
-{
-    lua_settop(L, 2);
-    const auto& state = check<AssemblyMeshState>(L, 1);
-    const std::size_t number = check_number(L, kCellCall<Shape>, fill::cell_count(state, Shape));
-    const mesh::CellNodes corners = fill::cell(state, Shape, number);
-    for (const Index corner : corners) lua_pushinteger(L, to_lua(corner));
-    return static_cast<int>(corners.count);
-}
-
-template <mesh::CellShape Shape>
-int cell_count(lua_State* L)
-{
-    return give(L, fill::cell_count(check<AssemblyMeshState>(L, 1), Shape));
-}
-
-int order(lua_State* L)
-{
-    const auto& state = check<AssemblyMeshState>(L, 1);
-    if (!state.swept.parts.empty()) return mesh_order<AssemblyMeshState>(L);
-    return give(L, state.tets.front().mesh.order());
-}
-
 int mesh_to_string(lua_State* L)
 {
     const auto& state = hold<AssemblyMeshState>(L, 1);
@@ -434,35 +362,6 @@ int mesh_to_string(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kAssemblyMethods[] = {{"contacts", assembly_contacts}, {nullptr, nullptr}};
-const luaL_Reg kContactModelMethods[] = {{"contacts", model_contacts}, {nullptr, nullptr}};
-const luaL_Reg kAssemblyMeta[] = {{"__tostring", assembly_to_string}, {nullptr, nullptr}};
-const Field kAssemblyFields[] = {{nullptr, nullptr}};
-const luaL_Reg kAssemblyMeshMethods[] = {{"node", node},
-                                         {"hex", cell<mesh::CellShape::hex8>},
-                                         {"wedge", cell<mesh::CellShape::wedge6>},
-                                         {"pyramid", cell<mesh::CellShape::pyramid5>},
-                                         {"tet", cell<mesh::CellShape::tet4>},
-                                         {"groups", mesh_groups<AssemblyMeshState>},
-                                         {nullptr, nullptr}};
-const luaL_Reg kAssemblyMeshMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
-const Field kAssemblyMeshFields[] = {
-    {"wedges", cell_count<mesh::CellShape::wedge6>},
-    {"pyramids", cell_count<mesh::CellShape::pyramid5>},
-    {"tets", cell_count<mesh::CellShape::tet4>},
-    {"order", order},
-    {"nodes", mesh_nodes},
-    {"hexes", cell_count<mesh::CellShape::hex8>},
-    {"layers", mesh_layers},
-    {"regions", mesh_regions},
-    {"report", mesh_report},
-    {"fidelity", mesh_fidelity},
-    {"left_out", mesh_left_out},
-    {"interface_cells", interface_cells},
-    {"contacts", mesh_contacts},
-    {nullptr, nullptr},
-};
-
 } // namespace
 
 fill::ContactRequest& push_contact_request(lua_State* L, int index)
@@ -475,15 +374,32 @@ fill::ContactRequest& push_contact_request(lua_State* L, int index)
 
 void bind_assembly(lua_State* L)
 {
-    make_class<AssemblyState>(L, kAssemblyFields, kAssemblyMeta);
-    make_class<AssemblyMeshState>(L, kAssemblyMeshFields, kAssemblyMeshMeta);
-    add_methods(L, kClassName<AssemblyMeshState>, kAssemblyMeshMethods);
-    add_methods(L, kClassName<AssemblyState>, kAssemblyMethods);
-    add_methods(L, kClassName<ModelState>, kContactModelMethods);
-    lua_pushcfunction(L, make_assembly);
-    lua_setfield(L, -2, "assembly");
-    lua_pushcfunction(L, split_interface);
-    lua_setfield(L, -2, "split_interface");
+    using mesh::CellShape;
+    using State = AssemblyMeshState;
+    make_class<AssemblyState>(L, {{"__tostring", assembly_to_string}});
+    make_class<State>(L, {{"__tostring", mesh_to_string}},
+                      {{"nodes", mesh_nodes<State>},
+                       {"hexes", cell_count<State, CellShape::hex8>},
+                       {"wedges", cell_count<State, CellShape::wedge6>},
+                       {"pyramids", cell_count<State, CellShape::pyramid5>},
+                       {"tets", cell_count<State, CellShape::tet4>},
+                       {"order", mesh_order<State>},
+                       {"layers", mesh_layers},
+                       {"regions", mesh_regions},
+                       {"report", mesh_report},
+                       {"fidelity", mesh_fidelity},
+                       {"left_out", mesh_left_out},
+                       {"interface_cells", interface_cells},
+                       {"contacts", mesh_contacts}});
+    add_methods<State>(L, {{"node", mesh_node<State>},
+                           {"hex", cell<State, CellShape::hex8>},
+                           {"wedge", cell<State, CellShape::wedge6>},
+                           {"pyramid", cell<State, CellShape::pyramid5>},
+                           {"tet", cell<State, CellShape::tet4>},
+                           {"groups", mesh_groups<State>}});
+    add_methods<AssemblyState>(L, {{"contacts", assembly_contacts}});
+    add_methods<ModelState>(L, {{"contacts", model_contacts}});
+    set_functions(L, {{"assembly", make_assembly}, {"split_interface", split_interface}});
 }
 
 } // namespace lacuna::lua

@@ -85,7 +85,7 @@ int push_swept_assembly(lua_State* L, int index, const char* call, const SweepFi
     auto& volumes = temporary<std::vector<VolumeState*>>(L);
     int threads = 0;
     for (const AssemblyState::Entry& entry : assembly.entries) {
-        guard(L, [&] { members.push_back({entry.volume.get(), entry.mesh.get(), entry.meshes.get()}); });
+        guard(L, [&] { members.push_back(entry.member()); });
         if (!entry.volume) continue;
         luaL_checkstack(L, 16, "too many volumes");
         push_options_of(L, index, entry.volume, members.back());
@@ -119,19 +119,17 @@ int sweep_assembly_to(lua_State* L)
     check<AssemblyState>(L, 1);
     const io::OutputPath& path = push_output_path(L, 2, "sweep_to");
     push_write_options(L, 3);
-    WriteArguments& file = push_layered_write(L, lua_gettop(L), path);
+    const team::WriteRequest& file = push_layered_write(L, lua_gettop(L), path);
     const SweepFile written{&path, &file};
-    return push_swept_assembly(L, 3, "sweep_to", &written, may_be_layered_of_parts(file, path), host(L).crew);
+    return push_swept_assembly(L, 3, "sweep_to", &written, team::may_be_layered_of_parts(file, path),
+                               host(L).crew);
 }
-
-const luaL_Reg kAssemblySweepAssemblyMethods[] = {
-    {"sweep", sweep_assembly}, {"sweep_to", sweep_assembly_to}, {nullptr, nullptr}};
 
 } // namespace
 
 void bind_assembly_sweep(lua_State* L)
 {
-    add_methods(L, kClassName<AssemblyState>, kAssemblySweepAssemblyMethods);
+    add_methods<AssemblyState>(L, {{"sweep", sweep_assembly}, {"sweep_to", sweep_assembly_to}});
 }
 
 } // namespace lacuna::lua

@@ -51,10 +51,6 @@ int gmsh_version(lua_State* L)
     return 1;
 }
 
-namespace {
-const luaL_Reg kCadVolumeMethods[] = {{"write_cad", write_cad}, {nullptr, nullptr}};
-} // namespace
-
-void bind_cad(lua_State* L) { add_methods(L, kClassName<VolumeState>, kCadVolumeMethods); }
+void bind_cad(lua_State* L) { add_methods<VolumeState>(L, {{"write_cad", write_cad}}); }
 
 } // namespace lacuna::lua

@@ -26,36 +26,23 @@ const Word<Cap> kCaps[] = {{"flat", Cap::flat}, {"parallel", Cap::parallel}, {"a
 
 const Word<Holes> kHoles[] = {{"cover", Holes::cover}, {"through", Holes::through}};
 
-std::size_t length_of(lua_State* L, int index)
-{
-    return lua_type(L, index) == LUA_TTABLE ? lua_rawlen(L, index) : 0;
-}
-
 /// Void edges { from, to [, points] }: two vertex tags and an array of points {x, y, z}.
 void read_void_edges(lua_State* L, int index, const Where& where, CloseOptions& options)
 {
-    const std::size_t count = length_of(L, index);
+    const std::size_t count = array_length(L, index);
     guard(L, [&] { options.void_edges.resize(count); });
     std::size_t next = 0;
-    read_array(
-        L, index, where, "an array of void edges { from, to, points }", [&](int element, const Where& at) {
-            const std::size_t size = length_of(L, element);
-            if (size != 2 && size != 3) fail_value(L, at, "a void edge { from, to, points }", element);
-            closure::VoidEdge& edge = options.void_edges[next++];
-            lua_rawgeti(L, element, 1);
-            lua_rawgeti(L, element, 2);
-            lua_rawgeti(L, element, 3);
-            const int points = lua_absindex(L, -1);
-            edge.from = read_whole(L, points - 2, at, 1);
-            edge.to = read_whole(L, points - 1, at, 1);
-            if (lua_isnil(L, points)) return;
-            const std::size_t between = length_of(L, points);
-            guard(L, [&] { edge.points.resize(between); });
-            std::size_t i = 0;
-            read_array(L, points, {at.call, lua_pushfstring(L, "%s[3]", at.key)},
-                       "an array of points {x, y, z}",
-                       [&](int point, const Where& p) { edge.points[i++] = read_vector(L, point, p); });
-        });
+    read_array(L, index, where, "an array of void edges { from, to, points }",
+               [&](int element, const Where& at) {
+                   const std::size_t size = array_length(L, element);
+                   if (size != 2 && size != 3) fail_value(L, at, "a void edge { from, to, points }", element);
+                   closure::VoidEdge& edge = options.void_edges[next++];
+                   edge.from = read_whole(L, push_element(L, element, 1), at, 1);
+                   edge.to = read_whole(L, push_element(L, element, 2), at, 1);
+                   if (size < 3) return;
+                   read_items(L, push_element(L, element, 3), {at.call, lua_pushfstring(L, "%s[3]", at.key)},
+                              "an array of points {x, y, z}", edge.points, read_vector);
+               });
 }
 
 const Option<CloseOptions> kCloseOptions[] = {{"edge_shape", word<&CloseOptions::edge_shape, kEdgeShapes>},
@@ -97,8 +84,7 @@ int is_watertight(lua_State* L)
     const auto& state = hold<VolumeState>(L, 1);
     bool watertight = false;
     guard(L, [&] { watertight = closure::is_watertight(state.volume); });
-    lua_pushboolean(L, watertight);
-    return 1;
+    return give(L, watertight);
 }
 
 // --- cutting ------------------------------------------------------------------------------------------
@@ -112,32 +98,14 @@ struct CutArguments {
     FaceId face;
 };
 
-void read_cutting_plane(lua_State* L, int index, const Where& where, CutArguments& arguments)
-{
-    arguments.plane = read_plane(L, index, where);
-}
-
-/// A Face of any model, or one of the volume's own by tag, name or selector.
 void read_cutting_face(lua_State* L, int index, const Where& where, CutArguments& arguments)
 {
-    if (const Box<FaceHandle>* const handle = test_box<FaceHandle>(L, index); handle != nullptr && *handle) {
-        guard(L, [&] {
-            arguments.of = (*handle)->model;
-            arguments.face = face_of(**handle);
-        });
-        return;
-    }
-    auto& faces = temporary<std::vector<FaceId>>(L);
-    read_faces(L, index, where, *arguments.model, faces);
-    if (faces.size() != 1) fail_option(L, where, "selects several faces of the volume; give one");
-    guard(L, [&] {
-        arguments.of = *arguments.model;
-        arguments.face = faces.front();
-    });
+    arguments.face = read_any_face(L, index, where, *arguments.model, arguments.of);
 }
 
-const Option<CutArguments> kClosureCutOptions[] = {
-    {"plane", read_cutting_plane}, {"face", read_cutting_face}, {"auto", boolean<&CutArguments::automatic>}};
+const Option<CutArguments> kClosureCutOptions[] = {{"plane", plane<&CutArguments::plane>},
+                                                   {"face", read_cutting_face},
+                                                   {"auto", boolean<&CutArguments::automatic>}};
 
 /// The faces of a volume as a model of their own, on top of the stack.
 Box<ModelState>& push_model(lua_State* L, const VolumeState& state)
@@ -187,14 +155,12 @@ int cut(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kClosureVolumeMethods[] = {{"close", close},
-                                          {"cut", cut},
-                                          {"is_watertight", is_watertight},
-                                          {"model", volume_model},
-                                          {nullptr, nullptr}};
-
 } // namespace
 
-void bind_closure(lua_State* L) { add_methods(L, kClassName<VolumeState>, kClosureVolumeMethods); }
+void bind_closure(lua_State* L)
+{
+    add_methods<VolumeState>(
+        L, {{"close", close}, {"cut", cut}, {"is_watertight", is_watertight}, {"model", volume_model}});
+}
 
 } // namespace lacuna::lua

@@ -4,6 +4,7 @@
 #include "bindings/io_paths.h"
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
+#include "bindings/write_mesh.h"
 
 #include <lacuna/io/mesh_file.h>
 
@@ -11,18 +12,10 @@ namespace lacuna::lua {
 
 namespace {
 
-void read_version(lua_State* L, int index, const Where& where, io::MeshFileOptions& options)
-{
-    options.version = read_number(L, index, where);
-    if (options.version != 4.1 && options.version != 2.2) fail_value(L, where, "4.1 or 2.2", index);
-}
-
-const Word<bool> kConvertGroups[] = {{"one", false}, {"all", true}};
-
 const Option<io::MeshFileOptions> kOptions[] = {
-    {"version", read_version},
+    {"version", msh_version<&io::MeshFileOptions::version>},
     {"binary", boolean<&io::MeshFileOptions::binary>},
-    {"groups", word<&io::MeshFileOptions::all_groups, kConvertGroups>}};
+    {"groups", word<&io::MeshFileOptions::all_groups, kMshGroups>}};
 
 /// { nodes =, elements = } = lacuna.convert(from, to [, options])
 int convert(lua_State* L)
@@ -49,10 +42,8 @@ int convert(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kConvertFunctions[] = {{"convert", convert}, {nullptr, nullptr}};
-
 } // namespace
 
-void bind_convert(lua_State* L) { luaL_setfuncs(L, kConvertFunctions, 0); }
+void bind_convert(lua_State* L) { set_functions(L, {{"convert", convert}}); }
 
 } // namespace lacuna::lua

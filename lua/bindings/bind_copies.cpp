@@ -2,7 +2,6 @@
 // mesh:copy and mesh:pattern.
 #include "bindings/classes.h"
 #include "bindings/faces.h"
-#include "bindings/names.h"
 #include "bindings/options.h"
 #include "bindings/sweep_to.h"
 
@@ -16,8 +15,7 @@ struct CopyArguments {
     /// Without alignment: Lua aligns its memory less than Eigen requires.
     std::optional<Eigen::Transform<double, 3, Eigen::Affine, Eigen::DontAlign>> by;
     const char* key = nullptr; ///< the option that gave the motion
-    fill::PatternOptions pattern;
-    bool has_count = false;
+    fill::PatternOptions pattern{.count = 0};
     std::string name;
 };
 
@@ -36,18 +34,10 @@ void read_translate(lua_State* L, int index, const Where& where, CopyArguments& 
 
 void read_rotate(lua_State* L, int index, const Where& where, CopyArguments& arguments)
 {
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 3)
-        fail_value(L, where, "{ point, direction, angle in degrees }", index);
-    lua_rawgeti(L, index, 1);
-    const Vec3 point = read_vector(L, lua_gettop(L), where);
-    lua_rawgeti(L, index, 2);
-    const Vec3 axis = read_vector(L, lua_gettop(L), where).stableNormalized();
-    if (!(axis.norm() > 0)) fail_option(L, where, "has a direction of length 0");
-    lua_rawgeti(L, index, 3);
-    constexpr double kDegree = 3.14159265358979323846 / 180;
-    const double angle = read_number(L, lua_gettop(L), where) * kDegree;
+    const auto [point, direction, angle] = read_turn(L, index, where);
     set_motion(L, where, arguments,
-               Eigen::Translation3d(point) * Eigen::AngleAxisd(angle, axis) * Eigen::Translation3d(-point));
+               Eigen::Translation3d(point) * Eigen::AngleAxisd(angle, direction.stableNormalized()) *
+                   Eigen::Translation3d(-point));
 }
 
 void read_mirror(lua_State* L, int index, const Where& where, CopyArguments& arguments)
@@ -60,26 +50,14 @@ void read_mirror(lua_State* L, int index, const Where& where, CopyArguments& arg
     set_motion(L, where, arguments, by);
 }
 
-void read_count(lua_State* L, int index, const Where& where, CopyArguments& arguments)
-{
-    arguments.pattern.count = read_whole(L, index, where, 1);
-    arguments.has_count = true;
-}
-
-void read_copy_name(lua_State* L, int index, const Where& where, CopyArguments& arguments)
-{
-    const char* const name = read_plain_name(L, index, where);
-    guard(L, [&] { arguments.name = name; });
-}
-
 const Option<CopyArguments> kCopyOptions[] = {{"translate", read_translate},
                                               {"rotate", read_rotate},
                                               {"mirror", read_mirror},
-                                              {"name", read_copy_name}};
+                                              {"name", plain_name<&CopyArguments::name>}};
 const Option<CopyArguments> kPatternOptions[] = {
     {"translate", read_translate},
     {"rotate", read_rotate},
-    {"count", read_count},
+    {"count", count<&CopyArguments::pattern, &fill::PatternOptions::count>},
     {"numbered", boolean<&CopyArguments::pattern, &fill::PatternOptions::numbered>}};
 
 template <std::size_t N>
@@ -104,35 +82,27 @@ int copy(lua_State* L)
     });
 }
 
-const fill::FilledParts& parts_of(const AssemblyMeshState& state, fill::FilledParts&) { return state; }
-const fill::FilledParts& parts_of(const MeshState& state, fill::FilledParts& parts)
-{
-    return parts = fill::as_parts(state);
-}
-
 /// mesh = mesh:pattern { translate = | rotate = , count = [, numbered =] }
 template <class State>
 int pattern(lua_State* L)
 {
     const auto& arguments = push_arguments(L, "pattern", kPatternOptions, "'translate' or 'rotate'");
-    if (!arguments.has_count)
+    if (arguments.pattern.count == 0)
         fail(L, "pattern: option 'count' is missing: the number of copies, "
                 "including the mesh itself");
     const State& state = hold<State>(L, 1);
     RunContext& context = push_context(L);
     return push_swept(L, {}, "pattern", nullptr, context, [&](const RunContext& part) {
-        fill::FilledParts parts;
         return fill::Filled{
             {},
-            fill::pattern(parts_of(state, parts), Eigen::Affine3d(*arguments.by), arguments.pattern, part)};
+            fill::pattern(fill::as_parts(state), Eigen::Affine3d(*arguments.by), arguments.pattern, part)};
     });
 }
 
 template <class State>
 void add_copies(lua_State* L)
 {
-    const luaL_Reg methods[] = {{"copy", copy<State>}, {"pattern", pattern<State>}, {nullptr, nullptr}};
-    add_methods(L, kClassName<State>, methods);
+    add_methods<State>(L, {{"copy", copy<State>}, {"pattern", pattern<State>}});
 }
 
 } // namespace

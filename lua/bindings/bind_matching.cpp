@@ -14,33 +14,26 @@ using matching::MatchOptions;
 const Word<matching::Method> kMatchingMethods[] = {{"aligned", matching::Method::aligned},
                                                    {"nearest", matching::Method::nearest}};
 
-/// Pairs of whole numbers from 1, each reduced by `Offset`.
+/// A pair of whole numbers from 1, each reduced by `Offset`.
+template <int Offset>
+std::pair<int, int> read_pair(lua_State* L, int index, const Where& where)
+{
+    if (array_length(L, index) != 2) fail_value(L, where, "a pair { source, target }", index);
+    return {read_whole(L, push_element(L, index, 1), where, 1) - Offset,
+            read_whole(L, push_element(L, index, 2), where, 1) - Offset};
+}
+
 template <auto Member, int Offset>
 void read_pairs(lua_State* L, int index, const Where& where, MatchOptions& options)
 {
-    const char* const expected = "an array of pairs { source, target }";
-    auto& pairs = options.*Member;
-    const std::size_t count = lua_type(L, index) == LUA_TTABLE ? lua_rawlen(L, index) : 0;
-    guard(L, [&] { pairs.resize(count); });
-    std::size_t next = 0;
-    read_array(L, index, where, expected, [&](int element, const Where& at) {
-        if (lua_type(L, element) != LUA_TTABLE || lua_rawlen(L, element) != 2)
-            fail_value(L, at, "a pair { source, target }", element);
-        lua_rawgeti(L, element, 1);
-        lua_rawgeti(L, element, 2);
-        const int source = read_whole(L, -2, at, 1), target = read_whole(L, -1, at, 1);
-        pairs[next++] = {source - Offset, target - Offset};
-    });
+    read_items(L, index, where, "an array of pairs { source, target }", options.*Member, read_pair<Offset>);
 }
+
+int read_loop(lua_State* L, int index, const Where& where) { return read_whole(L, index, where, 1) - 1; }
 
 void read_flip(lua_State* L, int index, const Where& where, MatchOptions& options)
 {
-    const std::size_t count = lua_type(L, index) == LUA_TTABLE ? lua_rawlen(L, index) : 0;
-    guard(L, [&] { options.flip.resize(count); });
-    std::size_t next = 0;
-    read_array(L, index, where, "an array of numbers of source loops", [&](int element, const Where& at) {
-        options.flip[next++] = static_cast<int>(from_lua(read_whole(L, element, at, 1)));
-    });
+    read_items(L, index, where, "an array of numbers of source loops", options.flip, read_loop);
 }
 
 // Vertices are given by tag and loops by number. Loops are numbered from 1 here and from 0 in the kernel.
@@ -92,10 +85,8 @@ int match(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kMatchingVolumeMethods[] = {{"match", match}, {nullptr, nullptr}};
-
 } // namespace
 
-void bind_matching(lua_State* L) { add_methods(L, kClassName<VolumeState>, kMatchingVolumeMethods); }
+void bind_matching(lua_State* L) { add_methods<VolumeState>(L, {{"match", match}}); }
 
 } // namespace lacuna::lua

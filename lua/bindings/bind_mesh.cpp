@@ -7,10 +7,6 @@ namespace lacuna::lua {
 
 namespace {
 
-int mesh_nodes(lua_State* L) { return give(L, check<MeshState>(L, 1).swept.mesh.node_count()); }
-
-int mesh_layers(lua_State* L) { return give(L, check<MeshState>(L, 1).swept.mesh.layers); }
-
 int mesh_report(lua_State* L)
 {
     const MeshState& state = hold<MeshState>(L, 1);
@@ -66,38 +62,6 @@ int mesh_regions(lua_State* L)
     return 1;
 }
 
-/// x, y, z = mesh:node(i)
-int node(lua_State* L)
-{
-    lua_settop(L, 2);
-    const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
-    const Vec3& place = mesh.node(check_number(L, "node", mesh.node_count()));
-    for (const double coordinate : place) lua_pushnumber(L, coordinate);
-    return 3;
-}
-
-/// n1, ..., n8 = mesh:hex(i): the corners, also of cells of order 2
-int hex(lua_State* L)
-{
-    lua_settop(L, 2);
-    const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
-    const std::size_t number = check_number(L, "hex", mesh.hex_count());
-    for (const Index corner : mesh.hex(mesh::CellKinds(mesh).cell(number)))
-        lua_pushinteger(L, to_lua(corner));
-    return 8;
-}
-
-/// n1, ..., n6 = mesh:wedge(i)
-int wedge(lua_State* L)
-{
-    lua_settop(L, 2);
-    const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
-    const std::size_t number = check_number(L, "wedge", mesh.wedge_count());
-    const std::size_t cell = mesh::CellKinds(mesh).cell(mesh.hex_count() + number);
-    for (const Index corner : mesh::wedge_of(mesh.hex(cell))) lua_pushinteger(L, to_lua(corner));
-    return 6;
-}
-
 int mesh_to_string(lua_State* L)
 {
     const mesh::HexMesh& mesh = check<MeshState>(L, 1).swept.mesh;
@@ -106,9 +70,6 @@ int mesh_to_string(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kMeshMeshMethods[] = {
-    {"node", node}, {"hex", hex}, {"wedge", wedge}, {"groups", mesh_groups<MeshState>}, {nullptr, nullptr}};
-const luaL_Reg kMeshMeta[] = {{"__tostring", mesh_to_string}, {nullptr, nullptr}};
 /// mesh.left_out, always empty: a volume that cannot be meshed is an error
 int mesh_left_out(lua_State* L)
 {
@@ -117,40 +78,29 @@ int mesh_left_out(lua_State* L)
     return 1;
 }
 
-template <auto Count>
-int cell_count(lua_State* L)
-{
-    return give(L, (check<MeshState>(L, 1).swept.mesh.*Count)());
-}
-
-/// A sweep makes no pyramids and tetrahedra; assemblies may have some.
-int no_cells(lua_State* L)
-{
-    check<MeshState>(L, 1);
-    return give(L, std::size_t{0});
-}
-
-const Field kMeshFields[] = {
-    {"nodes", mesh_nodes},
-    {"hexes", cell_count<&mesh::HexMesh::hex_count>},
-    {"wedges", cell_count<&mesh::HexMesh::wedge_count>},
-    {"pyramids", no_cells},
-    {"tets", no_cells},
-    {"layers", mesh_layers},
-    {"regions", mesh_regions},
-    {"order", mesh_order<MeshState>},
-    {"report", mesh_report},
-    {"fidelity", mesh_fidelity},
-    {"left_out", mesh_left_out},
-    {nullptr, nullptr},
-};
+using mesh::CellShape;
 
 } // namespace
 
 void bind_mesh(lua_State* L)
 {
-    make_class<MeshState>(L, kMeshFields, kMeshMeta);
-    add_methods(L, kClassName<MeshState>, kMeshMeshMethods);
+    make_class<MeshState>(
+        L, {{"__tostring", mesh_to_string}},
+        {{"nodes", mesh_nodes<MeshState>},
+         {"hexes", cell_count<MeshState, CellShape::hex8>},
+         {"wedges", cell_count<MeshState, CellShape::wedge6>},
+         {"pyramids", no_cells<MeshState>}, // assemblies may have some
+         {"tets", no_cells<MeshState>},
+         {"layers", field<MeshState, [](const auto& mesh) { return mesh.swept.mesh.layers; }>},
+         {"regions", mesh_regions},
+         {"order", mesh_order<MeshState>},
+         {"report", mesh_report},
+         {"fidelity", mesh_fidelity},
+         {"left_out", mesh_left_out}});
+    add_methods<MeshState>(L, {{"node", mesh_node<MeshState>},
+                               {"hex", cell<MeshState, CellShape::hex8>},
+                               {"wedge", cell<MeshState, CellShape::wedge6>},
+                               {"groups", mesh_groups<MeshState>}});
 }
 
 } // namespace lacuna::lua

@@ -2,7 +2,7 @@
 // Volume: opening, classes and free edges (topology/open_volume.h). Matching, closing and sweeping add their
 // methods to the class.
 #include "bindings/faces.h"
-#include "bindings/names.h"
+#include "bindings/recipe_function.h"
 
 #include <lacuna/core/error.h>
 #include <lacuna/fill/describe.h>
@@ -55,12 +55,6 @@ void read_volume_faces(lua_State* L, int index, const Where& where, RoleArgument
     read_faces(L, index, where, *arguments.model, arguments.faces.emplace());
 }
 
-void read_name(lua_State* L, int index, const Where& where, RoleArguments& arguments)
-{
-    const char* name = read_plain_name(L, index, where);
-    guard(L, [&] { arguments.name = name; });
-}
-
 /// A name, as in Abaqus, or a number, as in Nastran.
 void read_material(lua_State* L, int index, const Where& where, RoleArguments& arguments)
 {
@@ -78,63 +72,9 @@ void read_material(lua_State* L, int index, const Where& where, RoleArguments& a
     guard(L, [&] { arguments.material = name; });
 }
 
-void read_fill_to(lua_State* L, int index, const Where& where, RoleArguments& arguments)
-{
-    arguments.fill_to = read_plane(L, index, where);
-}
-
 // --- along ----------------------------------------------------------------------------------------------
 
 using closure::Along;
-
-/// Calls a recipe's function, kept in a table on the stack, on the thread that called open_volume().
-struct Function {
-    lua_State* state;
-    int table;
-    lua_Integer number;
-
-    /// Leaves `count` results on the stack.
-    void call(std::initializer_list<double> arguments, int count) const
-    {
-        if (!lua_checkstack(state, 8)) throw Error("lua.function", "the stack of the recipe is full");
-        lua_rawgeti(state, table, number);
-        for (const double argument : arguments) lua_pushnumber(state, argument);
-        if (lua_pcall(state, static_cast<int>(arguments.size()), count, 0) == LUA_OK) return;
-        keep_callback_error(state);
-        throw CallbackFailed{};
-    }
-    /// A result, or NaN if it is not a number; the kernel refuses NaN.
-    [[nodiscard]] double take(int index) const
-    {
-        return lua_type(state, index) == LUA_TNUMBER ? lua_tonumber(state, index) : std::nan("");
-    }
-    [[nodiscard]] double value(std::initializer_list<double> arguments) const
-    {
-        call(arguments, 1);
-        const double result = take(-1);
-        lua_pop(state, 1);
-        return result;
-    }
-    /// Three numbers, or a table of them.
-    [[nodiscard]] Vec3 point(double at) const
-    {
-        call({at}, 3);
-        const int top = lua_gettop(state);
-        if (lua_type(state, top - 2) == LUA_TTABLE)
-            for (int i = 1; i <= 3; ++i) lua_rawgeti(state, top - 2, i);
-        const Vec3 result(take(-3), take(-2), take(-1));
-        lua_settop(state, top - 3);
-        return result;
-    }
-};
-
-Function keep_function(lua_State* L, int index, const RoleArguments& arguments)
-{
-    const auto number = static_cast<lua_Integer>(lua_rawlen(L, arguments.functions)) + 1;
-    lua_pushvalue(L, index);
-    lua_rawseti(L, arguments.functions, number);
-    return {L, arguments.functions, number};
-}
 
 struct AlongArguments {
     RoleArguments* roles = nullptr;
@@ -155,13 +95,6 @@ Course& set_course(lua_State* L, const Where& where, AlongArguments& arguments)
     return *std::get_if<Course>(&arguments.along.course);
 }
 
-/// Pushes element `place` of the array at `index`. @return  its index
-int push_element(lua_State* L, int index, int place)
-{
-    lua_rawgeti(L, index, place);
-    return lua_gettop(L);
-}
-
 void read_along_vector(lua_State* L, int index, const Where& where, AlongArguments& arguments)
 {
     set_course<Along::Vector>(L, where, arguments).way = read_vector(L, index, where);
@@ -173,8 +106,7 @@ template <class Course>
 Course& read_line(lua_State* L, int index, const Where& where, AlongArguments& arguments, std::size_t size,
                   const char* expected)
 {
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != size)
-        fail_value(L, where, expected, index);
+    if (array_length(L, index) != size) fail_value(L, where, expected, index);
     auto& course = set_course<Course>(L, where, arguments);
     course.point = read_vector(L, push_element(L, index, 1), where);
     course.direction = read_vector(L, push_element(L, index, 2), where);
@@ -202,39 +134,24 @@ void read_along_path(lua_State* L, int index, const Where& where, AlongArguments
                                  "that returns x, y, z";
     auto& path = set_course<Along::Path>(L, where, arguments);
     if (lua_type(L, index) == LUA_TFUNCTION) {
-        const Function function = keep_function(L, index, *arguments.roles);
+        const RecipeFunction function = keep_function(L, index, arguments.roles->functions, where);
         guard(L, [&] { path.curve = [function](double at) { return function.point(at); }; });
         return;
     }
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) == 0) fail_value(L, where, expected, index);
+    if (array_length(L, index) == 0) fail_value(L, where, expected, index);
     const bool edges = lua_type(L, push_element(L, index, 1)) == LUA_TNUMBER;
     lua_pop(L, 1);
-    const std::size_t size = lua_rawlen(L, index);
-    guard(L, [&] { edges ? path.edges.resize(size) : path.points.resize(size); });
-    std::size_t next = 0;
-    read_array(L, index, where, expected, [&](int element, const Where& at) {
-        if (edges)
-            path.edges[next++] = read_whole(L, element, at, 0);
-        else
-            path.points[next++] = read_vector(L, element, at);
-    });
+    if (edges)
+        read_items(L, index, where, expected, path.edges, read_tag);
+    else
+        read_items(L, index, where, expected, path.points, read_vector);
 }
 
-/// A number or a function(x, y, z).
 void read_thickness(lua_State* L, int index, const Where& where, AlongArguments& arguments,
                     std::function<double(const Vec3&)>& thickness)
 {
-    if (lua_type(L, index) == LUA_TFUNCTION) {
-        const Function function = keep_function(L, index, *arguments.roles);
-        guard(L, [&] {
-            thickness = [function](const Vec3& p) { return function.value({p.x(), p.y(), p.z()}); };
-        });
-        return;
-    }
-    if (lua_type(L, index) != LUA_TNUMBER)
-        fail_value(L, where, "a number or a function(x, y, z) that returns one", index);
-    const double number = read_number(L, index, where);
-    guard(L, [&] { thickness = [number](const Vec3&) { return number; }; });
+    read_field(L, index, where, arguments.roles->functions, thickness, read_number,
+               "a number or a function(x, y, z) that returns one");
 }
 
 void read_along_normals(lua_State* L, int index, const Where& where, AlongArguments& arguments)
@@ -253,18 +170,7 @@ void read_along_to(lua_State* L, int index, const Where& where, AlongArguments& 
 {
     auto& to = set_course<Along::ToFace>(L, where, arguments);
     RoleArguments& roles = *arguments.roles;
-    if (const Box<FaceHandle>* const handle = test_box<FaceHandle>(L, index); handle != nullptr && *handle) {
-        guard(L, [&] {
-            roles.of = (*handle)->model;
-            to.face = face_of(**handle);
-        });
-    } else {
-        auto& faces = temporary<std::vector<FaceId>>(L);
-        read_faces(L, index, where, *roles.model, faces);
-        if (faces.size() != 1) fail_option(L, where, "selects several faces; give one");
-        guard(L, [&] { roles.of = *roles.model; });
-        to.face = faces.front();
-    }
+    to.face = read_any_face(L, index, where, *roles.model, roles.of);
     to.model = &roles.of->model;
 }
 
@@ -272,7 +178,7 @@ template <auto Profile>
 void read_profile(lua_State* L, int index, const Where& where, AlongArguments& arguments)
 {
     if (lua_type(L, index) == LUA_TFUNCTION) {
-        const Function function = keep_function(L, index, *arguments.roles);
+        const RecipeFunction function = keep_function(L, index, arguments.roles->functions, where);
         guard(L, [&] {
             (arguments.along.*Profile).emplace().at = [function](double height) {
                 return function.value({height});
@@ -285,17 +191,12 @@ void read_profile(lua_State* L, int index, const Where& where, AlongArguments& a
     }
 }
 
-void read_angle(lua_State* L, int index, const Where& where, AlongArguments& arguments)
-{
-    arguments.angle = read_number(L, index, where);
-}
-
 const Word<bool> kFrames[] = {{"minimal", false}, {"fixed", true}};
 
 const Option<AlongArguments> kAlongOptions[] = {
     {"vector", read_along_vector},
     {"axis", read_along_axis},
-    {"angle", read_angle},
+    {"angle", number<&AlongArguments::angle>},
     {"path", read_along_path},
     {"frame", word<&AlongArguments::fixed, kFrames>},
     {"helix", read_along_helix},
@@ -334,11 +235,11 @@ const Option<RoleArguments> kRoleOptions[] = {
     {"reading", count<&RoleArguments::reading>},
     {"class", word<&RoleArguments::override_class, kClasses>},
     {"full_turn", boolean<&RoleArguments::full_turn>},
-    {"name", read_name},
+    {"name", plain_name<&RoleArguments::name>},
     {"material", read_material},
     {"along", read_along},
     {"glued", boolean<&RoleArguments::glued>},
-    {"fill_to", read_fill_to},
+    {"fill_to", plane<&RoleArguments::fill_to>},
 };
 
 /// volume = model:open_volume { source=, target=, walls= [, class=] [, name=] [, material=] }
@@ -349,10 +250,9 @@ int open_volume(lua_State* L)
     lua_settop(L, 2);
     const Box<ModelState>& model = hold_model(L, 1);
     lua_newtable(L);
-    const int functions = lua_gettop(L);
     auto& arguments = temporary<RoleArguments>(L);
+    arguments.functions = lua_gettop(L) - 1;
     arguments.model = &model;
-    arguments.functions = functions;
     read_options(L, 2, "open_volume", kRoleOptions, arguments);
     const fill::RoleRequest& request = arguments;
     if (request.roles && request.faces)
@@ -381,11 +281,9 @@ int open_volume(lua_State* L)
 
 // --- Volume ---------------------------------------------------------------------------------------------
 
-int volume_class(lua_State* L)
+std::string_view class_name(const VolumeState& state)
 {
-    const std::string_view name = topology::to_string(check<VolumeState>(L, 1).classification.value);
-    lua_pushlstring(L, name.data(), name.size());
-    return 1;
+    return topology::to_string(state.classification.value);
 }
 
 /// { class=, free_loops=, wall_free_source=, wall_free_target=, reasons= } = volume:classify()
@@ -394,8 +292,7 @@ int classify(lua_State* L)
     const auto& state = hold<VolumeState>(L, 1);
     const topology::Classification& found = state.classification;
     lua_createtable(L, 0, 5);
-    volume_class(L);
-    lua_setfield(L, -2, "class");
+    set_string(L, "class", class_name(state));
     set_count(L, "free_loops", found.free_loops.size());
     set_tags(L, "wall_free_source", state.volume.model, found.wall_free_source);
     set_tags(L, "wall_free_target", state.volume.model, found.wall_free_target);
@@ -450,27 +347,24 @@ int volume_to_string(lua_State* L)
 {
     const auto& state = hold<VolumeState>(L, 1);
     const bool sealed = state.closure || topology::free_edges(state.volume).empty();
-    volume_class(L);
+    give(L, class_name(state));
     lua_pushfstring(L, "Volume of class %s, %d faces, %s", lua_tostring(L, -1),
                     static_cast<int>(state.volume.model.faces.size()), sealed ? "sealed" : "open");
     return 1;
 }
 
-const luaL_Reg kVolumeModelMethods[] = {{"open_volume", open_volume}, {nullptr, nullptr}};
-const luaL_Reg kVolumeVolumeMethods[] = {
-    {"classify", classify}, {"override_class", override_class}, {"free_edges", free_edges},
-    {"tree", volume_tree},  {"describe", describe_volume},      {nullptr, nullptr},
-};
-const luaL_Reg kVolumeMeta[] = {{"__tostring", volume_to_string}, {nullptr, nullptr}};
-const Field kVolumeFields[] = {{"class", volume_class}, {nullptr, nullptr}};
-
 } // namespace
 
 void bind_open_volume(lua_State* L)
 {
-    make_class<VolumeState>(L, kVolumeFields, kVolumeMeta);
-    add_methods(L, kClassName<VolumeState>, kVolumeVolumeMethods);
-    add_methods(L, kClassName<ModelState>, kVolumeModelMethods);
+    make_class<VolumeState>(L, {{"__tostring", volume_to_string}},
+                            {{"class", field<VolumeState, class_name>}});
+    add_methods<VolumeState>(L, {{"classify", classify},
+                                 {"override_class", override_class},
+                                 {"free_edges", free_edges},
+                                 {"tree", volume_tree},
+                                 {"describe", describe_volume}});
+    add_methods<ModelState>(L, {{"open_volume", open_volume}});
 }
 
 } // namespace lacuna::lua

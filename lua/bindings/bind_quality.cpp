@@ -165,9 +165,6 @@ int assembly_quality(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kQualityMeshMethods[] = {{"quality", mesh_quality}, {nullptr, nullptr}};
-const luaL_Reg kQualityAssemblyMethods[] = {{"quality", assembly_quality}, {nullptr, nullptr}};
-
 } // namespace
 
 quality::Metric read_metric(lua_State* L, int index, const Where& where)
@@ -215,11 +212,8 @@ void push_quality(lua_State* L, int source)
 void bind_quality(lua_State* L)
 {
     luaL_newmetatable(L, kQualityMeta);
-    const luaL_Reg meta[] = {{"__tostring", quality_to_string},
-                             {"__index", quality_index},
-                             {"__pairs", quality_pairs},
-                             {nullptr, nullptr}};
-    luaL_setfuncs(L, meta, 0);
+    set_functions(
+        L, {{"__tostring", quality_to_string}, {"__index", quality_index}, {"__pairs", quality_pairs}});
     lua_newtable(L);
     lua_createtable(L, 0, 1);
     set_string(L, "__mode", "k");
@@ -227,8 +221,8 @@ void bind_quality(lua_State* L)
     lua_setfield(L, -2, "sources");
     set_string(L, "__metatable", "Quality");
     lua_pop(L, 1);
-    add_methods(L, kClassName<MeshState>, kQualityMeshMethods);
-    add_methods(L, kClassName<AssemblyMeshState>, kQualityAssemblyMethods);
+    add_methods<MeshState>(L, {{"quality", mesh_quality}});
+    add_methods<AssemblyMeshState>(L, {{"quality", assembly_quality}});
 }
 
 } // namespace lacuna::lua

@@ -39,11 +39,11 @@ int sweep_to(lua_State* L)
     VolumeState& state = hold<VolumeState>(L, 1);
     const io::OutputPath& path = push_output_path(L, 2, "sweep_to");
     push_write_options(L, 3);
-    WriteArguments& file = push_layered_write(L, lua_gettop(L), path);
+    const team::WriteRequest& file = push_layered_write(L, lua_gettop(L), path);
     SweepArguments& arguments = push_sweep_arguments(L, 3, "sweep_to", state);
-    const bool layered_parts = may_be_layered_of_parts(file, path);
+    const bool layered_parts = team::may_be_layered_of_parts(file, path);
     guard(L, [&] {
-        if (!layered_parts && !closure::has_pieces(state.volume)) refuse_interfaces(file);
+        if (!layered_parts && !closure::has_pieces(state.volume)) team::refuse_interfaces(file);
     });
     arguments.layered = true;
     arguments.crew = host(L).crew;
@@ -51,10 +51,11 @@ int sweep_to(lua_State* L)
     return push_swept_volume(L, "sweep_to", state, arguments, &written, layered_parts);
 }
 
-const luaL_Reg kSweepVolumeMethods[] = {{"sweep", sweep_volume}, {"sweep_to", sweep_to}, {nullptr, nullptr}};
-
 } // namespace
 
-void bind_sweep(lua_State* L) { add_methods(L, kClassName<VolumeState>, kSweepVolumeMethods); }
+void bind_sweep(lua_State* L)
+{
+    add_methods<VolumeState>(L, {{"sweep", sweep_volume}, {"sweep_to", sweep_to}});
+}
 
 } // namespace lacuna::lua

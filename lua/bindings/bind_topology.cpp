@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Model and Face.
 #include "bindings/faces.h"
-#include "bindings/names.h"
 
 #include <lacuna/topology/shared/face_facts.h>
 #include <lacuna/topology/shared/face_radius.h>
@@ -16,123 +15,63 @@ namespace {
 
 // --- adding faces -------------------------------------------------------------------------------------
 
-struct AddedFace {
-    std::string name;
-    std::vector<Vec3> points;
-    std::vector<std::array<int, 4>> cells; ///< numbers of points, from 1; the fourth is 0 for a triangle
-    bool keep_mesh = false;
-};
-
-void read_name(lua_State* L, int index, const Where& where, AddedFace& face)
-{
-    const char* name = read_plain_name(L, index, where);
-    guard(L, [&] { face.name = name; });
-}
+using healing::AddedFace;
 
 void read_points(lua_State* L, int index, const Where& where, AddedFace& face)
 {
     const char* const expected = "an array of at least three points { x, y, z }";
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) < 3) fail_value(L, where, expected, index);
-    const std::size_t count = lua_rawlen(L, index);
-    guard(L, [&] { face.points.resize(count); });
-    std::size_t next = 0;
-    read_array(L, index, where, expected,
-               [&](int element, const Where& at) { face.points[next++] = read_vector(L, element, at); });
+    if (array_length(L, index) < 3) fail_value(L, where, expected, index);
+    read_items(L, index, where, expected, face.points, read_vector);
+}
+
+std::array<int, 4> read_cell(lua_State* L, int index, const Where& where)
+{
+    const std::size_t corners = array_length(L, index);
+    if (corners != 3 && corners != 4) fail_value(L, where, "three or four numbers of points", index);
+    std::array<int, 4> cell{};
+    for (std::size_t c = 0; c < corners; ++c) {
+        lua_rawgeti(L, index, to_lua(c));
+        if (lua_isinteger(L, -1) && lua_tointeger(L, -1) == 0)
+            fail_option(L, where, "must name points, which count from 1, found 0");
+        const int point = read_whole(L, -1, where, 1);
+        if (std::ranges::find(cell, point) != cell.end())
+            fail_option(L, where, "names point %d twice", point);
+        cell[c] = point;
+        lua_pop(L, 1);
+    }
+    return cell;
 }
 
 void read_cells(lua_State* L, int index, const Where& where, AddedFace& face)
 {
     const char* const expected = "an array of triangles { i, j, k } and quads { i, j, k, l }";
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) == 0) fail_value(L, where, expected, index);
-    const std::size_t count = lua_rawlen(L, index);
-    guard(L, [&] { face.cells.resize(count); });
-    std::size_t next = 0;
-    read_array(L, index, where, expected, [&](int element, const Where& at) {
-        const auto corners = lua_type(L, element) == LUA_TTABLE ? lua_rawlen(L, element) : 0;
-        if (corners != 3 && corners != 4) fail_value(L, at, "three or four numbers of points", element);
-        std::array<int, 4>& cell = face.cells[next++];
-        for (std::size_t corner = 0; corner < corners; ++corner) {
-            lua_rawgeti(L, element, to_lua(corner));
-            if (lua_isinteger(L, -1) && lua_tointeger(L, -1) == 0)
-                fail_option(L, at, "must name points, which count from 1, found 0");
-            cell[corner] = read_whole(L, -1, at, 1);
-            if (std::find(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(corner), cell[corner]) !=
-                cell.begin() + static_cast<std::ptrdiff_t>(corner))
-                fail_option(L, at, "names point %d twice", cell[corner]);
-            lua_pop(L, 1);
-        }
-    });
+    if (array_length(L, index) == 0) fail_value(L, where, expected, index);
+    read_items(L, index, where, expected, face.cells, read_cell);
 }
 
 const Option<AddedFace> kAddFaceOptions[] = {
-    {"name", read_name},
+    {"name", plain_name<&AddedFace::name>},
     {"points", read_points},
     {"cells", read_cells},
     {"keep_mesh", boolean<&AddedFace::keep_mesh>},
 };
 
-/// Divide a quad into two triangles along the diagonal on which they do not fold; if both or neither fold,
-/// along the shorter diagonal.
-std::array<Triangle, 2> halves(const Quad& q, const std::vector<Vec3>& points)
-{
-    const auto at = [&](int i) { return points[static_cast<std::size_t>(q[static_cast<std::size_t>(i)])]; };
-    const auto fold = [&](int a, int b, int c, int d) { // whether the halves on the diagonal a-c fold
-        const Vec3 one = (at(b) - at(a)).cross(at(c) - at(a)), two = (at(c) - at(a)).cross(at(d) - at(a));
-        return one.dot(two) <= 0;
-    };
-    const bool first_folds = fold(0, 1, 2, 3), second_folds = fold(1, 2, 3, 0);
-    const bool first = first_folds == second_folds ? (at(2) - at(0)).norm() <= (at(3) - at(1)).norm()
-                                                   : !first_folds;
-    if (first) return {Triangle{q[0], q[1], q[2]}, Triangle{q[0], q[2], q[3]}};
-    return {Triangle{q[0], q[1], q[3]}, Triangle{q[1], q[2], q[3]}};
-}
-
-void add(ModelState& state, const AddedFace& face)
-{
-    healing::FacetSoup& soup = state.added;
-    const int label = state.added_faces++;
-    const auto offset = static_cast<Index>(soup.points.size());
-    soup.points.insert(soup.points.end(), face.points.begin(), face.points.end());
-    soup.label_name.push_back(face.name);
-    soup.label_keeps_nodes.push_back(face.keep_mesh ? 1 : 0);
-    const auto add_triangle = [&](const Triangle& triangle) {
-        soup.triangles.push_back(triangle);
-        soup.triangle_label.push_back(label);
-    };
-    for (const std::array<int, 4>& cell : face.cells) {
-        const Quad q{offset + cell[0] - 1, offset + cell[1] - 1, offset + cell[2] - 1, offset + cell[3] - 1};
-        if (cell[3] == 0) {
-            add_triangle({q[0], q[1], q[2]});
-        } else if (face.keep_mesh) {
-            soup.quads.push_back(q);
-            soup.quad_label.push_back(label);
-        } else {
-            for (const Triangle& triangle : halves(q, soup.points)) add_triangle(triangle);
-        }
-    }
-    state.stale = true;
-}
-
 // --- Model ----------------------------------------------------------------------------------------------
 
-struct NewModel {
-    double tolerance = 0;
-};
-
-const Option<NewModel> kModelOptions[] = {
-    {"tolerance", positive<&NewModel::tolerance>},
-};
+const Option<healing::AddedFaces> kModelOptions[] = {
+    {"tolerance", positive<&healing::AddedFaces::tolerance>}};
 
 /// model = lacuna.model([{ tolerance = }])
 int new_model(lua_State* L)
 {
-    NewModel options;
-    read_options(L, 1, "model", kModelOptions, options);
+    lua_settop(L, 1);
+    auto& added = temporary<healing::AddedFaces>(L);
+    read_options(L, 1, "model", kModelOptions, added);
     auto& box = new_box<ModelState>(L);
     guard(L, [&] {
         box = std::make_shared<ModelState>();
         box->hand_made = true;
-        box->tolerance = options.tolerance;
+        box->added = added;
     });
     return 1;
 }
@@ -158,8 +97,11 @@ int add_face(lua_State* L)
             if (number > count)
                 fail(L, "add_face: option 'cells[%I]' names point %d; there are %d points", to_lua(c), number,
                      count);
-    guard(L, [&] { add(*state, face); });
-    push_face(L, state, FaceId(static_cast<Index>(state->added_faces - 1)));
+    guard(L, [&] {
+        add(state->added, face);
+        state->stale = true;
+    });
+    push_face(L, state, FaceId(static_cast<Index>(state->added.count - 1)));
     return 1;
 }
 
@@ -171,7 +113,7 @@ int faces(lua_State* L)
     auto& selector = temporary<Selector>(L);
     read_selector(L, 2, "faces", selector);
     auto& found = temporary<std::vector<FaceId>>(L);
-    guard(L, [&] { found = select(state->model, selector); });
+    guard(L, [&] { found = topology::select(state->model, selector); });
     push_array(L, found, [&](const auto& item) { push_face(L, state, item); });
     if (found.empty() && lua_istable(L, 2)) mark_found_nothing(L, 2);
     return 1;
@@ -207,7 +149,7 @@ int model_to_string(lua_State* L)
 {
     const auto& state = hold<ModelState>(L, 1);
     if (state.hand_made) {
-        lua_pushfstring(L, "Model of %d faces of the recipe", state.added_faces);
+        lua_pushfstring(L, "Model of %d faces of the recipe", state.added.count);
     } else {
         lua_pushfstring(L, "Model of %d faces from %s", static_cast<int>(state.model.faces.size()),
                         state.model.source.c_str());
@@ -215,18 +157,12 @@ int model_to_string(lua_State* L)
     return 1;
 }
 
-int model_tolerance(lua_State* L) { return give(L, hold_model(L, 1)->model.tolerance); }
-int model_diagonal(lua_State* L) { return give(L, hold_model(L, 1)->model.diagonal); }
-
-const luaL_Reg kTopologyModelMethods[] = {
-    {"faces", faces}, {"face", face}, {"face_from", face_from}, {"add_face", add_face}, {nullptr, nullptr},
-};
-const luaL_Reg kModelMeta[] = {{"__tostring", model_to_string}, {nullptr, nullptr}};
-const Field kModelFields[] = {
-    {"tolerance", model_tolerance},
-    {"diagonal", model_diagonal},
-    {nullptr, nullptr},
-};
+/// A field whose value `Get` takes from the model.
+template <auto Get>
+int model_field(lua_State* L)
+{
+    return give(L, Get(hold_model(L, 1)->model));
+}
 
 // --- Face -----------------------------------------------------------------------------------------------
 
@@ -250,14 +186,11 @@ const topology::Face& this_face(lua_State* L)
     return held.model[held.face];
 }
 
-int face_tag(lua_State* L) { return give(L, this_face(L).tag); }
-
-template <std::string topology::Face::*Member>
-int face_text(lua_State* L)
+/// A field whose value `Get` takes from the face.
+template <auto Get>
+int face_field(lua_State* L)
 {
-    const std::string& text = this_face(L).*Member;
-    lua_pushlstring(L, text.data(), text.size());
-    return 1;
+    return give(L, Get(this_face(L)));
 }
 
 int face_area(lua_State* L)
@@ -271,21 +204,6 @@ int face_vector(lua_State* L)
 {
     const HeldFace held = hold_face(L);
     push_vector(L, Of(held.model, held.face));
-    return 1;
-}
-
-int face_loops(lua_State* L) { return give(L, this_face(L).loops.size()); }
-
-int face_edges(lua_State* L)
-{
-    std::size_t uses = 0;
-    for (const topology::Loop& loop : this_face(L).loops) uses += loop.uses.size();
-    return give(L, uses);
-}
-
-int face_has_mesh(lua_State* L)
-{
-    lua_pushboolean(L, !this_face(L).given_quads.empty());
     return 1;
 }
 
@@ -320,10 +238,7 @@ int face_axis(lua_State* L)
 int face_box(lua_State* L)
 {
     const HeldFace held = hold_face(L);
-    Eigen::AlignedBox3d box;
-    for (const Triangle& t : held.model[held.face].triangles)
-        for (const Index p : t) box.extend(held.model.at(p));
-    push_array(L, std::array<Vec3, 2>{box.min(), box.max()}, [&](const Vec3& end) { push_vector(L, end); });
+    push_bounds(L, topology::box_of(held.model, held.face));
     return 1;
 }
 
@@ -352,39 +267,36 @@ int face_equal(lua_State* L)
     const Box<FaceHandle>* a = test_box<FaceHandle>(L, 1);
     const Box<FaceHandle>* b = test_box<FaceHandle>(L, 2);
     const bool alike = a && b && *a && *b && (*a)->model == (*b)->model;
-    lua_pushboolean(L, alike && face_now(**a) == face_now(**b) && face_now(**a).valid());
-    return 1;
+    return give(L, alike && face_now(**a) == face_now(**b) && face_now(**a).valid());
 }
-
-const Field kFaceFields[] = {
-    {"tag", face_tag},
-    {"name", face_text<&topology::Face::name>},
-    {"kind", face_text<&topology::Face::kind>},
-    {"area", face_area},
-    {"normal", face_vector<mean_normal>},
-    {"centroid", face_vector<topology::face_centroid>},
-    {"loops", face_loops},
-    {"edges", face_edges},
-    {"has_mesh", face_has_mesh},
-    {"radius", face_radius},
-    {"axis", face_axis},
-    {"box", face_box},
-    {"neighbours", face_neighbours},
-    {nullptr, nullptr},
-};
-const luaL_Reg kFaceMeta[] = {{"__tostring", face_to_string}, {"__eq", face_equal}, {nullptr, nullptr}};
-
-const luaL_Reg kTopologyFunctions[] = {{"model", new_model}, {nullptr, nullptr}};
 
 } // namespace
 
 void bind_topology(lua_State* L)
 {
-    make_class<ModelState>(L, kModelFields, kModelMeta);
-    add_methods(L, kClassName<ModelState>, kTopologyModelMethods);
+    using topology::Face;
+    make_class<ModelState>(L, {{"__tostring", model_to_string}},
+                           {{"tolerance", model_field<[](const auto& model) { return model.tolerance; }>},
+                            {"diagonal", model_field<[](const auto& model) { return model.diagonal; }>}});
+    add_methods<ModelState>(
+        L, {{"faces", faces}, {"face", face}, {"face_from", face_from}, {"add_face", add_face}});
     bind_info(L);
-    make_class<FaceHandle>(L, kFaceFields, kFaceMeta);
-    luaL_setfuncs(L, kTopologyFunctions, 0);
+    make_class<FaceHandle>(
+        L, {{"__tostring", face_to_string}, {"__eq", face_equal}},
+        {{"tag", face_field<[](const Face& face) { return face.tag; }>},
+         {"name", face_field<[](const Face& face) { return std::string_view(face.name); }>},
+         {"kind", face_field<[](const Face& face) { return std::string_view(face.kind); }>},
+         {"area", face_area},
+         {"normal", face_vector<topology::mean_normal>},
+         {"centroid", face_vector<topology::face_centroid>},
+         {"loops", face_field<[](const Face& face) { return face.loops.size(); }>},
+         {"edges", face_field<topology::edge_count>},
+         {"has_mesh", face_field<[](const Face& face) { return !face.given_quads.empty(); }>},
+         {"radius", face_radius},
+         {"axis", face_axis},
+         {"box", face_box},
+         {"neighbours", face_neighbours}});
+    set_functions(L, {{"model", new_model}});
 }
 
 } // namespace lacuna::lua

@@ -19,14 +19,7 @@ namespace lacuna::lua {
 
 namespace {
 
-template <class Options>
-void read_title(lua_State* L, int index, const Where& where, Options& options)
-{
-    const char* title = read_string(L, index, where);
-    guard(L, [&] { options.title = title; });
-}
-
-const Option<view::PageOptions> kPageOptions[] = {{"title", read_title}};
+const Option<view::PageOptions> kPageOptions[] = {{"title", text<&view::PageOptions::title>}};
 
 /// The output path of a page or picture, as a temporary. Raises an error if it has another ending.
 const io::OutputPath& push_path(lua_State* L, int index, const char* call, const char* ending)
@@ -59,36 +52,34 @@ std::vector<view::Region> regions_of(const AssemblyMeshState& state)
     return regions;
 }
 
-void write_page(ModelState& state, const io::OutputPath& path, view::PageOptions& options,
-                const RunContext& context)
+// Call `show` with the part of an object that pages and pictures show.
+template <class Show>
+void with_shown(ModelState& state, const RunContext& context, const Show& show)
 {
     refresh(state, context);
-    options.path = loadable(state);
-    view::write_page(state.model, path, options, context);
+    show(state.model);
 }
-void write_page(const VolumeState& state, const io::OutputPath& path, const view::PageOptions& options,
-                const RunContext& context)
+template <class Show>
+void with_shown(const VolumeState& state, const RunContext& /*context*/, const Show& show)
 {
-    view::write_page(state.volume, path, options, context);
+    show(state.volume);
 }
-void write_page(AssemblyMeshState& state, const io::OutputPath& path, const view::PageOptions& options,
-                const RunContext& context)
+template <class Show>
+void with_shown(const MeshState& state, const RunContext& /*context*/, const Show& show)
+{
+    show(regions_of(state));
+}
+template <class Show>
+void with_shown(AssemblyMeshState& state, const RunContext& context, const Show& show)
 {
     fill::hold_nodes(state, context);
-    if (state.tets.empty()) return view::write_page(regions_of(state), path, options, context);
-    view::write_page(fill::whole_deck(state, {.format = io::DeckFormat::msh}, false, context), path, options,
-                     context);
+    if (state.tets.empty()) return show(regions_of(state));
+    show(fill::whole_deck(state, {.format = io::DeckFormat::msh}, false, context));
 }
-void write_page(const MeshState& state, const io::OutputPath& path, const view::PageOptions& options,
-                const RunContext& context)
+template <class Show>
+void with_shown(const QuadMeshState& state, const RunContext& context, const Show& show)
 {
-    view::write_page(regions_of(state), path, options, context);
-}
-
-void write_page(const QuadMeshState& state, const io::OutputPath& path, const view::PageOptions& options,
-                const RunContext& context)
-{
-    view::write_page(fill::model_of(state, context), path, options, context);
+    show(fill::model_of(state, context));
 }
 
 /// x:view(path [, options])
@@ -101,7 +92,11 @@ int view_page(lua_State* L)
     auto& options = temporary<view::PageOptions>(L);
     read_options(L, 3, "view", kPageOptions, options);
     RunContext& context = push_context(L);
-    guard(L, [&] { write_page(state, path, options, context); });
+    guard(L, [&] {
+        if constexpr (std::is_same_v<State, ModelState>) options.path = loadable(state);
+        with_shown(state, context,
+                   [&](const auto& shown) { view::write_page(shown, path, options, context); });
+    });
     return 0;
 }
 
@@ -139,7 +134,7 @@ void read_cut(lua_State* L, int index, const Where& where, view::PictureOptions&
 
 void read_shown_layers(lua_State* L, int index, const Where& where, view::PictureOptions& options)
 {
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2)
+    if (array_length(L, index) != 2)
         fail_value(L, where, "an array of two numbers of layers, from and to", index);
     std::array<int, 2> layers{};
     std::size_t next = 0;
@@ -157,7 +152,7 @@ const Option<view::PictureOptions> kPictureOptions[] = {
     {"layers", read_shown_layers},
     {"edges", boolean<&view::PictureOptions::edges>},
     {"legend", boolean<&view::PictureOptions::legend>},
-    {"title", read_title},
+    {"title", text<&view::PictureOptions::title>},
 };
 /// Options for pictures of faces, which have no cells.
 const Option<view::PictureOptions> kFacePictureOptions[] = {
@@ -166,41 +161,8 @@ const Option<view::PictureOptions> kFacePictureOptions[] = {
     {"view", read_direction},
     {"facets", boolean<&view::PictureOptions::facets>},
     {"legend", boolean<&view::PictureOptions::legend>},
-    {"title", read_title},
+    {"title", text<&view::PictureOptions::title>},
 };
-
-void draw(ModelState& state, const io::OutputPath& path, const view::PictureOptions& options,
-          const RunContext& context)
-{
-    refresh(state, context);
-    view::write_picture(state.model, path, options, context);
-}
-
-void draw(const VolumeState& state, const io::OutputPath& path, const view::PictureOptions& options,
-          const RunContext& context)
-{
-    view::write_picture(state.volume, path, options, context);
-}
-
-void draw(AssemblyMeshState& state, const io::OutputPath& path, const view::PictureOptions& options,
-          const RunContext& context)
-{
-    fill::hold_nodes(state, context);
-    if (state.tets.empty()) return view::write_picture(regions_of(state), path, options, context);
-    view::write_picture(fill::whole_deck(state, {.format = io::DeckFormat::msh}, false, context), path,
-                        options, context);
-}
-void draw(const MeshState& state, const io::OutputPath& path, const view::PictureOptions& options,
-          const RunContext& context)
-{
-    view::write_picture(regions_of(state), path, options, context);
-}
-
-void draw(const QuadMeshState& state, const io::OutputPath& path, const view::PictureOptions& options,
-          const RunContext& context)
-{
-    view::write_picture(fill::model_of(state, context), path, options, context);
-}
 
 /// x:picture(path [, options])
 template <class State, const auto& Table>
@@ -212,7 +174,10 @@ int picture(lua_State* L)
     auto& options = temporary<view::PictureOptions>(L);
     read_options(L, 3, "picture", Table, options);
     RunContext& context = push_context(L);
-    guard(L, [&] { draw(state, path, options, context); });
+    guard(L, [&] {
+        with_shown(state, context,
+                   [&](const auto& shown) { view::write_picture(shown, path, options, context); });
+    });
     return 0;
 }
 
@@ -226,12 +191,8 @@ struct ViewFile {
     Show show = Show::automatic;
 };
 
-void read_file_title(lua_State* L, int index, const Where& where, ViewFile& options)
-{
-    read_title(L, index, where, options.page);
-}
-
-const Option<ViewFile> kFileOptions[] = {{"title", read_file_title}, {"show", word<&ViewFile::show, kShows>}};
+const Option<ViewFile> kFileOptions[] = {{"title", text<&ViewFile::page, &view::PageOptions::title>},
+                                         {"show", word<&ViewFile::show, kShows>}};
 
 bool is_deck(const std::string& file)
 {
@@ -278,32 +239,22 @@ int view(lua_State* L)
     return 1;
 }
 
-const luaL_Reg kViewModelMethods[] = {{"view", view_page<ModelState>},
-                                      {"picture", picture<ModelState, kFacePictureOptions>},
-                                      {nullptr, nullptr}};
-const luaL_Reg kViewVolumeMethods[] = {{"view", view_page<VolumeState>},
-                                       {"picture", picture<VolumeState, kFacePictureOptions>},
-                                       {nullptr, nullptr}};
-const luaL_Reg kViewMeshMethods[] = {
-    {"view", view_page<MeshState>}, {"picture", picture<MeshState, kPictureOptions>}, {nullptr, nullptr}};
-const luaL_Reg kViewAssemblyMethods[] = {{"view", view_page<AssemblyMeshState>},
-                                         {"picture", picture<AssemblyMeshState, kPictureOptions>},
-                                         {nullptr, nullptr}};
-const luaL_Reg kViewQuadsMethods[] = {{"view", view_page<QuadMeshState>},
-                                      {"picture", picture<QuadMeshState, kFacePictureOptions>},
-                                      {nullptr, nullptr}};
-const luaL_Reg kViewFunctions[] = {{"view", view}, {nullptr, nullptr}};
+template <class State, const auto& Pictures>
+void add_views(lua_State* L)
+{
+    add_methods<State>(L, {{"view", view_page<State>}, {"picture", picture<State, Pictures>}});
+}
 
 } // namespace
 
 void bind_view(lua_State* L)
 {
-    luaL_setfuncs(L, kViewFunctions, 0);
-    add_methods(L, kClassName<ModelState>, kViewModelMethods);
-    add_methods(L, kClassName<VolumeState>, kViewVolumeMethods);
-    add_methods(L, kClassName<MeshState>, kViewMeshMethods);
-    add_methods(L, kClassName<AssemblyMeshState>, kViewAssemblyMethods);
-    add_methods(L, kClassName<QuadMeshState>, kViewQuadsMethods);
+    set_functions(L, {{"view", view}});
+    add_views<ModelState, kFacePictureOptions>(L);
+    add_views<VolumeState, kFacePictureOptions>(L);
+    add_views<MeshState, kPictureOptions>(L);
+    add_views<AssemblyMeshState, kPictureOptions>(L);
+    add_views<QuadMeshState, kFacePictureOptions>(L);
 }
 
 } // namespace lacuna::lua

@@ -122,11 +122,7 @@ int error_length(lua_State* L)
 void push_error_meta(lua_State* L)
 {
     if (luaL_newmetatable(L, kErrorMeta) == 0) return;
-    const luaL_Reg meta[] = {{"__tostring", error_to_string},
-                             {"__concat", error_concat},
-                             {"__len", error_length},
-                             {nullptr, nullptr}};
-    luaL_setfuncs(L, meta, 0);
+    set_functions(L, {{"__tostring", error_to_string}, {"__concat", error_concat}, {"__len", error_length}});
     luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
     lua_getfield(L, -1, LUA_STRLIBNAME);
     lua_remove(L, -2);
@@ -325,8 +321,7 @@ Living& ring(lua_State* L)
     lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey);
     auto& ring = *new (lua_newuserdatauv(L, sizeof(Living), 0)) Living();
     lua_createtable(L, 0, 1);
-    lua_pushcfunction(L, empty_ring);
-    lua_setfield(L, -2, "__gc");
+    set_functions(L, {{"__gc", empty_ring}});
     lua_setmetatable(L, -2); // nothing raises from here on
     lua_rawsetp(L, LUA_REGISTRYINDEX, &kRingKey);
     return ring;
@@ -344,12 +339,8 @@ void push_release_table(lua_State* L, bool closes)
     if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TTABLE) return;
     lua_pop(L, 1);
     lua_createtable(L, 0, 2);
-    lua_pushcfunction(L, release_living);
-    lua_setfield(L, -2, "__gc");
-    if (closes) {
-        lua_pushcfunction(L, release_living);
-        lua_setfield(L, -2, "__close");
-    }
+    set_functions(L, {{"__gc", release_living}});
+    if (closes) set_functions(L, {{"__close", release_living}});
     lua_pushvalue(L, -1);
     lua_rawsetp(L, LUA_REGISTRYINDEX, key);
 }
@@ -415,18 +406,23 @@ void keep_callback_error(lua_State* L)
     lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey); // the slot was made by make_class: no allocation
 }
 
-void make_class(lua_State* L, const char* name, const Field* fields, const luaL_Reg* meta)
+void set_functions(lua_State* L, Functions functions)
+{
+    for (const luaL_Reg& function : functions) {
+        lua_pushcfunction(L, function.func);
+        lua_setfield(L, -2, function.name);
+    }
+}
+
+void make_class(lua_State* L, const char* name, Functions meta, Functions fields)
 {
     ring(L);
     lua_pushboolean(L, 0);
     lua_rawsetp(L, LUA_REGISTRYINDEX, &kCallbackErrorKey);
 
     luaL_newmetatable(L, name);
-    if (meta) luaL_setfuncs(L, meta, 0);
-    lua_pushcfunction(L, release_living);
-    lua_setfield(L, -2, "__gc");
-    lua_pushcfunction(L, release_living);
-    lua_setfield(L, -2, "__close");
+    set_functions(L, meta);
+    set_functions(L, {{"__gc", release_living}, {"__close", release_living}});
     lua_pushliteral(L, "a class of lacuna");
     lua_setfield(L, -2, "__metatable");
 
@@ -435,10 +431,7 @@ void make_class(lua_State* L, const char* name, const Field* fields, const luaL_
     lua_pushvalue(L, -1);
     lua_setfield(L, -4, "methods");
     lua_newtable(L);
-    for (const Field* field = fields; field && field->name; ++field) {
-        lua_pushcfunction(L, field->get);
-        lua_setfield(L, -2, field->name);
-    }
+    set_functions(L, fields);
     lua_pushvalue(L, -1);
     lua_setfield(L, -5, "fields");
     lua_pushcclosure(L, index_class, 3);
@@ -446,11 +439,11 @@ void make_class(lua_State* L, const char* name, const Field* fields, const luaL_
     lua_pop(L, 1);
 }
 
-void add_methods(lua_State* L, const char* class_name, const luaL_Reg* methods)
+void add_methods(lua_State* L, const char* class_name, Functions methods)
 {
     luaL_getmetatable(L, class_name);
     lua_getfield(L, -1, "methods");
-    luaL_setfuncs(L, methods, 0);
+    set_functions(L, methods);
     lua_pop(L, 2);
 }
 

@@ -18,6 +18,7 @@
 #include <lacuna/core/message.h>
 
 #include <exception>
+#include <initializer_list>
 #include <memory>
 #include <new>
 #include <string>
@@ -199,21 +200,25 @@ void push_text(lua_State* L, Make&& make)
 
 // --- boxes: userdata that share a kernel object -------------------------------------------------------
 
-/// A field of a class, read as `object.name`. `get` pushes one value; the object is at index 1.
-struct Field {
-    const char* name;
-    lua_CFunction get;
-};
+using Functions = std::initializer_list<luaL_Reg>;
 
-/// Make a class with its fields and metamethods (`__tostring`, …). Lists end with a null name.
-void make_class(lua_State* L, const char* name, const Field* fields, const luaL_Reg* meta);
+/// Set functions in the table on top of the stack.
+void set_functions(lua_State* L, Functions functions);
+/// Make a class with metamethods (`__tostring`, …) and fields, which are read as `object.name`: their
+/// functions push one value.
+void make_class(lua_State* L, const char* name, Functions meta, Functions fields);
 /// Add methods to an existing class; each kernel folder adds its own.
-void add_methods(lua_State* L, const char* class_name, const luaL_Reg* methods);
+void add_methods(lua_State* L, const char* class_name, Functions methods);
 
 template <class T>
-void make_class(lua_State* L, const Field* fields, const luaL_Reg* meta)
+void make_class(lua_State* L, Functions meta, Functions fields = {})
 {
-    make_class(L, kClassName<T>, fields, meta);
+    make_class(L, kClassName<T>, meta, fields);
+}
+template <class T>
+void add_methods(lua_State* L, Functions methods)
+{
+    add_methods(L, kClassName<T>, methods);
 }
 
 /// Push an empty box, to be filled inside a guard.

@@ -3,48 +3,15 @@
 
 #include "bindings/lacuna_lua.h"
 
+#include <array>
 #include <utility>
 
 namespace lacuna::lua {
 
-namespace {
-
-/// Put faces in the order of their labels: the splitter makes those of triangles before those of quads.
-/// @pre one face for each label.
-void put_in_order_of_adding(topology::ModelBuilder& model, const healing::FacetSoup& soup)
-{
-    std::vector<topology::Face> faces(model.faces.size());
-    std::vector<bool> met(model.faces.size(), false);
-    std::size_t next = 0;
-    for (const std::vector<int>* labels : {&soup.triangle_label, &soup.quad_label})
-        for (const int label : *labels) {
-            const auto place = static_cast<std::size_t>(label);
-            if (met[place]) continue;
-            met[place] = true;
-            faces[place] = std::move(model.faces[next++]);
-            faces[place].tag = label + 1;
-        }
-    model.faces = std::move(faces);
-}
-
-} // namespace
-
 void refresh(ModelState& state, const RunContext& context)
 {
     if (!state.stale) return;
-    healing::SplitOptions options;
-    options.whole_labels = true;
-    options.tolerance = state.tolerance;
-    topology::ModelBuilder model(healing::split_facets(state.added, options, context));
-    if (model.faces.size() != static_cast<std::size_t>(state.added_faces))
-        throw InvalidInput(Message("lua.face_in_parts",
-                                   "the {} added faces became {}, because the cells of a face are not "
-                                   "connected",
-                                   needed(state.added_faces), found(model.faces.size()))
-                               .remedy("add each part as a face of its own"));
-    put_in_order_of_adding(model, state.added);
-    model.source = "faces of the recipe";
-    state.model = std::move(model).finish();
+    state.model = healing::model_of(state.added, context);
     state.stale = false;
 }
 
@@ -106,11 +73,12 @@ RunContext& push_context(lua_State* L)
 
 void push_vector(lua_State* L, const Vec3& vector)
 {
-    lua_createtable(L, 3, 0);
-    for (int i = 0; i < 3; ++i) {
-        lua_pushnumber(L, vector[i]);
-        lua_rawseti(L, -2, i + 1);
-    }
+    push_array(L, std::array{vector.x(), vector.y(), vector.z()}, [L](double x) { lua_pushnumber(L, x); });
+}
+
+void push_bounds(lua_State* L, const Eigen::AlignedBox3d& box)
+{
+    push_array(L, std::array<Vec3, 2>{box.min(), box.max()}, [L](const Vec3& end) { push_vector(L, end); });
 }
 
 void set_vector(lua_State* L, const char* key, const Vec3& vector)
@@ -142,13 +110,7 @@ void set_boolean(lua_State* L, const char* key, bool value)
     lua_setfield(L, -2, key);
 }
 
-void set_string(lua_State* L, const char* key, const char* value)
-{
-    lua_pushstring(L, value);
-    lua_setfield(L, -2, key);
-}
-
-void set_string(lua_State* L, const char* key, const std::string& value)
+void set_string(lua_State* L, const char* key, std::string_view value)
 {
     lua_pushlstring(L, value.data(), value.size());
     lua_setfield(L, -2, key);

@@ -8,12 +8,15 @@
 
 #include <lacuna/core/run_context.h>
 #include <lacuna/fill.h>
-#include <lacuna/healing/split_facets.h>
+#include <lacuna/fill/shared/cell_data.h>
+#include <lacuna/healing/shared/added_faces.h>
+#include <lacuna/io/load_facets.h>
 #include <lacuna/topology/model.h>
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,16 +24,10 @@ namespace lacuna::lua {
 
 /// A model that was read, or one made by hand, to which a recipe adds faces. The facets of added faces are
 /// collected first; the topology is made when it is needed.
-struct ModelState {
-    topology::Model model;
+struct ModelState : io::LoadedFiles {
     bool hand_made = false;
-    double tolerance = 0;     ///< with `hand_made`: points closer than this are merged; 0: the default
-    healing::FacetSoup added; ///< with `hand_made`: facets, one label for each face in the order of adding
-    int added_faces = 0;
-    bool stale = false;                                 ///< `model` lacks faces of `added`
-    std::vector<std::shared_ptr<const io::Deck>> decks; ///< the meshes it was read from
-    double scale = 1;                                   ///< model coordinates / coordinates of `decks`
-    std::string unit;                                   ///< declared unit of its coordinates; empty: none
+    healing::AddedFaces added{}; ///< with `hand_made`
+    bool stale = false;          ///< `model` lacks faces of `added`
     /// For each face that was grown: the new id of every earlier face; not valid: merged into the grown one.
     std::vector<std::vector<FaceId>> moves;
 };
@@ -105,6 +102,7 @@ struct AssemblyState {
         std::shared_ptr<VolumeState> volume;
         std::shared_ptr<MeshState> mesh;
         std::shared_ptr<AssemblyMeshState> meshes;
+        [[nodiscard]] fill::Member member() const { return {volume.get(), mesh.get(), meshes.get()}; }
         friend bool operator==(const Entry&, const Entry&) = default;
     };
     std::vector<Entry> entries;
@@ -143,8 +141,8 @@ void set_number(lua_State* L, const char* key, double value);
 void set_whole(lua_State* L, const char* key, lua_Integer value);
 void set_count(lua_State* L, const char* key, std::size_t value);
 void set_boolean(lua_State* L, const char* key, bool value);
-void set_string(lua_State* L, const char* key, const char* value);
-void set_string(lua_State* L, const char* key, const std::string& value); ///< any bytes
+void set_string(lua_State* L, const char* key, std::string_view value); ///< any bytes
+void push_bounds(lua_State* L, const Eigen::AlignedBox3d& box);         ///< { {x, y, z}, {x, y, z} }
 void set_strings(lua_State* L, const char* key, const std::vector<std::string>& values);
 /// The option `contacts` of the table at `index`, as a temporary.
 fill::ContactRequest& push_contact_request(lua_State* L, int index);
@@ -186,6 +184,22 @@ inline int give(lua_State* L, std::integral auto value)
     lua_pushinteger(L, static_cast<lua_Integer>(value));
     return 1;
 }
+inline int give(lua_State* L, bool value)
+{
+    lua_pushboolean(L, value);
+    return 1;
+}
+inline int give(lua_State* L, std::string_view value)
+{
+    lua_pushlstring(L, value.data(), value.size());
+    return 1;
+}
+/// A field whose value `Get` takes from the object.
+template <class State, auto Get>
+int field(lua_State* L)
+{
+    return give(L, Get(check<State>(L, 1)));
+}
 
 /// An edge of the model as a table: its tag, those of its ends, its length.
 void push_edge(lua_State* L, const topology::Model& model, EdgeId edge);
@@ -198,13 +212,51 @@ void set_tags(lua_State* L, const char* key, const topology::Model& model, const
     lua_setfield(L, -2, key);
 }
 
-// --- fields and methods that a Mesh and an AssemblyMesh share ------------------------------------------
+// --- fields and methods that several kinds of meshes share ------------------------------------------
 
+template <class State>
+int mesh_nodes(lua_State* L)
+{
+    return give(L, fill::node_count(check<State>(L, 1)));
+}
 template <class State>
 int mesh_order(lua_State* L)
 {
-    const std::span<const sweep::Swept> parts = fill::parts(check<State>(L, 1));
-    return give(L, parts.empty() ? 1 : parts.front().mesh.order());
+    return give(L, fill::order(check<State>(L, 1)));
+}
+/// Number of cells of a shape that the mesh cannot have
+template <class State>
+int no_cells(lua_State* L)
+{
+    check<State>(L, 1);
+    return give(L, 0);
+}
+template <class State, mesh::CellShape Shape>
+int cell_count(lua_State* L)
+{
+    return give(L, fill::cell_count(check<State>(L, 1), Shape));
+}
+/// x, y, z = mesh:node(i)
+template <class State>
+int mesh_node(lua_State* L)
+{
+    lua_settop(L, 2);
+    const State& state = check<State>(L, 1);
+    for (const double x : fill::node(state, check_number(L, "node", fill::node_count(state))))
+        lua_pushnumber(L, x);
+    return 3;
+}
+/// n1, ... = mesh:hex(i), mesh:wedge(i), mesh:pyramid(i) or mesh:tet(i): the corners, also of cells of order
+/// 2. Cells are numbered part by part.
+template <class State, mesh::CellShape Shape>
+int cell(lua_State* L)
+{
+    lua_settop(L, 2);
+    const State& state = check<State>(L, 1);
+    const std::size_t number = check_number(L, fill::shape_name(Shape), fill::cell_count(state, Shape));
+    const mesh::CellNodes corners = fill::cell(state, Shape, number);
+    for (const Index corner : corners) lua_pushinteger(L, to_lua(corner));
+    return static_cast<int>(corners.count);
 }
 /// { {name=, dim=, cells=}, ... } = mesh:groups()
 template <class State>

@@ -3,9 +3,7 @@
 
 #include <lacuna/core/error.h>
 #include <lacuna/core/shared/list_text.h>
-#include <lacuna/geometry/shared/facet_tree.h>
 #include <lacuna/healing/shared/grow_face.h>
-#include <lacuna/topology/shared/face_radius.h>
 #include <lacuna/topology/shared/names_of.h>
 
 #include <algorithm>
@@ -26,23 +24,11 @@ const char* const kKinds[] = {"plane", "cylinder", "cone",    "sphere",
 
 void read_tags(lua_State* L, int index, const Where& where, Selector& selector)
 {
-    const auto count = lua_type(L, index) == LUA_TTABLE ? lua_rawlen(L, index) : 1;
-    guard(L, [&] { selector.tags.emplace(count); });
-    if (lua_type(L, index) != LUA_TTABLE) {
-        selector.tags->front() = read_whole(L, index, where, 0);
-        return;
-    }
-    std::size_t next = 0;
-    read_array(L, index, where, "a tag or an array of tags", [&](int element, const Where& at) {
-        (*selector.tags)[next++] = read_whole(L, element, at, 0);
-    });
-}
-
-template <auto Member>
-void read_text(lua_State* L, int index, const Where& where, Selector& selector)
-{
-    const char* text = read_string(L, index, where);
-    guard(L, [&] { selector.*Member = text; });
+    guard(L, [&] { selector.tags.emplace(1); });
+    if (lua_type(L, index) == LUA_TTABLE)
+        read_items(L, index, where, "", *selector.tags, read_tag);
+    else
+        selector.tags->front() = read_tag(L, index, where);
 }
 
 void read_kind(lua_State* L, int index, const Where& where, Selector& selector)
@@ -58,23 +44,18 @@ void read_facing(lua_State* L, int index, const Where& where, Selector& selector
     selector.facing = facing.normalized();
 }
 
-void read_near(lua_State* L, int index, const Where& where, Selector& selector)
-{
-    selector.near = read_vector(L, index, where);
-}
-
 /// { min, max }, of which max may be math.huge.
 std::array<double, 2> read_range(lua_State* L, int index, const Where& where, const char* expected)
 {
     std::array<double, 2> range{};
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) fail_value(L, where, expected, index);
-    for (int i = 0; i < 2; ++i) {
-        lua_rawgeti(L, index, i + 1);
-        if (lua_type(L, -1) != LUA_TNUMBER || std::isnan(lua_tonumber(L, -1)))
-            fail_value(L, where, "two numbers", -1);
-        range[static_cast<std::size_t>(i)] = lua_tonumber(L, -1);
-        lua_pop(L, 1);
+    if (array_length(L, index) != 2) fail_value(L, where, expected, index);
+    for (double& bound : range) {
+        const int at = push_element(L, index, &bound == &range[0] ? 1 : 2);
+        if (lua_type(L, at) != LUA_TNUMBER || std::isnan(lua_tonumber(L, at)))
+            fail_value(L, where, "two numbers", at);
+        bound = lua_tonumber(L, at);
     }
+    lua_pop(L, 2);
     if (range[0] > range[1])
         fail_option(L, where, "must be in increasing order, found { %f, %f }", range[0], range[1]);
     return range;
@@ -93,22 +74,11 @@ void read_radius(lua_State* L, int index, const Where& where, Selector& selector
 void read_box(lua_State* L, int index, const Where& where, Selector& selector)
 {
     const char* const expected = "two corners, { {x, y, z}, {x, y, z} }";
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) fail_value(L, where, expected, index);
+    if (array_length(L, index) != 2) fail_value(L, where, expected, index);
     Eigen::AlignedBox3d box;
     read_array(L, index, where, expected,
                [&](int element, const Where& at) { box.extend(read_vector(L, element, at)); });
     selector.box = box;
-}
-
-void read_free(lua_State* L, int index, const Where& where, Selector& selector)
-{
-    selector.free = read_boolean(L, index, where);
-}
-
-void read_normal_within(lua_State* L, int index, const Where& where, Selector& selector)
-{
-    selector.normal_within = read_positive(L, index, where);
-    if (selector.normal_within > 180) fail_value(L, where, "degrees in (0, 180]", index);
 }
 
 void read_touching(lua_State* L, int index, const Where& where, Selector& selector)
@@ -116,7 +86,7 @@ void read_touching(lua_State* L, int index, const Where& where, Selector& select
     if (const Box<FaceHandle>* handle = test_box<FaceHandle>(L, index); handle && *handle) {
         guard(L, [&] {
             selector.touching = face_of(**handle);
-            selector.touching_model = (*handle)->model;
+            selector.touching_model = &(*handle)->model->model;
         });
     } else if (lua_type(L, index) == LUA_TNUMBER) {
         selector.touching_tag = read_whole(L, index, where, 0);
@@ -130,122 +100,19 @@ void read_touching(lua_State* L, int index, const Where& where, Selector& select
 
 const Option<Selector> kSelectorOptions[] = {
     {"tags", read_tags},
-    {"name", read_text<&Selector::name>},
+    {"name", text<&Selector::name>},
     {"kind", read_kind},
     {"facing", read_facing},
-    {"near", read_near},
+    {"near", vector<&Selector::near>},
     {"area", read_area},
     {"box", read_box},
     {"touching", read_touching},
-    {"free", read_free},
-    {"region", read_text<&Selector::region>},
+    {"free", boolean<&Selector::free>},
+    {"region", text<&Selector::region>},
     {"radius", read_radius},
-    {"normal_within", read_normal_within},
+    {"normal_within", degrees<&Selector::normal_within>},
     {"within", positive<&Selector::within>},
 };
-
-/// Squared distance from a place to the facets of a face.
-double distance(const topology::Model& model, FaceId face, const Vec3& place)
-{
-    double least = std::numeric_limits<double>::infinity();
-    for (const Triangle& t : model[face].triangles) {
-        const auto hit = geometry::closest_on_triangle(place,
-                                                       {model.at(t[0]), model.at(t[1]), model.at(t[2])});
-        least = std::min(least, hit.distance2);
-    }
-    return least;
-}
-
-bool is_called(const topology::Face& face, const std::string& name)
-{
-    return face.name == name || std::ranges::find(face.groups, name) != face.groups.end();
-}
-
-bool bounds(const topology::Face& face, const std::string& region)
-{
-    return std::ranges::any_of(
-        face.regions, [&](const auto& names) { return std::ranges::find(names, region) != names.end(); });
-}
-
-/// Whether all of a face is in a box, within the model's tolerance.
-bool lies_in(const topology::Model& model, const topology::Face& face, const Eigen::AlignedBox3d& box)
-{
-    const Vec3 slack = Vec3::Constant(model.tolerance);
-    const Eigen::AlignedBox3d wide(box.min() - slack, box.max() + slack);
-    return std::ranges::all_of(face.triangles, [&](const Triangle& t) {
-        return std::ranges::all_of(t, [&](Index p) { return wide.contains(model.at(p)); });
-    });
-}
-
-/// The tag of the face that was kept where the file lists a face twice; empty for any other face.
-std::optional<int> kept_of_two(const topology::Model& model, int tag)
-{
-    for (const Message& note : model.notes) {
-        if (note.code() != "healing.repeated_face") continue;
-        const auto kept = static_cast<int>(note.entities().back().tag);
-        if (kept == tag || note.entities().front().tag == tag) return kept;
-    }
-    return std::nullopt;
-}
-
-/// The faces that `touching` names, which are not selected themselves, and their edges.
-struct Touched {
-    std::vector<bool> face, edge;
-};
-Touched touched(const topology::Model& model, const Selector& selector)
-{
-    Touched found{std::vector<bool>(model.faces.size()), std::vector<bool>(model.edges.size())};
-    if (selector.touching_model && &selector.touching_model->model != &model)
-        throw InvalidInput("lua.other_model", "option 'touching' is a face of another model");
-    bool any = false;
-    for (std::size_t f = 0; f < model.faces.size(); ++f) {
-        const topology::Face& face = model.faces[f];
-        found.face[f] = selector.touching_model ? selector.touching == FaceId(f)
-                        : selector.touching_tag ? face.tag == *selector.touching_tag
-                                                : is_called(face, selector.touching_name);
-        any = any || found.face[f];
-        if (!found.face[f]) continue;
-        for (const topology::Loop& loop : face.loops)
-            for (const topology::EdgeUse& use : loop.uses) found.edge[use.edge.index()] = true;
-    }
-    if (!any)
-        throw InvalidInput("lua.no_face", "option 'touching' names a face that the model does not "
-                                          "have");
-    return found;
-}
-
-void keep_touching(const topology::Model& model, const Selector& selector, std::vector<FaceId>& faces)
-{
-    const Touched by = touched(model, selector);
-    std::erase_if(faces, [&](FaceId f) {
-        if (by.face[f.index()]) return true;
-        for (const topology::Loop& loop : model[f].loops)
-            for (const topology::EdgeUse& use : loop.uses)
-                if (by.edge[use.edge.index()]) return false;
-        return true;
-    });
-}
-
-bool matches(const topology::Model& model, FaceId id, const Selector& selector)
-{
-    const topology::Face& face = model[id];
-    if (selector.tags && std::ranges::find(*selector.tags, face.tag) == selector.tags->end()) return false;
-    if (!selector.name.empty() && !is_called(face, selector.name)) return false;
-    if (!selector.region.empty() && !bounds(face, selector.region)) return false;
-    if (selector.free && *selector.free != (face.regions.size() < 2)) return false;
-    if (!selector.kind.empty() && face.kind != selector.kind) return false;
-    if (selector.facing) {
-        const double within = std::cos(selector.normal_within * std::numbers::pi / 180);
-        if (!(mean_normal(model, id).dot(*selector.facing) >= within)) return false;
-    }
-    if (selector.box && !lies_in(model, face, *selector.box)) return false;
-    if (selector.radius) {
-        const std::optional<double> radius = topology::face_radius(model, id);
-        if (!radius || *radius < (*selector.radius)[0] || *radius > (*selector.radius)[1]) return false;
-    }
-    const double area = topology::face_area(model, id);
-    return area >= selector.area[0] && area <= selector.area[1];
-}
 
 /// Append the faces that `pick` returns. If there are none, raise an error with the reason and the model's
 /// faces.
@@ -259,7 +126,8 @@ void append(lua_State* L, const Where& where, const topology::Model& model, std:
         for (const FaceId face : pick()) {
             any = true;
             // Both tags of a face that the file lists twice may be named.
-            const bool again = tag && kept_of_two(model, *tag) && std::ranges::count(faces, face) > 0;
+            const bool again = tag && topology::kept_of_two(model, *tag) &&
+                               std::ranges::count(faces, face) > 0;
             if (!again) faces.push_back(face);
         }
     });
@@ -343,7 +211,7 @@ void read_one_face(lua_State* L, int index, const Where& where, const Box<ModelS
     default:
         fail_value(L, where, "a Face, a tag, a name, a selector or an array of those", index);
     }
-    append(L, where, model, faces, none, missing, [&] { return select(model, wanted); });
+    append(L, where, model, faces, none, missing, [&] { return topology::select(model, wanted); });
 }
 
 /// Metatable field of an array that a selector returned empty: the selector as text.
@@ -354,23 +222,11 @@ struct GrowArguments {
     double angle = healing::GrowOptions{}.angle;
 };
 
-template <auto Read>
-void selecting(lua_State* L, int index, const Where& where, GrowArguments& arguments)
-{
-    Read(L, index, where, arguments.selector);
-}
-
-void read_angle(lua_State* L, int index, const Where& where, GrowArguments& arguments)
-{
-    arguments.angle = read_positive(L, index, where);
-    if (arguments.angle > 180) fail_value(L, where, "degrees in (0, 180]", index);
-}
-
 const Option<GrowArguments> kGrowOptions[] = {
-    {"near", selecting<read_near>},
-    {"angle", read_angle},
-    {"region", selecting<read_text<&Selector::region>>},
-    {"free", selecting<read_free>},
+    {"near", vector<&GrowArguments::selector, &Selector::near>},
+    {"angle", degrees<&GrowArguments::angle>},
+    {"region", text<&GrowArguments::selector, &Selector::region>},
+    {"free", boolean<&GrowArguments::selector, &Selector::free>},
 };
 
 } // namespace
@@ -413,7 +269,7 @@ FaceId grow_face(lua_State* L, int index, const Box<ModelState>& state)
     FaceId face;
     guard(L, [&] {
         const Vec3 near = *std::exchange(arguments.selector.near, std::nullopt);
-        const std::vector<FaceId> among = select(state->model, arguments.selector);
+        const std::vector<FaceId> among = topology::select(state->model, arguments.selector);
         healing::GrownFace grown = healing::grow_face(state->model, near, among, {arguments.angle}, context);
         face = grown.face;
         state->moves.push_back(std::move(grown.now));
@@ -427,28 +283,6 @@ void read_selector(lua_State* L, int index, const char* call, Selector& selector
     read_options(L, index, call, kSelectorOptions, selector);
     if (selector.within && !selector.near)
         fail(L, "%s: option 'within' is a distance from 'near', which is missing", call);
-}
-
-std::vector<FaceId> select(const topology::Model& model, Selector selector)
-{
-    const auto kept = [&](int& tag) { tag = kept_of_two(model, tag).value_or(tag); };
-    if (selector.tags) std::ranges::for_each(*selector.tags, kept);
-    if (selector.touching_tag) kept(*selector.touching_tag);
-    std::vector<FaceId> faces;
-    for (const FaceId face : topology::all_faces(model))
-        if (matches(model, face, selector)) faces.push_back(face);
-    if (selector.touching_model || selector.touching_tag || !selector.touching_name.empty())
-        keep_touching(model, selector, faces);
-    if (!selector.near || faces.empty()) return faces;
-    if (selector.within) {
-        const double most = *selector.within * *selector.within;
-        std::erase_if(faces, [&](FaceId f) { return distance(model, f, *selector.near) > most; });
-        return faces;
-    }
-    const auto further = [&](FaceId a, FaceId b) {
-        return distance(model, a, *selector.near) < distance(model, b, *selector.near);
-    };
-    return {*std::ranges::min_element(faces, further)};
 }
 
 void read_faces(lua_State* L, int index, const Where& where, const Box<ModelState>& model,
@@ -476,6 +310,24 @@ void read_faces(lua_State* L, int index, const Where& where, const Box<ModelStat
     read_one_face(L, index, where, model, faces);
 }
 
+FaceId read_any_face(lua_State* L, int index, const Where& where, const Box<ModelState>& model,
+                     Box<ModelState>& of)
+{
+    FaceId face;
+    if (const Box<FaceHandle>* const handle = test_box<FaceHandle>(L, index); handle != nullptr && *handle) {
+        guard(L, [&] {
+            of = (*handle)->model;
+            face = face_of(**handle);
+        });
+        return face;
+    }
+    auto& faces = temporary<std::vector<FaceId>>(L);
+    read_faces(L, index, where, model, faces);
+    if (faces.size() != 1) fail_option(L, where, "selects several faces; give one");
+    of = model;
+    return faces.front();
+}
+
 void mark_found_nothing(lua_State* L, int selector)
 {
     const int array = lua_gettop(L);
@@ -500,15 +352,6 @@ void mark_found_nothing(lua_State* L, int selector)
     lua_setfield(L, -2, kFoundNothing);
     lua_setmetatable(L, array);
     lua_settop(L, array);
-}
-
-Vec3 mean_normal(const topology::Model& model, FaceId face)
-{
-    // Share of the area below which the summed normals are noise: around a closed skin they cancel.
-    constexpr double kRounding = 1e-2;
-    const Vec3 vector = topology::face_area_vector(model, face);
-    return vector.norm() > kRounding * topology::face_area(model, face) ? Vec3(vector.normalized())
-                                                                        : Vec3(Vec3::Zero());
 }
 
 const char* push_names(lua_State* L, const topology::Model& model, const std::vector<FaceId>& faces)

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "bindings/options.h"
 
+#include <lacuna/core/shared/constants.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdarg>
 #include <cstring>
 #include <limits>
+#include <string_view>
 
 namespace lacuna::lua {
 
@@ -22,6 +26,11 @@ const char* push_list(lua_State* L, const char* const* words, std::size_t count)
     }
     luaL_pushresult(&buffer);
     return lua_tostring(L, -1);
+}
+
+bool is_finite(lua_State* L, int index)
+{
+    return lua_type(L, index) == LUA_TNUMBER && std::isfinite(lua_tonumber(L, index));
 }
 
 } // namespace
@@ -53,17 +62,21 @@ void fail_option(lua_State* L, const Where& where, const char* format, ...)
 
 double read_number(lua_State* L, int index, const Where& where)
 {
-    if (lua_type(L, index) != LUA_TNUMBER || !std::isfinite(lua_tonumber(L, index)))
-        fail_value(L, where, "a number", index);
+    if (!is_finite(L, index)) fail_value(L, where, "a number", index);
     return lua_tonumber(L, index);
 }
 
 double read_positive(lua_State* L, int index, const Where& where)
 {
-    if (lua_type(L, index) != LUA_TNUMBER || !std::isfinite(lua_tonumber(L, index)) ||
-        lua_tonumber(L, index) <= 0)
-        fail_value(L, where, "a positive number", index);
+    if (!is_finite(L, index) || lua_tonumber(L, index) <= 0) fail_value(L, where, "a positive number", index);
     return lua_tonumber(L, index);
+}
+
+double read_degrees(lua_State* L, int index, const Where& where)
+{
+    const double degrees = read_positive(L, index, where);
+    if (degrees > 180) fail_value(L, where, "degrees in (0, 180]", index);
+    return degrees;
 }
 
 int read_whole(lua_State* L, int index, const Where& where, int smallest)
@@ -93,17 +106,46 @@ const char* read_string(lua_State* L, int index, const Where& where)
     return lua_tostring(L, index);
 }
 
+const char* read_plain_name(lua_State* L, int index, const Where& where)
+{
+    const char* const name = read_string(L, index, where);
+    for (const char c : std::string_view(name, lua_rawlen(L, index)))
+        if (std::iscntrl(static_cast<unsigned char>(c)) != 0 || c == '"')
+            fail_value(L, where, "a name without quotes and control characters", index);
+    return name;
+}
+
 Vec3 read_vector(lua_State* L, int index, const Where& where)
 {
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 3)
-        fail_value(L, where, "three numbers, { x, y, z }", index);
+    if (array_length(L, index) != 3) fail_value(L, where, "three numbers, { x, y, z }", index);
     Vec3 vector;
     for (int i = 0; i < 3; ++i) {
-        lua_rawgeti(L, index, i + 1);
-        vector[i] = read_number(L, -1, where);
+        vector[i] = read_number(L, push_element(L, index, i + 1), where);
         lua_pop(L, 1);
     }
     return vector;
+}
+
+Turn read_turn(lua_State* L, int index, const Where& where)
+{
+    if (array_length(L, index) != 3) fail_value(L, where, "{ point, direction, angle in degrees }", index);
+    const Turn turn{read_vector(L, push_element(L, index, 1), where),
+                    read_vector(L, push_element(L, index, 2), where),
+                    read_number(L, push_element(L, index, 3), where) * kDegree};
+    if (!(turn.direction.stableNorm() > 0)) fail_option(L, where, "has a direction of length 0");
+    lua_pop(L, 3);
+    return turn;
+}
+
+std::size_t array_length(lua_State* L, int index)
+{
+    return lua_type(L, index) == LUA_TTABLE ? lua_rawlen(L, index) : 0;
+}
+
+int push_element(lua_State* L, int index, int place)
+{
+    lua_rawgeti(L, index, place);
+    return lua_gettop(L);
 }
 
 std::size_t read_word(lua_State* L, int index, const Where& where, const char* const* words,

@@ -10,8 +10,10 @@
 #include <lacuna/core/shared/nearest_word.h>
 #include <lacuna/core/types.h>
 
+#include <cctype>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace lacuna::lua {
 
@@ -33,10 +35,24 @@ const char* push_subject(lua_State* L, const Where& where);
 
 double read_number(lua_State* L, int index, const Where& where);           ///< finite
 double read_positive(lua_State* L, int index, const Where& where);         ///< finite and > 0
+double read_degrees(lua_State* L, int index, const Where& where);          ///< in (0, 180]
 int read_whole(lua_State* L, int index, const Where& where, int smallest); ///< a whole number >= smallest
 bool read_boolean(lua_State* L, int index, const Where& where);
 const char* read_string(lua_State* L, int index, const Where& where); ///< not empty; Lua's own copy
-Vec3 read_vector(lua_State* L, int index, const Where& where);        ///< {x, y, z}
+/// A name that files can hold: not empty, without quotes and control characters.
+const char* read_plain_name(lua_State* L, int index, const Where& where);
+Vec3 read_vector(lua_State* L, int index, const Where& where); ///< {x, y, z}
+/// A turn { point, direction, degrees }, whose direction is not 0.
+struct Turn {
+    Vec3 point, direction;
+    double angle; ///< [rad]
+};
+Turn read_turn(lua_State* L, int index, const Where& where);
+
+/// The length of the array at `index`; 0 for other values.
+std::size_t array_length(lua_State* L, int index);
+/// Push element `place` of the array at `index`. @return  its index
+int push_element(lua_State* L, int index, int place);
 
 template <class Value>
 struct Word {
@@ -71,6 +87,28 @@ void read_array(lua_State* L, int index, const Where& where, const char* expecte
         read(top + 2, Where{where.call, key});
         lua_settop(L, top);
     }
+}
+
+/// The same with the elements of a vector.
+template <class T, class Read>
+void read_items(lua_State* L, int index, const Where& where, const char* expected, std::vector<T>& items,
+                const Read& read)
+{
+    const std::size_t count = array_length(L, index);
+    guard(L, [&] { items.resize(count); });
+    std::size_t next = 0;
+    read_array(L, index, where, expected,
+               [&](int element, const Where& at) { items[next++] = read(L, element, at); });
+}
+
+/// Read a value, or each element of an array.
+template <class Read>
+void read_each(lua_State* L, int index, const Where& where, Read&& read)
+{
+    if (array_length(L, index) > 0)
+        read_array(L, index, where, "", read);
+    else
+        read(index, where);
 }
 
 // --- tables of options ------------------------------------------------------------------------------
@@ -129,10 +167,33 @@ void count(lua_State* L, int i, const Where& where, Options& o)
 {
     member<Member...>(o) = read_whole(L, i, where, 1);
 }
+template <auto... Member, class Options>
+void degrees(lua_State* L, int i, const Where& where, Options& o)
+{
+    member<Member...>(o) = read_degrees(L, i, where);
+}
 template <auto Member, const auto& Words, class Options>
 void word(lua_State* L, int i, const Where& where, Options& o)
 {
     o.*Member = read_word(L, i, where, Words);
+}
+template <auto... Member, class Options>
+void text(lua_State* L, int i, const Where& where, Options& o)
+{
+    const char* const read = read_string(L, i, where);
+    guard(L, [&] { member<Member...>(o) = read; });
+}
+template <auto... Member, class Options>
+void capitals(lua_State* L, int i, const Where& where, Options& o)
+{
+    text<Member...>(L, i, where, o);
+    for (char& c : member<Member...>(o)) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+}
+template <auto... Member, class Options>
+void plain_name(lua_State* L, int i, const Where& where, Options& o)
+{
+    const char* const read = read_plain_name(L, i, where);
+    guard(L, [&] { member<Member...>(o) = read; });
 }
 template <auto... Member, class Options>
 void boolean(lua_State* L, int i, const Where& where, Options& o)

@@ -4,14 +4,11 @@
 #include "bindings/faces.h"
 #include "bindings/lacuna_lua.h"
 #include "bindings/options.h"
+#include "bindings/recipe_function.h"
 
 #include <lacuna/cad/load.h>
-#include <lacuna/core/shared/constants.h>
 
-#include <cmath>
-#include <limits>
 #include <string_view>
-#include <thread>
 
 namespace lacuna::lua {
 
@@ -36,11 +33,7 @@ const Option<sweep::LayerSpec> kLayerOptions[] = {
 
 void read_heights(lua_State* L, int index, const Where& where, sweep::LayerSpec& spec)
 {
-    const std::size_t size = lua_rawlen(L, index);
-    guard(L, [&] { spec.heights.resize(size); });
-    std::size_t next = 0;
-    read_array(L, index, where, "",
-               [&](int element, const Where& at) { spec.heights[next++] = read_number(L, element, at); });
+    read_items(L, index, where, "", spec.heights, read_number);
 }
 
 void read_layers(lua_State* L, int index, const Where& where, SweepArguments& arguments)
@@ -64,28 +57,11 @@ void read_layers(lua_State* L, int index, const Where& where, SweepArguments& ar
 
 // --- size -----------------------------------------------------------------------------------------------
 
-/// A length, or a Lua function of the place; push_field() later puts the function on the stack.
-void read_field(lua_State* L, int index, const Where& where, surface::SizeField& field, int& function)
-{
-    if (lua_type(L, index) == LUA_TFUNCTION) {
-        function = 1;
-    } else if (lua_type(L, index) == LUA_TNUMBER) {
-        const double length = read_positive(L, index, where);
-        guard(L, [&] { field = [length](const Vec3&) { return length; }; });
-    } else {
-        fail_value(L, where, "a positive number or a function(x, y, z) that returns one", index);
-    }
-}
-
-template <class Arguments>
+template <auto Field, class Arguments>
 void read_size(lua_State* L, int index, const Where& where, Arguments& arguments)
 {
-    read_field(L, index, where, arguments.size, arguments.size_function);
-}
-
-void read_row_height(lua_State* L, int index, const Where& where, SweepArguments& arguments)
-{
-    read_field(L, index, where, arguments.row_height, arguments.row_height_function);
+    read_field(L, index, where, arguments.functions, arguments.*Field, read_positive,
+               "a positive number or a function(x, y, z) that returns one");
 }
 
 // --- boundary layers and intervals ----------------------------------------------------------------------
@@ -122,7 +98,7 @@ void read_face_name(lua_State* L, int index, const Where& where, const VolumeSta
     read_selector(L, index, where.call, wanted);
     bool any = false;
     guard(L, [&] {
-        for (const FaceId face : select(volume.volume.model, wanted)) {
+        for (const FaceId face : topology::select(volume.volume.model, wanted)) {
             if (volume.volume.model[face].origin != topology::Origin::given) continue;
             names.tags.push_back(volume.volume.model[face].tag);
             any = true;
@@ -134,12 +110,8 @@ void read_face_name(lua_State* L, int index, const Where& where, const VolumeSta
 void read_face_names(lua_State* L, int index, const Where& where, const VolumeState& volume,
                      surface::FaceNames& names)
 {
-    if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0) {
-        read_array(L, index, where, "",
-                   [&](int element, const Where& at) { read_face_name(L, element, at, volume, names); });
-        return;
-    }
-    read_face_name(L, index, where, volume, names);
+    read_each(L, index, where,
+              [&](int element, const Where& at) { read_face_name(L, element, at, volume, names); });
 }
 
 struct LayerArguments : surface::BoundaryLayer {
@@ -173,18 +145,14 @@ void read_boundary_layer(lua_State* L, int index, const Where& where, SweepArgum
 
 void read_boundary_layers(lua_State* L, int index, const Where& where, SweepArguments& arguments)
 {
-    if (lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0) {
-        read_array(L, index, where, "",
-                   [&](int element, const Where& at) { read_boundary_layer(L, element, at, arguments); });
-        return;
-    }
-    read_boundary_layer(L, index, where, arguments);
+    read_each(L, index, where,
+              [&](int element, const Where& at) { read_boundary_layer(L, element, at, arguments); });
 }
 
 /// Whether the value is { vertex, vertex }.
 bool is_pair_of_tags(lua_State* L, int index)
 {
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) return false;
+    if (array_length(L, index) != 2) return false;
     bool numbers = true;
     for (int i = 1; i <= 2; ++i) {
         numbers = lua_rawgeti(L, index, i) == LUA_TNUMBER && numbers;
@@ -199,7 +167,7 @@ void read_interval(lua_State* L, int index, const Where& where, SweepArguments& 
     using Of = surface::Interval::Of;
     const char* const expected =
         "a table { edge tag, { vertex, vertex }, wall or \"sweep\"; count [, bias] }";
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) < 1) fail_value(L, where, expected, index);
+    if (array_length(L, index) < 1) fail_value(L, where, expected, index);
     auto& interval = temporary<surface::Interval>(L);
     const int top = lua_gettop(L);
     const auto read_either = [&](int place, const char* key) {
@@ -212,18 +180,14 @@ void read_interval(lua_State* L, int index, const Where& where, SweepArguments& 
     lua_settop(L, top);
     if (read_either(3, "bias")) interval.bias = read_positive(L, lua_gettop(L), where);
     lua_settop(L, top);
-    lua_rawgeti(L, index, 1);
-    const int what = lua_gettop(L);
+    const int what = push_element(L, index, 1);
     if (lua_type(L, what) == LUA_TNUMBER) {
         interval.of = Of::edge;
         interval.edge = read_whole(L, what, where, 0);
     } else if (is_pair_of_tags(L, what)) {
         interval.of = Of::vertices;
-        for (int i = 0; i < 2; ++i) {
-            lua_rawgeti(L, what, i + 1);
-            interval.vertices[static_cast<std::size_t>(i)] = read_whole(L, lua_gettop(L), where, 0);
-            lua_pop(L, 1);
-        }
+        interval.vertices = {read_whole(L, push_element(L, what, 1), where, 0),
+                             read_whole(L, push_element(L, what, 2), where, 0)};
     } else if (lua_type(L, what) == LUA_TSTRING && std::string_view(lua_tostring(L, what)) == "sweep") {
         interval.of = Of::sweep;
     } else {
@@ -244,15 +208,15 @@ void read_periodic_pair(lua_State* L, int index, const Where& where, SweepArgume
 {
     const char* const expected = "a table { face, face [, translate = {x, y, z} or rotate = { point, "
                                  "direction, degrees }] }, with names, tags, Faces or arrays of those";
-    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) fail_value(L, where, expected, index);
+    if (array_length(L, index) != 2) fail_value(L, where, expected, index);
     auto& held = temporary<std::vector<surface::PeriodicPair>>(
         L); // its matrix is aligned more than Lua's data
     guard(L, [&] { held.resize(1); });
     surface::PeriodicPair& pair = held.front();
     const int top = lua_gettop(L);
     for (int side = 1; side <= 2; ++side) {
-        lua_rawgeti(L, index, side);
-        read_face_names(L, lua_gettop(L), where, *arguments.volume, side == 1 ? pair.a : pair.b);
+        read_face_names(L, push_element(L, index, side), where, *arguments.volume,
+                        side == 1 ? pair.a : pair.b);
         lua_settop(L, top);
     }
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
@@ -264,15 +228,10 @@ void read_periodic_pair(lua_State* L, int index, const Where& where, SweepArgume
         if (key == "translate") {
             onto.translation() = read_vector(L, value, where);
         } else {
-            if (lua_type(L, value) != LUA_TTABLE || lua_rawlen(L, value) != 3)
-                fail_value(L, where, expected, index);
-            for (int i = 1; i <= 3; ++i) lua_rawgeti(L, value, i);
-            const Vec3 point = read_vector(L, value + 1, where), axis = read_vector(L, value + 2, where);
-            const double degrees = read_number(L, value + 3, where);
-            if (!(axis.norm() > 0)) fail_option(L, where, "has a 'rotate' without a direction");
-            onto = Eigen::Translation3d(point) * Eigen::AngleAxisd(degrees * kDegree, axis.normalized()) *
+            if (array_length(L, value) != 3) fail_value(L, where, expected, index);
+            const auto [point, direction, angle] = read_turn(L, value, where);
+            onto = Eigen::Translation3d(point) * Eigen::AngleAxisd(angle, direction.normalized()) *
                    Eigen::Translation3d(-point);
-            lua_settop(L, value);
         }
         pair.onto = onto;
     }
@@ -284,33 +243,6 @@ void read_periodic(lua_State* L, int index, const Where& where, SweepArguments& 
     read_array(L, index, where, "an array of { face, face }",
                [&](int element, const Where& at) { read_periodic_pair(L, element, at, arguments); });
 }
-
-/// Calls a function of the recipe. The kernel samples sizes on the thread that called it. A call from another
-/// thread is refused, because Lua is not thread-safe.
-struct LuaSize {
-    lua_State* state;
-    int function;
-    std::thread::id thread;
-    const char* option = "size";
-
-    double operator()(const Vec3& place) const
-    {
-        lua_State* const L = state;
-        if (std::this_thread::get_id() != thread || !lua_checkstack(L, 8))
-            throw Error(
-                Message("lua.size_function", "the function of option '{}' cannot be called here", option)
-                    .remedy("give a number"));
-        lua_pushvalue(L, function);
-        for (const double coordinate : place) lua_pushnumber(L, coordinate);
-        if (lua_pcall(L, 3, 1, 0) != LUA_OK) {
-            keep_callback_error(L);
-            throw CallbackFailed{};
-        }
-        const double size = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : std::nan("");
-        lua_pop(L, 1);
-        return size; // the kernel refuses a result that is not a length
-    }
-};
 
 // --- the rest -------------------------------------------------------------------------------------------
 
@@ -364,7 +296,7 @@ void read_improve(lua_State* L, int index, const Where& where, SweepArguments& a
 
 const Option<SweepArguments> kSweepOptions[] = {
     {"layers", read_layers},
-    {"size", read_size},
+    {"size", read_size<&SweepArguments::size>},
     {"curvature", read_curvature},
     {"gap", count<&SweepArguments::gap>},
     {"max_deviation", positive<&SweepArguments::max_deviation>},
@@ -372,7 +304,7 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"wedges", boolean<&SweepArguments::wedges>},
     {"fallback", word<&SweepArguments::fallback, kFallbacks>},
     {"rows", count<&SweepArguments::rows>},
-    {"row_height", read_row_height},
+    {"row_height", read_size<&SweepArguments::row_height>},
     {"boundary_layers", read_boundary_layers},
     {"intervals", read_intervals},
     {"periodic", read_periodic},
@@ -391,7 +323,7 @@ void read_quads_faces(lua_State* L, int index, const Where& where, QuadsArgument
 
 const Option<QuadsArguments> kQuadsOptions[] = {
     {"faces", read_quads_faces},
-    {"size", read_size},
+    {"size", read_size<&QuadsArguments::size>},
     {"curvature", read_curvature},
     {"gap", count<&QuadsArguments::gap>},
     {"quads", word<&QuadsArguments::quads, kQuads>},
@@ -400,23 +332,15 @@ const Option<QuadsArguments> kQuadsOptions[] = {
     {"threads", count<&QuadsArguments::threads>},
 };
 
-/// If an option is a function, leave it on the stack, from where the field calls it.
-void push_field(lua_State* L, int index, const char* option, int function, surface::SizeField& field)
-{
-    if (!function) return;
-    lua_getfield(L, index, option);
-    const int place = lua_gettop(L);
-    guard(L, [&] { field = LuaSize{L, place, std::this_thread::get_id(), option}; });
-}
-
 } // namespace
 
 QuadsArguments& push_quads_arguments(lua_State* L, int index, const Box<ModelState>& model)
 {
+    lua_newtable(L);
     auto& arguments = temporary<QuadsArguments>(L);
+    arguments.functions = lua_gettop(L) - 1;
     arguments.model = &model;
     read_options(L, index, "quads", kQuadsOptions, arguments);
-    push_field(L, index, "size", arguments.size_function, arguments.size);
     guard(L, [&] {
         arguments.quad_mesher = cad::recombine;
         if (!arguments.faces) arguments.faces = topology::all_faces(model->model);
@@ -426,11 +350,11 @@ QuadsArguments& push_quads_arguments(lua_State* L, int index, const Box<ModelSta
 
 SweepArguments& push_sweep_arguments(lua_State* L, int index, const char* call, const VolumeState& volume)
 {
+    lua_newtable(L);
     auto& arguments = temporary<SweepArguments>(L);
+    arguments.functions = lua_gettop(L) - 1;
     arguments.volume = &volume;
     read_options(L, index, call, kSweepOptions, arguments);
-    push_field(L, index, "size", arguments.size_function, arguments.size);
-    push_field(L, index, "row_height", arguments.row_height_function, arguments.row_height);
     guard(L, [&] {
         arguments.quad_mesher = cad::recombine;
         arguments.tet_mesher = cad::fill_skin;

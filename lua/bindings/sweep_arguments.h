@@ -12,8 +12,7 @@ namespace lacuna::lua {
 /// Options of a sweep as a recipe gave them.
 struct SweepArguments : sweep::SweepOptions {
     int threads = 0;
-    int size_function = 0; ///< stack index of a Lua function, 0 for none
-    int row_height_function = 0;
+    int functions = 0;                   ///< stack index of a table that keeps the functions of sizes
     const VolumeState* volume = nullptr; ///< the volume whose faces selectors choose
 };
 

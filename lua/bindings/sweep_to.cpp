@@ -33,10 +33,6 @@ void push_write_options(lua_State* L, int index)
 
 namespace {
 
-constexpr const char* kHeldWhole =
-    "sweep_to: the whole mesh was held in memory, because its nodes are not those of plain layers: they "
-    "were moved to improve cells, offset along normals, or belong to boundary layers";
-
 /// The numbers of a mesh, as fields of the report on top of the stack.
 void set_numbers(lua_State* L, const fill::Filled& filled)
 {
@@ -64,28 +60,6 @@ void set_numbers(lua_State* L, const fill::Filled& filled)
 }
 
 } // namespace
-
-void write_filled(const Host& lent, SweepRun& run, const SweepFile& file, const RunContext& context)
-{
-    if (auto* whole = std::get_if<fill::FilledVolume>(&run.filled.mesh)) {
-        refuse_interfaces(*file.arguments);
-        if (!whole->swept.layers) whole->swept.report.emplace_back(kHeldWhole);
-        write_layered(*whole, *file.path, *file.arguments, lent.crew, context);
-        run.report = whole->swept.report;
-    } else {
-        auto& mesh = std::get<fill::FilledParts>(run.filled.mesh);
-        const auto held = std::ranges::count_if(
-            mesh.swept.parts, [](const sweep::Swept& part) { return !part.layers.has_value(); });
-        if (held > 0)
-            mesh.swept.report.push_back(formatted(
-                "sweep_to: {} of {} parts were held in memory, because their nodes are not those of plain "
-                "layers, or the file cannot be written one layer at a time",
-                held, mesh.swept.parts.size()));
-        write_pieces(mesh, *file.path, *file.arguments, lent.crew, context);
-        run.report = fill::report(mesh);
-    }
-    write_options_beside(lent, *file.path, *file.arguments);
-}
 
 int push_run(lua_State* L, SweepRun& run, bool has_file)
 {

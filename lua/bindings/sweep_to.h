@@ -4,6 +4,7 @@
 // Common parts of the sweeps of volumes and of assemblies, with and without a file.
 
 #include "bindings/classes.h"
+#include "bindings/lacuna_lua.h"
 #include "bindings/write_mesh.h"
 
 #include <lacuna/core/shared/progress.h>
@@ -22,7 +23,7 @@ void push_write_options(lua_State* L, int index);
 /// A file that a mesh is written to as it is made.
 struct SweepFile {
     const io::OutputPath* path;
-    WriteArguments* arguments;
+    const team::WriteRequest* request;
 };
 
 /// A sweep, and the report of its file.
@@ -31,9 +32,6 @@ struct SweepRun {
     StageSeconds seconds;
     std::vector<std::string> report;
 };
-
-/// Write a mesh, and note in its report if it was held in memory.
-void write_filled(const Host& lent, SweepRun& run, const SweepFile& file, const RunContext& context);
 
 /// Push the mesh, or the report of its file.
 int push_run(lua_State* L, SweepRun& run, bool has_file);
@@ -56,7 +54,9 @@ int push_swept(lua_State* L, const std::vector<VolumeState*>& volumes, const cha
         StageClock clock(context);
         const double swept = file != nullptr ? 0.5 : 1; // share of the call; writing takes about as long
         run.filled = sweep(part_of(context, 0, swept));
-        if (file != nullptr) write_filled(lent, run, *file, part_of(context, swept, 1));
+        if (file != nullptr)
+            run.report = team::write_swept(run.filled, *file->request, *file->path, lent.crew,
+                                           part_of(context, swept, 1));
         for (std::size_t v = 0; v < volumes.size(); ++v) *volumes[v] = std::move(run.filled.volumes[v]);
         run.seconds = clock.seconds();
     });

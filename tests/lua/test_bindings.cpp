@@ -108,7 +108,7 @@ inline constexpr const char* kClassName<Counted> = "Counted";
 TEST_CASE("every exception becomes a Lua error with file and line, and destroys what it passes")
 {
     State L;
-    make_class<Counted>(L, nullptr, nullptr);
+    make_class<Counted>(L, {});
     lua_register(L, "throw", throw_by_number);
     CHECK(error_of(L, "assert(throw(0) == 0)") == "");
     CHECK(error_of(L, "\nthrow(1)").find(":2: face 12 is wrong [test.input]") != std::string::npos);
@@ -124,7 +124,7 @@ TEST_CASE("every exception becomes a Lua error with file and line, and destroys 
 TEST_CASE("a thousand failures in a row leave nothing alive and the stack as it was")
 {
     State L;
-    make_class<Counted>(L, nullptr, nullptr);
+    make_class<Counted>(L, {});
     lua_register(L, "throw", throw_by_number);
     CHECK(error_of(L, "for i = 1, 1000 do assert(not pcall(throw, i % 5 + 1)) end") == "");
     CHECK(lua_gettop(L) == 0);
@@ -136,7 +136,7 @@ TEST_CASE("a box is released once, by scope, by collection or with the state, an
 {
     {
         State L;
-        make_class<Counted>(L, nullptr, nullptr);
+        make_class<Counted>(L, {});
         lua_register(L, "make", make_box);
         lua_register(L, "use", use_box);
         CHECK(error_of(L, "kept = make() do local b <close> = make() use(b) escaped = b end use(kept)") ==
@@ -163,7 +163,7 @@ TEST_CASE("what finalizers make while the state closes is destroyed with it, wha
         {
             State L;
             if (older) CHECK(error_of(L, finalizer) == "");
-            make_class<Counted>(L, nullptr, nullptr);
+            make_class<Counted>(L, {});
             lua_register(L, "make", make_box);
             lua_register(L, "use", use_box);
             lua_register(L, "throw", throw_by_number);
@@ -178,7 +178,7 @@ TEST_CASE("what finalizers make while the state closes is destroyed with it, wha
 TEST_CASE("what is no box of the class is refused by name")
 {
     State L;
-    make_class<Counted>(L, nullptr, nullptr);
+    make_class<Counted>(L, {});
     lua_register(L, "use", use_box);
     for (const char* wrong : {"nil", "1", "{}", "io.stdout", "print"}) {
         const std::string message = error_of(L, (std::string("use(") + wrong + ")").c_str());

@@ -52,8 +52,10 @@ std::function<double(double)> sampled(const Along::Profile& profile, double firs
         const double height = static_cast<double>(k) / kProfileSteps;
         values.push_back(profile.at(height));
         if (!std::isfinite(values.back()))
-            throw InvalidInput("closure.along_profile", "along: '{}' is not a finite number at the height {}",
-                               name, found(height));
+            throw InvalidInput(Message("closure.along_profile",
+                                       "along: '{}' is not a finite number at the height {}", name,
+                                       found(height))
+                                   .remedy("let the function return one at every height from 0 to 1"));
     }
     if (std::abs(values.front() - first) > kSamePlace)
         throw InvalidInput(Message("closure.along_profile",
@@ -176,8 +178,9 @@ std::vector<geometry::PathPart> path_of_function(const std::function<Vec3(double
     for (int k = 0; k <= kPathSteps; ++k) {
         part.push_back(curve(static_cast<double>(k) / kPathSteps));
         if (!part.back().allFinite())
-            throw InvalidInput("closure.along_path", "along: the path has no finite point at {}",
-                               found(static_cast<double>(k) / kPathSteps));
+            throw InvalidInput(Message("closure.along_path", "along: the path has no finite point at {}",
+                                       found(static_cast<double>(k) / kPathSteps))
+                                   .remedy("let the function return x, y, z for every t from 0 to 1"));
     }
     const auto parts = cut_at_corners(part);
     if (parts.size() > 1)
@@ -193,8 +196,9 @@ std::vector<geometry::PathPart> parts_of(const Along::Path& path, const Model& m
     if (path.curve) return path_of_function(path.curve);
     if (!path.edges.empty()) return path_of_edges(model, path.edges, source);
     if (path.points.size() < 2)
-        throw InvalidInput("closure.along_path", "along: a path needs at least {} points, but has {}",
-                           needed(2), found(path.points.size()));
+        throw InvalidInput(Message("closure.along_path", "along: a path needs at least {} points, but has {}",
+                                   needed(2), found(path.points.size()))
+                               .remedy("give path = {{ {{x, y, z}}, {{x, y, z}}, … }}"));
     std::vector<geometry::PathPart> parts;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
         parts.push_back({path.points[i], path.points[i + 1]});

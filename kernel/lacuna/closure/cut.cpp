@@ -129,18 +129,20 @@ private:
             if (touches) touched.push_back(face);
         }
         if (!touched.empty())
-            throw NotSweepable("closure.cut_misses",
-                               "the plane only touches {} and cuts nothing: along its normal, measured from "
-                               "its point, the volume reaches from {:.4g} to {:.4g}",
-                               entities_of(model_, touched), found(least), found(most));
+            throw NotSweepable(Message("closure.cut_misses",
+                                       "the plane only touches {} and cuts nothing: along its normal, "
+                                       "measured from its point, the volume reaches from {:.4g} to {:.4g}",
+                                       entities_of(model_, touched), found(least), found(most))
+                                   .remedy("move its point along the normal to a place between the two"));
         if (least < 0 && most > 0)
             throw NotSweepable(
                 Message("closure.cut_misses", "the plane passes between the faces without crossing any")
                     .remedy("close the volume first, then its void faces are cut"));
-        throw NotSweepable("closure.cut_misses",
-                           "the plane misses the volume, which reaches from {:.4g} to {:.4g} along the "
-                           "normal, measured from the plane's point",
-                           found(least), found(most));
+        throw NotSweepable(Message("closure.cut_misses",
+                                   "the plane misses the volume, which reaches from {:.4g} to {:.4g} along "
+                                   "the normal, measured from the plane's point",
+                                   found(least), found(most))
+                               .remedy("move its point along the normal to a place between the two"));
     }
 
     /// Keep the walks round the regions that `suits` accepts.

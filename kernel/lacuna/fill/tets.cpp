@@ -310,9 +310,11 @@ void number_nodes(FilledParts& mesh)
         const auto shared = std::ranges::count_if(
             tets.mesh.skin, [&](const Quad& side) { return is_known(side, tets.number); });
         if (static_cast<std::size_t>(shared) != tets.shared)
-            throw NotSweepable("fill.not_shared",
-                               "{}: {} sides of its skin are shared with its neighbours, but {} should be",
-                               tets.region, found(shared), needed(tets.shared));
+            throw NotSweepable(
+                Message("fill.not_shared",
+                        "{}: {} sides of its skin are shared with its neighbours, but {} should be",
+                        tets.region, found(shared), needed(tets.shared))
+                    .remedy("sweep with fallback = \"leave_out\""));
     }
 }
 

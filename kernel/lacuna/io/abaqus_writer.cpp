@@ -151,24 +151,18 @@ private:
             return;
         }
         const PeriodicEquations all = periodic_equations(*view_);
-        const DeckTag first = view_->point_tags.bounds(view_->points).second + 1;
         std::string text;
         for (std::size_t p = 0; p < all.number.size(); ++p) {
             if (all.number[p] == kNoIndex) continue;
-            text += "*NODE, NSET=periodic_" + std::to_string(p + 1) + "\n" +
-                    std::to_string(first + static_cast<DeckTag>(all.number[p]));
+            text += formatted("*NODE, NSET=periodic_{}\n{}", p + 1, all.tag(p));
             for (const double x : all.references[all.number[p]]) text += ", " + real(x);
             text += "\n";
         }
         for (const std::vector<PeriodicTerm>& terms : all.equations) {
             text += "*EQUATION\n" + std::to_string(terms.size()) + "\n";
             for (std::size_t t = 0; t < terms.size(); ++t) {
-                const PeriodicTerm& term = terms[t];
-                const DeckTag node = term.node < view_->points
-                                         ? view_->point_tags[term.node]
-                                         : first + static_cast<DeckTag>(term.node - view_->points);
-                text += std::to_string(node) + ", " + std::to_string(term.direction + 1) + ", " +
-                        real(term.factor) + (t + 1 == terms.size() || t % 4 == 3 ? "\n" : ", ");
+                text += formatted("{}, {}, {}{}", terms[t].tag, terms[t].direction + 1, real(terms[t].factor),
+                                  t + 1 == terms.size() || t % 4 == 3 ? "\n" : ", ");
             }
         }
         file_.add(std::move(text));
@@ -233,11 +227,7 @@ private:
         return out;
     }
 
-    static std::string real(double value)
-    {
-        std::array<char, kWidth> room;
-        return {room.data(), put_real(room.data(), value, kWidth)};
-    }
+    static std::string real(double value) { return real_text(value, kWidth); }
 
     /// The type word for the elements of a block.
     [[nodiscard]] std::string_view type_of(const MeshView::Block& block) const
@@ -260,15 +250,11 @@ private:
     /// instead of S1, S2, … as in plane elements.
     void find_bricks_and_shells()
     {
-        for (const MeshView::Block& block : view_->blocks) {
-            const bool shell = shape_info(block.shape).dimension == 2 &&
-                               type_of(block).substr(0, 2).find('C') == std::string_view::npos;
-            if (!shell && !is_brick(block)) continue;
-            std::vector<DeckTag>& found = shell ? shells_ : bricks_;
-            block.tags.each(0, block.count, [&](std::size_t, DeckTag tag) { found.push_back(tag); });
-        }
-        std::ranges::sort(bricks_);
-        std::ranges::sort(shells_);
+        bricks_ = tags_of_blocks(*view_, [&](const MeshView::Block& block) { return is_brick(block); });
+        shells_ = tags_of_blocks(*view_, [&](const MeshView::Block& block) {
+            return shape_info(block.shape).dimension == 2 &&
+                   type_of(block).substr(0, 2).find('C') == std::string_view::npos;
+        });
     }
 
     /// Add equations that make the displacement linear along the base sides of pyramids of order 2. If the
@@ -306,25 +292,11 @@ private:
     {
         std::set<DeckTag> nodes;
         if (!same_) return nodes;
-        for (const AbaqusCard& card : abaqus_cards(view_->kept->cards)) {
-            if (card.keyword.name != "EQUATION") continue;
-            DeckTag fields_left = 0; // fields left in the terms of the equation
-            bool first = false;
-            each_data_line(card, [&](std::string_view line) {
-                while (!line.empty()) {
-                    const std::string_view field = trimmed(next_field(line));
-                    const auto number = parse_integer<DeckTag>(field);
-                    if (fields_left == 0) {
-                        fields_left = 3 * number.value_or(0);
-                        first = true;
-                    } else if (!field.empty()) {
-                        if (first && number) nodes.insert(*number);
-                        first = false;
-                        --fields_left;
-                    }
-                }
-            });
-        }
+        for (const AbaqusCard& card : abaqus_cards(view_->kept->cards))
+            if (card.keyword.name == "EQUATION")
+                each_equation_node(card, [&](DeckTag node, bool dependent) {
+                    if (dependent) nodes.insert(node);
+                });
         return nodes;
     }
 
@@ -345,11 +317,8 @@ private:
             equations_ += formatted("{}\n{}, {}, 1.", straight ? 3 : 5, own, axis);
             for (std::size_t k = 0; k < (straight ? 2u : 4u); ++k) {
                 const double share = k == 0 ? 1 - shares.sum() : shares[static_cast<int>(k) - 1];
-                char text[kWidth + 1];
-                const char* const end = put_real(static_cast<char*>(text), -share, kWidth);
                 equations_ += formatted("{}{}, {}, {}", k == 3 ? ",\n" : ", ",
-                                        view_->point_tags[index(corners[k])], axis,
-                                        std::string_view(text, end));
+                                        view_->point_tags[index(corners[k])], axis, real(-share));
             }
             equations_ += '\n';
         }
@@ -458,28 +427,15 @@ private:
         const MeshView::Block& block = view_->blocks[b];
         const std::string_view type = type_of(block);
         if (type.empty()) refuse_element(block, "Abaqus", "there is no such element");
-        std::map<Index, Ranges> of_region;
-        mesh::each_run(block.regions, 0, block.count, [&](std::size_t first, std::size_t last, Index region) {
-            of_region[region].add(first, last);
-        });
         const bool brick = is_brick(block);
         const auto nodes = static_cast<std::size_t>(
             shape_info(brick ? *merged_brick(block.shape) : block.shape).nodes);
-        for (auto& [region, elements] : of_region) {
-            const std::size_t count = elements.count();
-            file_.sections.push_back(
-                {head_of(type, region), count, (nodes + 1) * kNumberBytes + 4,
-                 [view = view_, b, nodes, brick, all = std::move(elements)](std::size_t begin,
-                                                                            std::size_t end, char* out) {
-                     all.each(begin, end, [&](std::size_t first, std::size_t last) {
-                         each_cell(view->blocks[b], first, last,
-                                   [&](std::size_t, DeckTag tag, std::span<const Index> own_nodes) {
-                                       out = put_element(*view, tag, own_nodes, nodes, brick, out);
-                                   });
-                     });
-                     return out;
-                 }});
-        }
+        const auto put = [view = view_, nodes, brick](DeckTag tag, std::span<const Index> own, char* out) {
+            return put_element(*view, tag, own, nodes, brick, out);
+        };
+        for (auto& [region, elements] : cells_by_region(block))
+            file_.sections.push_back(section_of_cells(head_of(type, region), view_, b, elements,
+                                                      (nodes + 1) * kNumberBytes + 4, put));
     }
 
     [[nodiscard]] std::string head_of(std::string_view type, Index region) const

@@ -105,23 +105,46 @@ void unv_numbers(std::string_view text, TextNumbers& numbers)
 
 } // namespace
 
+std::vector<std::string_view> split_fields(std::string_view line, std::size_t first, std::size_t width,
+                                           bool tabs)
+{
+    std::vector<std::string_view> fields;
+    const bool commas = line.find(',') != line.npos, free = commas || (tabs && line.find('\t') != line.npos);
+    for (std::size_t columns = first; !line.empty(); columns = width) {
+        const std::size_t end = std::min(free ? line.find(commas ? ',' : '\t') : columns, line.size());
+        fields.push_back(trimmed(line.substr(0, end)));
+        line.remove_prefix(std::min(end + (free ? 1 : 0), line.size()));
+    }
+    return fields;
+}
+
 std::vector<std::string_view> nastran_fields(std::string_view line)
 {
     line = line.substr(0, line.find('$'));
-    std::vector<std::string_view> fields;
-    const bool free = line.find(',') != std::string_view::npos;
-    const bool tabs = line.find('\t') != std::string_view::npos;
-    const std::size_t width = line.substr(0, 8).find('*') == std::string_view::npos ? 8 : 16;
-    while (!line.empty()) {
-        const std::size_t end = std::min(free             ? line.find(',')
-                                         : tabs           ? line.find('\t')
-                                         : fields.empty() ? 8
-                                                          : width,
-                                         line.size());
-        fields.push_back(trimmed(line.substr(0, end)));
-        line.remove_prefix(std::min(end + (free || tabs ? 1 : 0), line.size()));
-    }
-    return fields;
+    return split_fields(line, 8, line.substr(0, 8).find('*') == line.npos ? 8 : 16, true);
+}
+
+std::map<Index, mesh::Ranges> cells_by_region(const mesh::MeshView::Block& block)
+{
+    std::map<Index, mesh::Ranges> cells;
+    mesh::each_run(block.regions, 0, block.count, [&](std::size_t first, std::size_t last, Index region) {
+        cells[region].add(first, last);
+    });
+    return cells;
+}
+
+std::string real_text(double value, std::size_t width, RealForm form)
+{
+    std::string text(width, '\0');
+    text.resize(static_cast<std::size_t>(put_real(text.data(), value, width, form) - text.data()));
+    return text;
+}
+
+std::string_view text_of(mesh::MeshView::TextByIndex texts, std::size_t index)
+{
+    const auto at = std::ranges::lower_bound(texts, index, {},
+                                             &mesh::MeshView::TextByIndex::value_type::first);
+    return at != texts.end() && at->first == index ? std::string_view(at->second) : std::string_view();
 }
 
 char* put_real(char* out, double value, std::size_t width, RealForm form)

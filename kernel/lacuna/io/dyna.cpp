@@ -58,14 +58,8 @@ std::string keyword_of(std::string_view line)
 std::vector<std::string_view> fields_of(std::string_view line, std::size_t first, std::size_t width,
                                         std::size_t count)
 {
-    std::vector<std::string_view> fields;
-    const bool free = line.find(',') != std::string_view::npos;
-    while (fields.size() < count && !line.empty()) {
-        const std::size_t own = fields.empty() ? first : width;
-        const std::size_t end = std::min(free ? line.find(',') : own, line.size());
-        fields.push_back(trimmed(line.substr(0, end)));
-        line.remove_prefix(std::min(end + (free ? 1 : 0), line.size()));
-    }
+    std::vector<std::string_view> fields = split_fields(line, first, width);
+    fields.resize(std::min(fields.size(), count));
     return fields;
 }
 
@@ -561,8 +555,7 @@ private:
                 out = put_right(out, {text, static_cast<std::size_t>(put_real(text, x, kReal) - text)},
                                 kReal);
             }
-            const auto own = std::ranges::lower_bound(more, p, {}, &MeshView::TextByIndex::value_type::first);
-            if (own != more.end() && own->first == p) out = put_words(out, own->second);
+            out = put_words(out, text_of(more, p));
             *out++ = '\n';
             return out;
         };
@@ -646,10 +639,10 @@ private:
         if (set.count == 0) return;
         if (set.kind == SetKind::nodes) return add_members(s, "*SET_NODE_LIST_TITLE", numbers_of(s));
         std::vector<std::size_t> of[2]; // solids, shells
-        if (std::ranges::none_of(view_->blocks,
-                                 [](const auto& b) { return shape_info(b.shape).dimension == 2; }))
-            return add_members(s, "*SET_SOLID_TITLE", numbers_of(s));
-        find_shells();
+        if (shells_.empty())
+            shells_ = tags_of_blocks(*view_,
+                                     [](const auto& b) { return shape_info(b.shape).dimension == 2; });
+        if (shells_.empty()) return add_members(s, "*SET_SOLID_TITLE", numbers_of(s));
         set.members.each(0, set.count, [&](std::size_t, DeckTag tag) {
             of[std::ranges::binary_search(shells_, tag) ? 1 : 0].push_back(static_cast<std::size_t>(tag));
         });
@@ -660,15 +653,6 @@ private:
                 add_members(s, k == 0 ? "*SET_SOLID_TITLE" : "*SET_SHELL_LIST_TITLE",
                             mesh::Numbers(std::move(members)), of[k].size());
         }
-    }
-
-    void find_shells()
-    {
-        if (!shells_.empty()) return;
-        for (const MeshView::Block& block : view_->blocks)
-            if (shape_info(block.shape).dimension == 2)
-                block.tags.each(0, block.count, [&](std::size_t, DeckTag tag) { shells_.push_back(tag); });
-        std::ranges::sort(shells_);
     }
 
     [[nodiscard]] mesh::Numbers numbers_of(std::size_t s) const { return view_->sets[s].members; }

@@ -94,11 +94,16 @@ private:
         const MeshView::Block& block = view_->blocks[b];
         const std::string word(word_of(block.shape));
         if (word.empty()) refuse_element(block, "FEBio", "there is no such element");
-        std::map<Index, mesh::Ranges> of_region;
-        mesh::each_run(block.regions, 0, block.count, [&](std::size_t first, std::size_t last, Index region) {
-            of_region[region].add(first, last);
-        });
-        for (auto& [region, elements] : of_region) {
+        const auto put = [view = view_, shape = block.shape](DeckTag tag, std::span<const Index> nodes,
+                                                             char* out) {
+            out = put_words(put_text(put_words(out, "      <elem id=\""), tag), "\">");
+            for (std::size_t k = 0; k < nodes.size(); ++k) {
+                if (k > 0) *out++ = ',';
+                out = put_text(out, view->point_tags[index(nodes[place_of(shape, k)])]);
+            }
+            return put_words(out, "</elem>\n");
+        };
+        for (auto& [region, elements] : cells_by_region(block)) {
             const std::string material = region < 0 ? "elements" : region_name(view_->regions[index(region)]);
             const std::string part = free(material, material + "_" + word, parts_);
             ++wholes_[material].first;
@@ -107,24 +112,8 @@ private:
                 !(*view_->frames)[b][elements[0]].column.isZero()) // unlike cells of no thickness
                 add_axes(b, part, elements);
             file_.sections.push_back(
-                {formatted("    <Elements type=\"{}\" name=\"{}\">\n", word, xml_text(part)),
-                 elements.count(), 29 * kNumberBytes,
-                 [view = view_, b, all = std::move(elements)](std::size_t begin, std::size_t end, char* out) {
-                     all.each(begin, end, [&](std::size_t first, std::size_t last) {
-                         const MeshView::Block& of = view->blocks[b];
-                         each_cell(
-                             of, first, last, [&](std::size_t, DeckTag tag, std::span<const Index> nodes) {
-                                 out = put_words(put_text(put_words(out, "      <elem id=\""), tag), "\">");
-                                 for (std::size_t k = 0; k < nodes.size(); ++k) {
-                                     if (k > 0) *out++ = ',';
-                                     out = put_text(out,
-                                                    view->point_tags[index(nodes[place_of(of.shape, k)])]);
-                                 }
-                                 out = put_words(out, "</elem>\n");
-                             });
-                     });
-                     return out;
-                 }});
+                section_of_cells(formatted("    <Elements type=\"{}\" name=\"{}\">\n", word, xml_text(part)),
+                                 view_, b, elements, 29 * kNumberBytes, put));
             file_.add("    </Elements>\n");
             domains_ += formatted("    <{} name=\"{}\" mat=\"{}\"/>\n",
                                   shape_info(block.shape).dimension == 3 ? "SolidDomain" : "ShellDomain",

@@ -106,7 +106,7 @@ private:
         for (const AbaqusCard& card : abaqus_cards(text)) {
             const std::string& word = card.keyword.name;
             if (word == "EQUATION") {
-                read_equations(card);
+                each_equation_node(card, [&](DeckTag node, bool) { use(node); });
                 continue;
             }
             each_data_line(card, [&](std::string_view line) {
@@ -124,24 +124,6 @@ private:
                     name("*" + word, 0, *first);
             });
         }
-    }
-
-    /// An equation consists of a line with the number of its terms, and for each term a node or set, a
-    /// direction and a coefficient, on the following lines.
-    void read_equations(const AbaqusCard& card) const
-    {
-        int terms = 0; // still to come
-        each_data_line(card, [&](std::string_view line) {
-            if (terms <= 0) {
-                terms = parse_integer<int>(next_field(line)).value_or(0);
-                return;
-            }
-            for (; terms > 0 && !trimmed(line).empty(); --terms) {
-                if (const auto node = parse_integer<DeckTag>(next_field(line))) use(*node);
-                next_field(line);
-                next_field(line);
-            }
-        });
     }
 };
 

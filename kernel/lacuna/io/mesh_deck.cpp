@@ -169,6 +169,16 @@ struct TetParts {
     static void check() {}
 };
 
+/// The format's word for elements of a shape; empty: the format needs none.
+std::string type_word(DeckFormat format, DeckShape shape)
+{
+    const ShapeWords& words = words_of(shape);
+    return format == DeckFormat::unv       ? std::to_string(words.unv)
+           : format == DeckFormat::nastran ? words.nastran
+           : format == DeckFormat::abaqus  ? words.abaqus
+                                           : "";
+}
+
 template <class Parts>
 class MeshAdder {
 public:
@@ -353,12 +363,11 @@ private:
     /// The format's word for elements of a shape.
     [[nodiscard]] std::string type_of(DeckShape shape) const
     {
-        const ShapeWords& words = words_of(shape);
-        if (unv()) return std::to_string(words.unv);
-        if (options_.format == DeckFormat::nastran) return words.nastran;
-        if (options_.format != DeckFormat::abaqus) return "";
-        if (shape == DeckShape::wedge6 && !layer_wedge(element_).empty()) return layer_wedge(element_);
-        return !element_.empty() && shape == parts_.cells()[0].shape ? element_ : words.abaqus;
+        if (options_.format == DeckFormat::abaqus) {
+            if (shape == DeckShape::wedge6 && !layer_wedge(element_).empty()) return layer_wedge(element_);
+            if (!element_.empty() && shape == parts_.cells()[0].shape) return element_;
+        }
+        return type_word(options_.format, shape);
     }
 
     void add_volume_set(const std::string& group)
@@ -943,14 +952,10 @@ void add_layer(Deck& deck, std::span<const mesh::CellNodes> cells, const std::st
     for (const mesh::CellNodes& cell : cells) {
         const bool wedge = cell.count % 3 == 0 && cell.count < 27;
         const DeckShape shape = *find_shape(3, wedge ? 6 : 8, static_cast<int>(cell.count));
-        const ShapeWords& words = words_of(shape);
-        std::string type = element;
-        if (deck.format == DeckFormat::unv)
-            type = std::to_string(words.unv);
-        else if (deck.format == DeckFormat::nastran)
-            type = words.nastran;
-        else if (wedge)
-            type = layer_wedge(element);
+        const bool own = deck.format != DeckFormat::unv && deck.format != DeckFormat::nastran;
+        const std::string type = !own    ? type_word(deck.format, shape)
+                                 : wedge ? layer_wedge(element)
+                                         : element;
         DeckBlock& block = deck.blocks[block_of(deck.blocks, shape, type)];
         block.nodes.insert(block.nodes.end(), cell.begin(), cell.end());
         block.tags.push_back(++tag);

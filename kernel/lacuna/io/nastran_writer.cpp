@@ -114,12 +114,6 @@ std::size_t room_of(MeshView::TextByIndex more)
     return room;
 }
 
-std::string_view text_of_place(MeshView::TextByIndex more, std::size_t place)
-{
-    const auto at = std::ranges::lower_bound(more, place, {}, &MeshView::TextByIndex::value_type::first);
-    return at != more.end() && at->first == place ? std::string_view(at->second) : std::string_view();
-}
-
 void add_nodes(const View& view, DeckFile& file)
 {
     const MeshView::TextByIndex more = view->kept ? view->kept->points : MeshView::TextByIndex();
@@ -129,7 +123,7 @@ void add_nodes(const View& view, DeckFile& file)
         card.add_number(tag);
         card.add({});
         for (const double x : point) card.add_real(x);
-        card.add_text(text_of_place(more, p));
+        card.add_text(text_of(more, p));
         return card.put(out, "GRID", true);
     };
     file.sections.push_back(section_of_points({}, view, CardWriter::room(5, kLarge) + room_of(more), put));
@@ -160,7 +154,7 @@ void add_elements(const View& view, std::size_t b, DeckFile& file)
             else
                 card.add_number(view->point_tags[index(node)]);
         }
-        card.add_text(text_of_place(more, e));
+        card.add_text(text_of(more, e));
         return card.put(out, name);
     };
     file.sections.push_back(
@@ -205,36 +199,27 @@ std::string property_text(const MeshView& view)
     return text;
 }
 
-std::string real_text(double value)
-{
-    std::array<char, kLarge> room;
-    return {room.data(), put_real(room.data(), value, kLarge, RealForm::nastran)};
-}
+std::string real(double value) { return real_text(value, kLarge, RealForm::nastran); }
 
 /// Multipoint constraints of periodic faces, all in set 1, with a GRID for each reference node.
 std::string periodic_text(const MeshView& view)
 {
     if (view.periodic.empty()) return {};
     const PeriodicEquations all = periodic_equations(view);
-    const DeckTag first = view.point_tags.bounds(view.points).second + 1;
     std::string text = "$ periodic faces: MPC = 1 in the case control\n";
     for (std::size_t p = 0; p < all.number.size(); ++p) {
         if (all.number[p] == kNoIndex) continue;
         const Vec3& at = all.references[all.number[p]];
-        const std::string tag = std::to_string(first + static_cast<DeckTag>(all.number[p]));
+        const std::string tag = std::to_string(all.tag(p));
         text += "$ the displacement of node " + tag + " is the difference across periodic_" +
-                std::to_string(p + 1) + "\nGRID," + tag + ",," + real_text(at.x()) + "," + real_text(at.y()) +
-                "," + real_text(at.z()) + "\n";
+                std::to_string(p + 1) + "\nGRID," + tag + ",," + real(at.x()) + "," + real(at.y()) + "," +
+                real(at.z()) + "\n";
     }
     for (const std::vector<PeriodicTerm>& terms : all.equations) {
         text += "MPC,1";
         for (std::size_t t = 0; t < terms.size(); ++t) {
-            const DeckTag node = terms[t].node < view.points
-                                     ? view.point_tags[terms[t].node]
-                                     : first + static_cast<DeckTag>(terms[t].node - view.points);
             if (t > 0 && t % 2 == 0) text += ",\n+,";
-            text += "," + std::to_string(node) + "," + std::to_string(terms[t].direction + 1) + "," +
-                    real_text(terms[t].factor);
+            text += formatted(",{},{},{}", terms[t].tag, terms[t].direction + 1, real(terms[t].factor));
         }
         text += "\n";
     }
@@ -264,7 +249,7 @@ std::string contact_text(const MeshView& view)
         std::string& set = pair.tied ? glued : contact;
         set += set.empty() ? (pair.tied ? "BGSET,1," : "BCTSET,1,") : ",,\n+,,";
         set += std::to_string(region - 1) + "," + std::to_string(region) + "," +
-               (pair.tied ? real_text(pair.tolerance) + ",," : ",0.," + real_text(pair.tolerance));
+               (pair.tied ? real(pair.tolerance) + ",," : ",0.," + real(pair.tolerance));
     }
     if (!glued.empty()) text += "$ ties: BGSET = 1 in the case control\n" + glued + "\n";
     if (!contact.empty()) text += "$ contacts: BCSET = 1 in the case control\n" + contact + "\n";
@@ -283,7 +268,7 @@ std::string orientation_text(const MeshView& view)
             const std::array<Vec3, 3> axes = (*view.frames)[b][i].material();
             std::array<std::string, 6> key;
             for (std::size_t k = 0; k < 6; ++k)
-                key[k] = real_text(axes[k < 3 ? 2 : 0][static_cast<Eigen::Index>(k % 3)]);
+                key[k] = real(axes[k < 3 ? 2 : 0][static_cast<Eigen::Index>(k % 3)]);
             cells[key].push_back(tag);
         });
     }

@@ -120,6 +120,12 @@ PeriodicEquations periodic_equations(const MeshView& view)
             for (const auto& [reference, factor] : own.references) add(view.points + reference, factor);
         }
     }
+    found.first = view.point_tags.bounds(view.points).second + 1;
+    for (std::vector<PeriodicTerm>& terms : found.equations)
+        for (PeriodicTerm& term : terms)
+            term.tag = term.node < view.points
+                           ? view.point_tags[term.node]
+                           : found.first + static_cast<std::int64_t>(term.node - view.points);
     return found;
 }
 

@@ -2,6 +2,7 @@
 #include <lacuna/io/whole_file.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/io/detail/whole_folder.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -14,7 +15,6 @@
 #include <system_error>
 #include <tuple>
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -197,27 +197,19 @@ void WholeFile::open_unnamed()
 void WholeFile::remove_left_over(const std::string& prefix,
                                  const std::function<bool(const LeftOver&)>& is_left_over) const
 {
-    const int listed = ::openat(folder_->descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (listed < 0) return;
-    DIR* const folder = ::fdopendir(listed);
-    if (folder == nullptr) {
-        ::close(listed);
-        return;
-    }
-    while (const dirent* const entry = ::readdir(folder)) {
-        const std::string_view name = entry->d_name;
+    const int folder = folder_->descriptor();
+    for (const std::string& name : names_in(folder, ".")) {
         if (!name.starts_with(prefix)) continue;
-        LeftOver file{listed, entry->d_name};
-        const char* const number = name.data() + prefix.size();
-        const auto read = std::from_chars(number, name.data() + name.size(), file.process);
+        LeftOver file{folder, name.c_str()};
+        const auto read = std::from_chars(name.data() + prefix.size(), name.data() + name.size(),
+                                          file.process);
         if (read.ec != std::errc() || *read.ptr != '-' || file.process <= 0) continue;
         struct stat status = {};
-        if (::fstatat(listed, entry->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode))
+        if (::fstatat(folder, file.name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode))
             continue;
         file.written = status.st_mtime;
-        if (is_left_over(file)) ::unlinkat(listed, entry->d_name, 0);
+        if (is_left_over(file)) ::unlinkat(folder, file.name, 0);
     }
-    ::closedir(folder);
 }
 
 void WholeFile::open_named()

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <system_error>
 #include <tuple>
-#include <vector>
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -15,9 +14,7 @@
 #include <unistd.h>
 
 namespace lacuna::io {
-namespace {
 
-/// The names in a folder, except "." and "..".
 std::vector<std::string> names_in(int folder, const std::string& name)
 {
     std::vector<std::string> names;
@@ -32,8 +29,6 @@ std::vector<std::string> names_in(int folder, const std::string& name)
     ::closedir(all);
     return names;
 }
-
-} // namespace
 
 WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::string_view name)>& is_own)
     : path_(path.text())

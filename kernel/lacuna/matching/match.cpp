@@ -123,14 +123,18 @@ private:
         if (found.empty()) {
             const auto [from, to] = fixed_vertices(s);
             if (from.empty())
-                throw NotClosed("matching.vertices_contradict",
-                                "no alignment of {} with {} keeps the vertex pairs fixed by the walls or by "
-                                "match{{ vertices = … }}",
-                                source_loop(s), target_loop(t));
-            throw NotClosed("matching.vertices_contradict",
-                            "no alignment of {} with {} keeps the vertex pairs fixed by the walls or by "
-                            "match{{ vertices = … }}: {} to {}",
-                            source_loop(s), target_loop(t), from, to);
+                throw NotClosed(
+                    Message("matching.vertices_contradict",
+                            "no alignment of {} with {} keeps the vertex pairs fixed by the walls "
+                            "or by match{{ vertices = … }}",
+                            source_loop(s), target_loop(t))
+                        .remedy("leave pairs out of match{{ vertices = … }}, or walls out of the roles"));
+            throw NotClosed(
+                Message("matching.vertices_contradict",
+                        "no alignment of {} with {} keeps the vertex pairs fixed by the walls or "
+                        "by match{{ vertices = … }}: {} to {}",
+                        source_loop(s), target_loop(t), from, to)
+                    .remedy("leave pairs out of match{{ vertices = … }}, or walls out of the roles"));
         }
         const Alignment& best = chosen_[s] = found.front();
         // A loop that the user reversed runs against the other loops.
@@ -252,10 +256,11 @@ private:
         const std::vector<std::pair<VertexId, VertexId>> hard = hard_pairs(s);
         if (!keeps_order(low_loop, high_loop, chosen_[s].backward, hard)) {
             const auto [from, to] = fixed_vertices(s);
-            throw NotClosed("matching.vertices_contradict",
-                            "vertex pairs on {} that are fixed by the walls or by match{{ vertices = … }} "
-                            "cross: {} to {}",
-                            source_loop(s), from, to);
+            throw NotClosed(Message("matching.vertices_contradict",
+                                    "vertex pairs on {} that are fixed by the walls or by match{{ vertices = "
+                                    "… }} cross: {} to {}",
+                                    source_loop(s), from, to)
+                                .remedy("give 'vertices' in the same order around both loops"));
         }
         const ArcPairs pairs = pair_by_arc(low_loop, high_loop, chosen_[s].offset, chosen_[s].backward, hard,
                                            kMostTwist);

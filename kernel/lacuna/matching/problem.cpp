@@ -102,15 +102,18 @@ void read_options(Problem& problem)
     const Model& model = problem.volume.model;
     for (const int s : problem.options.flip) {
         if (s >= 0 && s < static_cast<int>(problem.source.size())) continue;
-        throw InvalidInput("matching.unknown_loop", "flip names {}, but the loops are numbered from 1 to {}",
-                           source_loop(s), needed(problem.source.size()));
+        throw InvalidInput(Message("matching.unknown_loop",
+                                   "flip names {}, but the loops are numbered from 1 to {}", source_loop(s),
+                                   needed(problem.source.size()))
+                               .remedy("name loops of volume:match().loops"));
     }
     for (const auto& [s, t] : problem.options.loops) {
         if (s < 0 || t < 0 || s >= static_cast<int>(problem.source.size()) ||
             t >= static_cast<int>(problem.target.size())) {
-            throw InvalidInput("matching.unknown_loop",
-                               "loop pair {{{}, {}}}: the loops are numbered from 1 to {}", found(s + 1),
-                               found(t + 1), needed(problem.source.size()));
+            throw InvalidInput(Message("matching.unknown_loop",
+                                       "loop pair {{{}, {}}}: the loops are numbered from 1 to {}",
+                                       found(s + 1), found(t + 1), needed(problem.source.size()))
+                                   .remedy("name loops of volume:match().loops"));
         }
         force(problem, s, t, "match{ loops = … }");
         for (int other = 0; other < static_cast<int>(problem.source.size()); ++other) {
@@ -126,18 +129,22 @@ void read_options(Problem& problem)
         const VertexId to = vertex_with_tag(model, problem.target, t, "target");
         const auto known = problem.hard.find(from);
         if (known != problem.hard.end() && known->second != to) {
-            throw InvalidInput(
-                "matching.vertices_contradict", "{} is paired by {} with {} and cannot be paired with {}",
-                entity_of(model, from), problem.walls.contains(from) ? "walls" : "match{ vertices = … }",
-                entity_of(model, known->second), entity_of(model, to));
+            throw InvalidInput(Message("matching.vertices_contradict",
+                                       "{} is paired by {} with {} and cannot be paired with {}",
+                                       entity_of(model, from),
+                                       problem.walls.contains(from) ? "walls" : "match{ vertices = … }",
+                                       entity_of(model, known->second), entity_of(model, to))
+                                   .remedy("leave this pair out of 'vertices'"));
         }
         const auto taken = std::ranges::find_if(
             problem.hard, [&](const auto& pair) { return pair.second == to && pair.first != from; });
         if (taken != problem.hard.end()) {
             throw InvalidInput(
-                "matching.vertices_contradict", "{} and {} of the source cannot both be paired with {}{}",
-                entity_of(model, taken->first), entity_of(model, from), entity_of(model, to),
-                problem.walls.contains(taken->first) ? ", which walls pair with the first" : "");
+                Message("matching.vertices_contradict",
+                        "{} and {} of the source cannot both be paired with {}{}",
+                        entity_of(model, taken->first), entity_of(model, from), entity_of(model, to),
+                        problem.walls.contains(taken->first) ? ", which walls pair with the first" : "")
+                    .remedy("leave one of these pairs out of 'vertices'"));
         }
         problem.hard[from] = to;
         force(problem, LoopsAt(problem.source)(from), LoopsAt(problem.target)(to), "its vertices");

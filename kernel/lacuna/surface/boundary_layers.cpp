@@ -7,6 +7,7 @@
 #include <lacuna/surface/detail/face_sides.h>
 #include <lacuna/surface/shared/edge_nodes.h>
 #include <lacuna/topology/shared/facet_area.h>
+#include <lacuna/topology/shared/select_faces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ bool is_named(const OpenVolume& volume, FaceId id, const std::string& name)
         return name == void_name(face) || (name == "source" && role == Role::source) ||
                (name == "target" && role == Role::target);
     }
-    return face.name == name || std::ranges::find(face.groups, name) != face.groups.end();
+    return topology::is_called(face, name);
 }
 
 class RimReader {

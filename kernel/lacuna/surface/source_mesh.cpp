@@ -266,11 +266,12 @@ private:
                                    .remedy("use fewer or thinner rows, or a smaller size"));
         case Why::off_height:
             throw NotSweepable(
-                "surface.layers_ends",
-                "the boundary layers of {} along {} of {} end near {} on nodes at height "
-                "{:.4g} instead of {:.4g}; these are given nodes, or the edge is too short for "
-                "the rows",
-                wall, along, in, place, found(finding.found), needed(finding.asked));
+                Message("surface.layers_ends",
+                        "the boundary layers of {} along {} of {} end near {} on nodes at height "
+                        "{:.4g} instead of {:.4g}; these are given nodes, or the edge is too short for "
+                        "the rows",
+                        wall, along, in, place, found(finding.found), needed(finding.asked))
+                    .remedy("load with keep_mesh = false, or use fewer or thinner rows"));
         case Why::unlike:
             break;
         }
@@ -286,8 +287,10 @@ private:
     void fill(FaceId face)
     {
         if (!mesher_) {
-            throw NotSweepable("surface.no_mesher", "{} is not four-sided, and no planar mesher is available",
-                               entity_of(model_, face));
+            throw NotSweepable(Message("surface.no_mesher",
+                                       "{} is not four-sided, and no planar mesher is available",
+                                       entity_of(model_, face))
+                                   .remedy("sweep with quads = \"paved\""));
         }
         std::vector<Index> boundary;
         std::vector<RimNode> rim;

@@ -15,6 +15,13 @@ Eigen::AlignedBox3d box_of(const Model& model, FaceId face)
     return box;
 }
 
+std::size_t edge_count(const Face& face)
+{
+    std::size_t edges = 0;
+    for (const Loop& loop : face.loops) edges += loop.uses.size();
+    return edges;
+}
+
 std::vector<FaceFacts> face_facts(const Model& model)
 {
     std::vector<FaceFacts> facts(model.faces.size());

@@ -41,6 +41,28 @@ void each_data_line(const AbaqusCard& card, const Take& take)
     });
 }
 
+/// Call `take(node, dependent)` for the node of each term of a card *EQUATION, if it is a number. An equation
+/// is the number of its terms, then for each term a node or set, a direction and a coefficient; the node of
+/// the first term depends on the others.
+template <class Take>
+void each_equation_node(const AbaqusCard& card, const Take& take)
+{
+    std::int64_t left = 0, at = 0; // fields of the equation that follow, and fields before
+    each_data_line(card, [&](std::string_view line) {
+        while (!line.empty()) {
+            const std::string_view field = trimmed(next_field(line));
+            const auto number = parse_integer<std::int64_t>(field);
+            if (left <= 0) {
+                left = 3 * number.value_or(0);
+                at = 0;
+            } else if (!field.empty()) {
+                if (at % 3 == 0 && number) take(*number, at == 0);
+                ++at, --left;
+            }
+        }
+    });
+}
+
 /// Whether an element type (in capitals) is a hexahedron of a thin layer: a cohesive element, a gasket or a
 /// continuum shell. Its nodes 5 to 8 lie above nodes 1 to 4 in the direction of the thickness.
 bool is_layer(std::string_view type);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -72,6 +73,26 @@ Section section_of_cells(const View& view, std::size_t block, std::size_t bytes,
             return out;
         }};
 }
+/// The same for some cells of a block. @param put  called as `put(tag, nodes, out)`
+template <class Put>
+Section section_of_cells(std::string text, const View& view, std::size_t block, mesh::Ranges cells,
+                         std::size_t bytes, Put put)
+{
+    const std::size_t count = cells.count();
+    return {std::move(text), count, bytes,
+            [view, block, put, all = std::move(cells)](std::size_t begin, std::size_t end, char* out) {
+                all.each(begin, end, [&](std::size_t first, std::size_t last) {
+                    each_cell(view->blocks[block], first, last,
+                              [&](std::size_t, DeckTag tag, std::span<const Index> nodes) {
+                                  out = put(tag, nodes, out);
+                              });
+                });
+                return out;
+            }};
+}
+/// The cells of a block by their region.
+std::map<Index, mesh::Ranges> cells_by_region(const mesh::MeshView::Block& block);
+
 /// Append text and all members of a set. `put(index, tag, out)` writes each of them.
 template <class Put>
 Section section_of_members(std::string text, const View& view, std::size_t set, std::size_t bytes, Put put)
@@ -109,6 +130,10 @@ bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b);
 /// Whether an Abaqus type word (in capitals) is an element of this shape.
 bool is_abaqus_element(std::string_view type, DeckShape shape);
 
+/// Fields of a line, separated by commas or, if it has none, by tabs if `tabs` says so, else by columns:
+/// `first` characters of the first field, `width` of each other.
+std::vector<std::string_view> split_fields(std::string_view line, std::size_t first, std::size_t width,
+                                           bool tabs = false);
 /// Fields of a Nastran line, separated by commas or, if it has none, by tabs or columns; the first is the
 /// card's name.
 std::vector<std::string_view> nastran_fields(std::string_view line);
@@ -136,6 +161,21 @@ enum class RealForm { plain, nastran };
 
 /// The nearest real number of at most `width` characters, with a point. @pre width >= 10
 char* put_real(char* out, double value, std::size_t width, RealForm form = RealForm::plain);
+std::string real_text(double value, std::size_t width, RealForm form = RealForm::plain);
+
+/// The text of a node or cell; empty: it has none.
+std::string_view text_of(mesh::MeshView::TextByIndex texts, std::size_t index);
+/// The numbers of all elements of the blocks for which `which(block)` holds, rising.
+template <class Which>
+std::vector<DeckTag> tags_of_blocks(const mesh::MeshView& view, const Which& which)
+{
+    std::vector<DeckTag> tags;
+    for (const mesh::MeshView::Block& block : view.blocks)
+        if (which(block))
+            block.tags.each(0, block.count, [&](std::size_t, DeckTag tag) { tags.push_back(tag); });
+    std::ranges::sort(tags);
+    return tags;
+}
 
 inline char* put_words(char* out, std::string_view words) { return words.copy(out, words.size()) + out; }
 /// A word or a number, aligned right in a column.

@@ -20,6 +20,7 @@ struct PeriodicTerm {
     std::size_t node = 0; ///< index of a point; beyond the number of points, a reference node
     int direction = 0;    ///< 0, 1, 2
     double factor = 0;
+    std::int64_t tag = 0; ///< number of the node
 };
 /// Linear equations between displacements: the terms of each sum up to zero. The first term of an equation
 /// depends on the others, and is the first term of no other equation.
@@ -30,6 +31,12 @@ struct PeriodicEquations {
     std::vector<std::size_t>
         number; ///< number of the reference of each periodic pair; `kNoIndex`: it has none
     std::vector<std::vector<PeriodicTerm>> equations;
+    std::int64_t first = 0; ///< number of the first reference node, above those of all points
+    /// The number of the reference node of a pair. @pre it has one
+    [[nodiscard]] std::int64_t tag(std::size_t pair) const
+    {
+        return first + static_cast<std::int64_t>(number[pair]);
+    }
 };
 /// The equations of all pairs. Nodes that are mapped to each other form chains, and each node of a chain
 /// depends on the chain's first node.

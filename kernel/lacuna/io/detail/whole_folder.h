@@ -7,8 +7,13 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lacuna::io {
+
+/// The names in a folder that lies in another one, except "." and ".."; none if it cannot be listed.
+/// @param name  "." stands for `folder` itself; a link is not followed
+std::vector<std::string> names_in(int folder, const std::string& name);
 
 /// A folder that appears completely or not at all. Its files are written to a hidden folder next to the final
 /// path. Committing renames the hidden folder; without a commit, the destructor removes it. If a folder

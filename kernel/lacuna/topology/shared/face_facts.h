@@ -19,6 +19,9 @@ struct FaceFacts {
 /// Bounding box of a face's facets.
 Eigen::AlignedBox3d box_of(const Model& model, FaceId face);
 
+/// Number of edges around a face; a seam counts twice.
+std::size_t edge_count(const Face& face);
+
 /// The facts of each face. O(facets + edges log edges).
 std::vector<FaceFacts> face_facts(const Model& model);
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/topology/model.h>
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lacuna::topology {
+
+/// Conditions that select faces; all that are set must hold.
+struct FaceSelector {
+    std::optional<std::vector<int>> tags;
+    std::string name, kind, region;
+    std::optional<Vec3> facing, near; ///< `facing` of length 1
+    double normal_within = 30;        ///< of `facing` [degrees]
+    std::optional<double> within; ///< if set, select all faces within this distance of `near`, not only the
+                                  ///< closest [model length]
+    std::array<double, 2> area{0, std::numeric_limits<double>::infinity()};
+    std::optional<std::array<double, 2>> radius;
+    std::optional<Eigen::AlignedBox3d> box;
+    std::optional<bool> free;
+    /// The selected faces share an edge with this face, given by its id in a model, its tag or a name.
+    const Model* touching_model = nullptr;
+    FaceId touching;
+    std::optional<int> touching_tag;
+    std::string touching_name;
+};
+
+/// The tag of the face that was kept where the file lists a face twice; empty for any other face.
+std::optional<int> kept_of_two(const Model& model, int tag);
+
+/// The selected faces, in the model's order. A tag of a face that the file lists twice selects the face that
+/// was kept.
+/// @throw InvalidInput "lua.other_model", "lua.no_face"  `touching` names no face of the model.
+std::vector<FaceId> select(const Model& model, FaceSelector selector);
+
+/// Whether a name is that of a face or of one of its groups.
+bool is_called(const Face& face, const std::string& name);
+
+/// Unit mean normal of the facets; zero if they cancel, as around a whole tube.
+Vec3 mean_normal(const Model& model, FaceId face);
+
+} // namespace lacuna::topology
