@@ -39,6 +39,22 @@ function check.members_to_run(step)
   end
 end
 
+-- Runs a family of 100 members: those from params.first to params.last, each in a line with the text that run
+-- returns; without params.last every seventh member, or all.
+function check.family(params, run)
+  if params.last < 0 then
+    local runs = check.members_to_run(7)
+    for number = 0, 99 do
+      if runs() then run(number) end
+    end
+    return check.done()
+  end
+  for number = params.first, params.last do
+    local fine, text = pcall(run, number)
+    print(fine and "ok  " or "FAIL", number, text)
+  end
+end
+
 -- random(low, high) for families: the same numbers on every machine.
 function check.random(seed)
   local state = seed

@@ -361,18 +361,7 @@ local function meshes(number)
   return at, quality
 end
 
-if params.last >= 0 then -- some members, each in a line
-  for number = params.first, params.last do
-    local fine, at, quality = pcall(meshes, number)
-    print(fine and ("ok   %s: %.2f %.4f"):format(at, quality.min_scaled_jacobian, quality.volume)
-      or ("FAIL %d %s"):format(number, tostring(at)))
-  end
-  return
-end
-
-local runs = check.members_to_run(7)
-for number = 0, 99 do
-  if runs() then meshes(number) end
-end
-
-check.done()
+check.family(params, function(number)
+  local at, quality = meshes(number)
+  return ("%s: %.2f %.4f"):format(at, quality.min_scaled_jacobian, quality.volume)
+end)

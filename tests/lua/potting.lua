@@ -125,15 +125,4 @@ local function fills(number)
     quality.volume / p.volume - 1)
 end
 
-if params.last >= 0 then -- some members, each in a line
-  for number = params.first, params.last do
-    local fine, words = pcall(fills, number)
-    print(fine and "ok  " or "FAIL", words)
-  end
-  return
-end
-local runs = check.members_to_run(7)
-for number = 0, 99 do
-  if runs() then fills(number) end
-end
-check.done()
+check.family(params, fills)

@@ -278,7 +278,8 @@ struct CutTried {
 
 /// Cut a piece by each plane that may help and makes no cusp. The cuts that leave the least to cut come
 /// first.
-/// @param whole  whether to cut in all regions of a plane; otherwise in those that adjoin its edges.
+/// @param whole  cut by the planes that have edges, in all their regions; otherwise by all planes, but by
+///        those that have edges only in the regions that adjoin these.
 std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                const RunContext& context)
 {
@@ -286,6 +287,7 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, st
     std::vector<CutTried> cuts;
     for (auto& [plane, edges] : cut_planes(volume, part.bends, kMostRead)) {
         if (tried == kMostCuts) break;
+        if (whole && edges.empty()) continue;
         if (whole) edges.clear();
         ++tried;
         // A cut is refused if the plane crosses given quads, passes an edge closely, or leaves the volume in

@@ -280,10 +280,9 @@ private:
         add_sides(corners, 2 * corners);
         for (std::size_t k = 0; k < corners; ++k) add_between(k);
         if (!is_full_) return cell;
-        constexpr std::array<std::size_t, 7> kUprightFaces{0, 1, 2, 3,
-                                                           1, 0, 2}; // of a wedge, of a hexahedron
-        for (std::size_t f = 0; f < corners; ++f)
-            add_between(corners + kUprightFaces[f + (corners == 4 ? 3 : 0)]);
+        // The side below each upright face of a hexahedron; those of a wedge are in order.
+        constexpr std::array<std::size_t, 4> kSideBelow{3, 1, 0, 2};
+        for (std::size_t f = 0; f < corners; ++f) add_between(corners + (corners == 4 ? kSideBelow[f] : f));
         if (corners == 3) return cell;
         add_sides(8, 9);
         add_between(8);

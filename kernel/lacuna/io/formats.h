@@ -32,8 +32,8 @@ struct Format {
     enum class Skin { quads, nodes, nodes_and_sides };
     Skin skin = Skin::quads;
     bool has_lines = false, has_hex27 = false;
-    bool has_thin_order2 =
-        true; ///< its solver has cells of order 2 without thickness, or it is for any solver
+    /// Its solver has cells of order 2 without thickness, or it is for any solver.
+    bool has_thin_order2 = true;
     bool numbers_regions = false; ///< users identify regions by property number
     /// Which kinds of sets of a deck it cannot store, and why; empty: it stores all.
     std::string_view unwritten_sets{};

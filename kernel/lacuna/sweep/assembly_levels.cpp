@@ -74,7 +74,6 @@ AssemblyLevels::AssemblyLevels(std::span<const AssemblyMember> members, std::spa
       shared_(shared),
       height_(members.size()),
       length_(members.size(), 0),
-      read_(members.size()),
       same_(members.size(), kSameLevel),
       levels_(members.size(), {0, 1})
 {
@@ -91,10 +90,7 @@ void AssemblyLevels::read(std::size_t member, std::span<const surface::LinkingSu
         length_[member] = std::max(length_[member], 2 * area / rims);
         for (const EdgeUse& use : link.source.uses()) height_[member].emplace(use.edge, 0.0);
         for (const EdgeUse& use : link.target.uses()) height_[member].emplace(use.edge, 1.0);
-        for (const auto& [edge, height] : surface::heights_around(volume, link, context)) {
-            height_[member].emplace(edge, height);
-            read_[member].push_back(height);
-        }
+        height_[member].merge(surface::heights_around(volume, link, context));
     }
 }
 
@@ -162,7 +158,7 @@ std::vector<std::vector<double>> AssemblyLevels::heights(
         tallest[groups.find(m)] = std::max(tallest[groups.find(m)], length_[m]);
     for (std::size_t m = 0; m < members_.size(); ++m) {
         if (length_[m] > 0) same_[m] = kSameLevel * tallest.at(groups.find(m)) / length_[m];
-        for (const double height : read_[m]) add_level(m, height);
+        for (const auto& [edge, height] : height_[m]) add_level(m, height);
     }
     exchange(all);
     // Only groups in which some member has levels, and in which no member's number of layers is prescribed,

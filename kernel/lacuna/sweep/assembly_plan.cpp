@@ -268,7 +268,7 @@ private:
                 }
         std::vector<Vec3> places = corners_.points();
         tie_points(places, fixed, ties, grid_);
-        corners_ = PointsByPlace(cell());
+        corners_ = PointsByPlace(cell_width());
         for (const Vec3& p : places) corners_.add(p);
     }
 
@@ -1049,7 +1049,7 @@ private:
 
     /// Width of the cells in which corners are searched: a few tolerances, and no less than the resolution of
     /// the coordinates.
-    [[nodiscard]] double cell() const
+    [[nodiscard]] double cell_width() const
     {
         double width = 0;
         for (std::size_t m = 0; m < members_.size(); ++m)
@@ -1138,7 +1138,7 @@ private:
     std::set<std::size_t> stacked_;
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
-    PointsByPlace corners_{cell()};       ///< stored positions of vertices; see `corner_at()`
+    PointsByPlace corners_{cell_width()}; ///< stored positions of vertices; see `corner_at()`
     mutable std::vector<double> spacing_; ///< for each member's rim
 };
 

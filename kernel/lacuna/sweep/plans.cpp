@@ -56,8 +56,8 @@ std::vector<Plan> layouts(const OpenVolume& volume, const SweepOptions& options,
     std::vector<Plan> plans;
     if (keeps_quads(volume, options)) {
         plans.push_back({.keeps_end = true});
-        // Rows along walls cannot end on the rim of a neighbour's quads at the source. They can if the same
-        // quads are made on the other end and swept onto these.
+        // Rows along walls cannot end on the rim of a neighbour's quads at the source, but they can at the
+        // target, so the sweep may also start at the other end.
         if (!options.boundary_layers.empty() && !options.beside.own_mesh) plans.push_back({.turned = true});
         return plans;
     }

@@ -49,7 +49,6 @@ private:
                                                    ///< walls, in [0, 1]
     std::vector<double> length_;                   ///< length of each member's walls along the sweep [model
                                                    ///< length]
-    std::vector<std::vector<double>> read_;        ///< for each member: heights of edges around its walls
     std::vector<double> same_; ///< for each member: levels closer than this are one [share of its height]
     std::vector<std::vector<double>> levels_; ///< for each member, increasing from 0 to 1
 };
