@@ -2,8 +2,10 @@
 #include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/geometry/shared/union_find.h>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -48,5 +50,27 @@ TEST_CASE("a ray through a corner counts it once, in either direction of the pol
         CHECK_FALSE(lies_inside(kite, Vec2(-0.5, 0)));
         CHECK_FALSE(lies_inside(kite, Vec2(3.5, 1)));
         kite = {kite.rbegin(), kite.rend()};
+    }
+}
+
+TEST_CASE("a polygon that shares a vertex, a side or all vertices with another is inside it or beside it")
+{
+    const std::vector<Vec2> box{{0, 0}, {4, 0}, {4, 2}, {4, 3}, {0, 3}, {0, 1}};
+    const std::vector<std::vector<Vec2>> inside{{{0, 0}, {1, 1}, {0, 1}},           // on a vertex and a side
+                                                {{0, 0}, {4, 2}, {0, 3}},           // all vertices on the rim
+                                                {{1, 1}, {2, 1}, {2, 2}}};          // clear of the rim
+    const std::vector<std::vector<Vec2>> beside{{{4, 0}, {5, 0}, {5, 2}, {4, 2}},   // shares a side
+                                                {{0, 3}, {0, 4}, {-1, 4}},          // shares a vertex
+                                                {{-1, 0}, {0, 0}, {0, 3}, {-1, 3}}, // along two sides
+                                                {{-1, -1}, {5, -1}, {5, 4}, {-1, 4}}}; // around it
+    for (int turn = 0; turn < 36; ++turn) {
+        const auto turned = [&](std::vector<Vec2> polygon) {
+            for (Vec2& p : polygon) p = Eigen::Rotation2Dd(turn * 0.1) * p;
+            if (turn % 2 != 0) std::ranges::reverse(polygon);
+            return polygon;
+        };
+        CAPTURE(turn);
+        for (const auto& polygon : inside) CHECK(geometry::encloses(turned(box), turned(polygon)));
+        for (const auto& polygon : beside) CHECK_FALSE(geometry::encloses(turned(box), turned(polygon)));
     }
 }

@@ -98,7 +98,7 @@ void face_the_void(OpenVolume& volume, std::vector<Tube>& tubes)
     for (std::size_t i = 1; i < tubes.size(); ++i) {
         std::size_t depth = 0;
         for (std::size_t j = 0; j < tubes.size(); ++j)
-            depth += j != i && geometry::lies_inside(flat[j], flat[i].front()) ? 1 : 0;
+            depth += j != i && geometry::encloses(flat[j], flat[i]) ? 1 : 0;
         if (depth != 1) {
             throw NotClosed(Message("closure.nested_loops",
                                     "the walls {} {} the walls at {}, so they bound several volumes",

@@ -314,7 +314,7 @@ std::vector<std::vector<std::size_t>> regions_of(const std::vector<std::vector<V
     std::vector<std::vector<std::size_t>> round(loops.size()); // by loop: the loops it lies in
     for (std::size_t i = 0; i < loops.size(); ++i) {
         for (std::size_t o = 0; o < loops.size(); ++o)
-            if (i != o && geometry::lies_inside(loops[o], loops[i].front())) round[i].push_back(o);
+            if (i != o && geometry::encloses(loops[o], loops[i])) round[i].push_back(o);
     }
     std::vector<std::vector<std::size_t>> regions;
     for (std::size_t i = 0; i < loops.size(); ++i) {

@@ -278,7 +278,7 @@ private:
         const std::size_t given = rings.size();
         for (const Imprinted* image : own) rings.push_back({image->points, image->flat});
         const auto depth_in = [&](std::size_t inner, std::size_t outer) {
-            return inner != outer && geometry::lies_inside(rings[outer].flat, rings[inner].flat.front());
+            return inner != outer && geometry::encloses(rings[outer].flat, rings[inner].flat);
         };
         std::vector<std::size_t> parents(rings.size(), rings.size());
         for (std::size_t i = 0; i < rings.size(); ++i) {

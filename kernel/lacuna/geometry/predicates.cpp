@@ -6,10 +6,14 @@
 // must neither contract a·b + c nor reorder sums; common compilers do neither in ISO mode.
 #include <lacuna/geometry/shared/predicates.h>
 
+#include <lacuna/geometry/shared/plane.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace lacuna::geometry {
 namespace {
@@ -201,6 +205,38 @@ bool lies_inside(std::span<const Vec2> polygon, const Vec2& p)
         if (above == (b.y() > a.y())) inside = !inside;
     }
     return inside;
+}
+
+double signed_area(std::span<const Vec2> polygon)
+{
+    double twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+    return twice / 2;
+}
+
+bool encloses(std::span<const Vec2> outer, std::span<const Vec2> inner)
+{
+    if (std::abs(signed_area(inner)) >= std::abs(signed_area(outer))) return false;
+    // A point inside `inner`: the middle of the first stretch of a horizontal line through it. The line is
+    // as far from all vertices as it can be, because shared vertices and sides decide nothing.
+    std::vector<double> heights;
+    for (const Vec2& p : inner) heights.push_back(p.y());
+    std::ranges::sort(heights);
+    double y = 0, widest = 0;
+    for (std::size_t i = 1; i < heights.size(); ++i) {
+        if (heights[i] - heights[i - 1] <= widest) continue;
+        widest = heights[i] - heights[i - 1];
+        y = heights[i - 1] + widest / 2;
+    }
+    std::vector<double> crossings;
+    for (std::size_t i = 0; i < inner.size(); ++i) {
+        const Vec2 &a = inner[i], &b = inner[(i + 1) % inner.size()];
+        if ((a.y() > y) != (b.y() > y))
+            crossings.push_back(a.x() + (b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()));
+    }
+    std::ranges::sort(crossings);
+    return crossings.size() >= 2 && lies_inside(outer, {(crossings[0] + crossings[1]) / 2, y});
 }
 
 } // namespace lacuna::geometry

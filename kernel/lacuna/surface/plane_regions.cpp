@@ -3,7 +3,6 @@
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/predicates.h>
-#include <lacuna/surface/detail/plane_loops.h>
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +87,7 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
     std::vector<Walk> holes;
     for (Walk& loop : traced_loops(chains)) {
         std::vector<Vec2> outline = points_of(chains, loop);
-        const double area = signed_area(outline);
+        const double area = geometry::signed_area(outline);
         if (!(area > 0)) {
             holes.push_back(std::move(loop));
             continue;
