@@ -20,13 +20,7 @@ struct AssemblyPlan {
     std::vector<std::vector<double>> heights;
 };
 
-/// Numbers of sides for all edges of an assembly (interval assignment), and the nodes of shared edges.
-///
-/// Edges that need equal numbers of sides form one class: an edge that several members have; an edge of a
-/// source's rim and its image on the target's rim; the side lines of a member; opposite edges of a four-sided
-/// wall. A class gets the requested number of sides; without a request, the largest number that one of its
-/// edges needs by the size. If an end with only shared edges has an odd total, its longest class gets one
-/// more side.
+/// Numbers of sides for all edges of an assembly (`EdgeCounts`), and the nodes of shared edges.
 ///
 /// Nodes are evenly spaced, except on side lines, where they follow the layers, and where rows of boundary
 /// layers end on an edge, which needs nodes at the rows' heights. Edges of faces shared with an unswept

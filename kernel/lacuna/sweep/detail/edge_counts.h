@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <lacuna/geometry/shared/union_find.h>
+#include <lacuna/surface/shared/intervals.h>
+#include <lacuna/sweep/detail/assembly_levels.h>
+#include <lacuna/sweep/detail/same_edges.h>
+
+#include <array>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Interval assignment over an assembly. Internal to this folder.
+namespace lacuna::sweep {
+
+/// Distribute `count` sides over the intervals between the vertices of a line, given as shares of its length.
+/// The interval with the longest sides is divided first.
+std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count);
+
+/// Numbers of sides of all edges of an assembly's members.
+///
+/// Edges that need equal numbers of sides form one class: an edge that several members have; an edge of a
+/// source's rim and its image on the target's rim; the side lines of a member; opposite edges of a four-sided
+/// wall. A class gets the requested number of sides; without a request, the largest number that one of its
+/// edges needs by the size. If an end with only shared edges has an odd total, its longest class gets one
+/// more side.
+class EdgeCounts {
+public:
+    using Line = std::vector<topology::EdgeUse>;
+
+    /// The rows of boundary layers at one end of an edge, and the member that has these rows.
+    struct RowsHere {
+        std::vector<double> places; ///< running lengths from that end
+        std::size_t member = 0;
+        FaceId face;
+    };
+    /// An edge that follows facets. `ends` are the positions of those of its vertices that become nodes, as
+    /// shares of its length.
+    struct Followed {
+        std::size_t edge = 0;
+        std::vector<double> ends;
+    };
+
+    /// @throw  as `plan_assembly()`.
+    EdgeCounts(const SameEdges& edges, const RunContext& context);
+
+    /// Number of sides of an edge.
+    [[nodiscard]] int sides_of(std::size_t e) const { return count_.at(class_of(e)); }
+    /// Whether an edge's nodes are planned: see `SameEdges::is_planned()`. The edges of side lines of several
+    /// edges are not, and the rims of ends that have as many sides as a planned edge around the walls are.
+    [[nodiscard]] bool is_planned(std::size_t e) const { return planned_[e]; }
+    /// Whether an edge is on the rim of an end or on a side line. The nodes of the other edges of walls
+    /// follow from these.
+    [[nodiscard]] bool is_on_frame(std::size_t e) const { return frame_[e]; }
+
+    /// For each member: its side lines that consist of one edge.
+    [[nodiscard]] const std::map<std::size_t, Line>& side_lines() const { return sides_; }
+    /// For each member: its side lines of several edges, of which some are beside other volumes.
+    [[nodiscard]] const std::map<std::size_t, std::vector<Line>>& stacks() const { return stacks_; }
+    /// Number of layers of a member with side lines that consist of several edges: at least the largest
+    /// number of edges of one line.
+    [[nodiscard]] int layers_of(std::size_t m, const std::vector<Line>& lines) const;
+    /// For each member: see `AssemblyLevels::heights()`.
+    [[nodiscard]] const std::vector<std::vector<double>>& heights() const { return heights_; }
+
+    /// For a set of same edges: the facets that it follows, the rows of boundary layers that end on it in the
+    /// direction of its first edge, and the edge with a requested bias and that bias. Null: there are none.
+    [[nodiscard]] const Followed* followed(std::size_t set) const { return entry(followed_, set); }
+    [[nodiscard]] const std::array<RowsHere, 2>* rows(std::size_t set) const { return entry(rows_, set); }
+    [[nodiscard]] const std::pair<std::size_t, double>* bias(std::size_t set) const
+    {
+        return entry(bias_, set);
+    }
+
+private:
+    /// An edge of the source with an interval request.
+    struct EdgeAsked {
+        EdgeId edge;
+        double covered = 0; ///< share of its length that the request covers
+        double length = 0;  ///< covered length [model length]
+        bool reversed = false;
+    };
+    struct SidesOfClass {
+        int count = 0;
+        std::string region; ///< region of the member with the request
+        Argument name;      ///< name of the entity with the request
+    };
+
+    template <class T>
+    static const T* entry(const std::map<std::size_t, T>& of, std::size_t set)
+    {
+        const auto at = of.find(set);
+        return at == of.end() ? nullptr : &at->second;
+    }
+
+    [[nodiscard]] std::size_t class_of(std::size_t e) const { return class_[e]; }
+    [[nodiscard]] double size(std::size_t m, const Vec3& p) const;
+    /// Join edges that must have the same number of sides for the sweep of a member.
+    void join_by_sweep(std::size_t m);
+    /// Read the interval requests of a member. Errors are ignored here, because the member's own sweep
+    /// reports them.
+    void find_demands(std::size_t m, std::span<const surface::LinkingSurface> links);
+    /// Find the numbers of sides and layers that a member needs to keep its volume.
+    void plan_sides(std::size_t m, std::span<const surface::LinkingSurface> links);
+    /// Join opposite edges of walls, whose quads form rows and columns. Also join opposite edges of shared
+    /// faces with four edges, so that both members mesh such a face by the same grid.
+    void join_opposite();
+    /// @param rows  whether the quads form rows. A face with two rims then has the same number of nodes on
+    ///         both rims.
+    void join_opposite(std::size_t m, FaceId face, bool rows);
+    /// Find shared edges that run around a member's walls, such as the rim of a band. Such an edge needs as
+    /// many sides as the rims of the member's ends, so the nodes of these rims are planned too.
+    void find_across();
+    /// Find edges on which rows of boundary layers end. The rows of one member apply to all members that have
+    /// the edge.
+    void find_rows();
+    [[noreturn]] void refuse_rows(const RowsHere& there, std::size_t m, FaceId face, std::size_t e) const;
+    /// Number of sides of an edge that rows take up, and the length of the edge that remains for other sides
+    /// [model length].
+    [[nodiscard]] std::pair<int, double> beside_rows(std::size_t e) const;
+    /// Check that edges have enough sides for their rows.
+    void check_rows() const;
+    /// Assign requested numbers of sides to classes. A request that covers only a part of an edge is left to
+    /// the sweep of the member.
+    void ask_sides();
+    /// Distribute the requested sides over several edges by length. Every edge gets at least one side.
+    void ask_sides(std::size_t m, const surface::SidesAsked& asked, const std::vector<EdgeAsked>& edges);
+    void ask_class(std::size_t e, const SidesOfClass& sides);
+    [[nodiscard]] int layers_asked(std::size_t m) const;
+    /// Number of sides, at about the requested size, if all these vertices become nodes.
+    [[nodiscard]] double followed_sides(const Followed& followed, const MemberEdge& edge) const;
+    /// Number of sides that an edge needs for the size and the curvature of its member.
+    [[nodiscard]] double wanted(const MemberEdge& edge) const;
+    /// Determine the number of sides of each class.
+    void count();
+    /// If all edges of an end are shared or have given nodes, make the number of its sides even, because
+    /// quads need an even number.
+    void make_even();
+    /// @return  whether a class has got one more side.
+    bool make_even(std::size_t m, FaceId face, int round);
+    void find_frame();
+
+    const SameEdges& edges_;
+    const RunContext& context_;
+    geometry::UnionFind classes_;
+    std::vector<std::size_t> class_;    ///< for each edge: the root in `classes_`
+    std::vector<bool> planned_, frame_; ///< for each edge
+    std::map<std::size_t, int> count_;  ///< for each class
+    std::map<std::size_t, Line> sides_;
+    std::map<std::size_t, std::vector<Line>> stacks_;
+    /// Sets of same edges that, in some member, form only a part of a side line.
+    std::set<std::size_t> stacked_;
+    std::vector<int> per_turn_, layers_; ///< numbers that each member needs to keep its volume
+    AssemblyLevels levels_;
+    std::vector<std::vector<double>> heights_;
+    std::map<std::size_t, Followed> followed_;
+    std::map<std::size_t, std::array<RowsHere, 2>> rows_;
+    std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member that has any
+    std::map<std::size_t, SidesOfClass> intervals_; ///< for each class: sides requested by 'intervals'
+    std::map<std::size_t, std::pair<std::size_t, double>> bias_;
+    std::set<std::size_t> asked_; ///< classes with a number requested by the user
+    /// For each class, the highest value of its edges in this order.
+    std::map<std::size_t, SameEdges::Kept> kept_of_class_;
+    std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
+    mutable std::vector<double> spacing_; ///< for each member: default size; 0: not yet known
+};
+
+} // namespace lacuna::sweep

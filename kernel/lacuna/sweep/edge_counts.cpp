@@ -1,0 +1,507 @@
+// SPDX-License-Identifier: MIT
+#include <lacuna/sweep/detail/edge_counts.h>
+
+#include <lacuna/core/error.h>
+#include <lacuna/core/shared/criteria.h>
+#include <lacuna/geometry/shared/angle.h>
+#include <lacuna/surface/shared/default_size.h>
+#include <lacuna/surface/shared/linking_surface.h>
+#include <lacuna/surface/shared/rim_breaks.h>
+#include <lacuna/surface/shared/seeds.h>
+#include <lacuna/sweep/assembly.h>
+#include <lacuna/sweep/detail/edge_rows.h>
+#include <lacuna/sweep/detail/keep_thickness.h>
+#include <lacuna/sweep/detail/plan_heights.h>
+#include <lacuna/sweep/detail/shared_faces.h>
+#include <lacuna/sweep/detail/volume_share.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+namespace lacuna::sweep {
+
+using namespace topology;
+
+namespace {
+
+/// A request for a rim segment ignores an edge if it covers less than this share of the edge.
+constexpr double kInset = 1e-3;
+/// Maximum number of rounds that make the number of sides of ends even. Each round adds a side to one class;
+/// families of blocks need far fewer.
+constexpr int kRounds = 64;
+
+/// Whether rows of boundary layers have the same heights.
+bool are_alike(const std::vector<double>& a, const std::vector<double>& b)
+{
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double thick = a[i] - (i > 0 ? a[i - 1] : 0);
+        if (std::abs(a[i] - b[i]) > kThicknessOff * thick) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count)
+{
+    std::vector<int> parts(ends.size() - 1, 1);
+    const auto side = [&](std::size_t i) { return (ends[i + 1] - ends[i]) / parts[i]; };
+    for (std::size_t k = parts.size(); k < count; ++k) {
+        std::size_t longest = 0;
+        for (std::size_t i = 1; i < parts.size(); ++i)
+            if (side(i) > side(longest) * (1 + kInset)) longest = i;
+        ++parts[longest];
+    }
+    std::vector<double> at{0};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (int k = 1; k <= parts[i]; ++k) at.push_back(k == parts[i] ? ends[i + 1] : ends[i] + k * side(i));
+    }
+    return at;
+}
+
+EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
+    : edges_(edges),
+      context_(context),
+      classes_(edges.size()),
+      layers_(edges.members().size(), 1),
+      levels_(edges.members(), edges.shared()),
+      spacing_(edges.members().size(), 0)
+{
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        classes_.unite(edges.set_of(e), e);
+        planned_.push_back(edges.is_planned(e));
+    }
+    for (const AssemblyMember& member : edges.members()) per_turn_.push_back(member.options.curvature);
+    for (std::size_t m = 0; m < edges.members().size(); ++m) {
+        check_cancelled(context);
+        if (edges.members()[m].fixed == nullptr) join_by_sweep(m);
+    }
+    heights_ = levels_.heights([this](std::size_t m, double height) {
+        const std::vector<Vec3>& points = edges_.model(m).points;
+        const Vec3 middle = std::accumulate(points.begin(), points.end(), Vec3(Vec3::Zero())) /
+                            static_cast<double>(points.size());
+        return std::max<double>(layers_[m], height / size(m, middle));
+    });
+    join_opposite();
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        class_.push_back(classes_.find(e));
+        if (stacked_.contains(edges.set_of(e))) planned_[e] = false;
+    }
+    find_frame();
+    find_across();
+    find_rows();
+    count();
+    make_even();
+}
+
+void EdgeCounts::join_by_sweep(std::size_t m)
+{
+    std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
+    const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(*edges_.members()[m].volume);
+    find_demands(m, links);
+    plan_sides(m, links);
+    levels_.read(m, links, context_);
+    for (const surface::LinkingSurface& link : links) {
+        for (const surface::RimSegment& segment : link.segments) {
+            const EdgeId from = link.source.uses()[segment.use].edge;
+            // A segment may cover several edges of the target.
+            const double whole = link.target.length();
+            const double inset = kInset * (segment.target_to - segment.target_from);
+            const auto use_at = [&](double at) {
+                while (at >= whole) at -= whole;
+                return link.target.position(at).use;
+            };
+            const std::size_t last = use_at(segment.target_to - inset);
+            for (std::size_t use = use_at(segment.target_from + inset);;
+                 use = (use + 1) % link.target.uses().size()) {
+                const EdgeId to = link.target.uses()[use].edge;
+                target_of[from].insert(to);
+                source_of[to].insert(from);
+                if (use == last) break;
+            }
+        }
+        for (const surface::LinkingLine& line : link.lines) {
+            if (line.line.uses.size() != 1) { // the sweep decides how many sides each edge gets
+                for (const EdgeUse& use : line.line.uses)
+                    stacked_.insert(edges_.set_of(edges_.number(m, use.edge)));
+                const auto is_beside = [&](const EdgeUse& use) {
+                    return edges_.is_beside(edges_.number(m, use.edge));
+                };
+                if (std::ranges::any_of(line.line.uses, is_beside)) stacks_[m].push_back(line.line.uses);
+                continue;
+            }
+            sides_[m].push_back(line.line.uses.front());
+            classes_.unite(edges_.number(m, sides_[m].front().edge), edges_.number(m, sides_[m].back().edge));
+        }
+    }
+    for (const auto& [from, to] : target_of) {
+        if (to.size() == 1 && source_of.at(*to.begin()).size() == 1)
+            classes_.unite(edges_.number(m, from), edges_.number(m, *to.begin()));
+    }
+}
+
+void EdgeCounts::find_demands(std::size_t m, std::span<const surface::LinkingSurface> links)
+{
+    const AssemblyMember& member = edges_.members()[m];
+    if (member.options.intervals.empty()) return;
+    try {
+        demands_[m] = surface::find_intervals(*member.volume, links, member.options.intervals);
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        log_line(context_, error.message().about(member.region).text());
+    }
+}
+
+void EdgeCounts::plan_sides(std::size_t m, std::span<const surface::LinkingSurface> links)
+{
+    const OpenVolume& volume = *edges_.members()[m].volume;
+    const SweepOptions& options = edges_.members()[m].options;
+    const surface::SizeField size_at = [this, m](const Vec3& p) { return size(m, p); };
+    const VolumePlan plan = plan_volume(volume, links, options, size_at, context_);
+    per_turn_[m] = plan.per_turn;
+    if (plan.layers) layers_[m] = plan.layers(1);
+    if (!sizes_by_default(options)) return;
+    spacing_[m] *= plan.part;
+    surface::RimFacets facets(volume, links);
+    for (const auto& [edge, at] : facets.breaks(per_turn_[m], size_at).edges) {
+        std::vector<double> ends{0};
+        ends.insert(ends.end(), at.begin(), at.end());
+        ends.push_back(1);
+        followed_[edges_.set_of(edges_.number(m, edge))] = {edges_.number(m, edge), std::move(ends)};
+    }
+}
+
+void EdgeCounts::join_opposite()
+{
+    for (std::size_t m = 0; m < edges_.members().size(); ++m) {
+        for (const FaceId wall : edges_.members()[m].volume->faces(Role::wall)) join_opposite(m, wall, true);
+    }
+    for (const SharedFace& face : edges_.shared()) {
+        const bool rows = edges_.is_wall(face.a, face.face_a) || edges_.is_wall(face.b, face.face_b);
+        join_opposite(face.a, face.face_a, rows);
+        join_opposite(face.b, face.face_b, rows);
+    }
+}
+
+void EdgeCounts::join_opposite(std::size_t m, FaceId face, bool rows)
+{
+    if (edges_.members()[m].fixed != nullptr) return; // a fixed member keeps its quads
+    const std::vector<Loop> loops = border_loops(edges_.model(m), face);
+    if (rows && loops.size() == 2 && loops[0].uses.size() == 1 && loops[1].uses.size() == 1)
+        classes_.unite(edges_.number(m, loops[0].uses[0].edge), edges_.number(m, loops[1].uses[0].edge));
+    if (loops.size() != 1 || loops[0].uses.size() != 4) return;
+    for (std::size_t k = 0; k < 2; ++k)
+        classes_.unite(edges_.number(m, loops[0].uses[k].edge), edges_.number(m, loops[0].uses[k + 2].edge));
+}
+
+void EdgeCounts::find_across()
+{
+    std::set<std::pair<std::size_t, std::size_t>> across; // member, class
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+        if (planned_[e] && !frame_[e]) across.emplace(edges_[e].member, class_of(e));
+    for (std::size_t e = 0; e < edges_.size(); ++e)
+        if (frame_[e] && across.contains({edges_[e].member, class_of(e)})) planned_[e] = true;
+}
+
+void EdgeCounts::find_rows()
+{
+    for (std::size_t m = 0; m < edges_.members().size(); ++m) {
+        for (auto& [edge, rows] : edge_rows(edges_.members()[m])) {
+            const std::size_t e = edges_.number(m, edge);
+            if (edges_[e].closed || edges_.kept(e) == SameEdges::Kept::quads) continue; // its nodes are given
+            if (!edges_.runs_along(e)) std::swap(rows[0], rows[1]);
+            std::array<RowsHere, 2>& here = rows_[edges_.set_of(e)];
+            for (std::size_t k = 0; k < 2; ++k) {
+                if (rows[k].places.empty()) continue;
+                if (!here[k].places.empty() && !are_alike(here[k].places, rows[k].places))
+                    refuse_rows(here[k], m, rows[k].face, e);
+                if (here[k].places.empty()) here[k] = {rows[k].places, m, rows[k].face};
+            }
+            const double taken = (here[0].places.empty() ? 0 : here[0].places.back()) +
+                                 (here[1].places.empty() ? 0 : here[1].places.back());
+            if (taken >= edges_[e].length)
+                rows_.erase(edges_.set_of(e)); // drop the rows; the sweep reports the misfit
+        }
+    }
+}
+
+void EdgeCounts::refuse_rows(const RowsHere& there, std::size_t m, FaceId face, std::size_t e) const
+{
+    const AssemblyMember& own = edges_.members()[m];
+    const AssemblyMember& other = edges_.members()[there.member];
+    throw NotSweepable(Message("assembly.layers_differ",
+                               "the boundary layers of {} of {} and of {} of {} end on the same edge, "
+                               "{} of {}, but differ",
+                               entity_in(other, there.face), other.region, entity_in(own, face), own.region,
+                               entity_in(own, edges_[e].edge), own.region)
+                           .remedy("give both faces the same boundary_layers table"));
+}
+
+std::pair<int, double> EdgeCounts::beside_rows(std::size_t e) const
+{
+    const auto found = rows_.find(edges_.set_of(e));
+    if (found == rows_.end()) return {0, edges_[e].length};
+    int taken = 0;
+    double left = edges_[e].length;
+    for (const RowsHere& end : found->second) {
+        taken += static_cast<int>(end.places.size());
+        if (!end.places.empty()) left -= end.places.back();
+    }
+    return {taken, left};
+}
+
+void EdgeCounts::check_rows() const
+{
+    for (const auto& [e, ends] : rows_) {
+        const int taken = beside_rows(e).first, count = count_.at(class_of(e));
+        if (taken < count) continue;
+        const RowsHere& end = ends[ends[0].places.empty() ? 1 : 0];
+        const AssemblyMember &own = edges_.members()[end.member], &other = edges_.members()[edges_[e].member];
+        throw NotSweepable(
+            Message("assembly.layers_rows",
+                    "the boundary layers of {} of {} need at least {} sides on {} of {}, because {} rows end "
+                    "there, but it has {}",
+                    entity_in(own, end.face), own.region, needed(taken + 1), entity_in(other, edges_[e].edge),
+                    other.region, taken, found(count))
+                .remedy("use a smaller 'count' of rows, or more layers or intervals there"));
+    }
+}
+
+void EdgeCounts::ask_sides()
+{
+    for (const auto& [m, demands] : demands_) {
+        for (const surface::SidesAsked& asked : demands.sides) {
+            std::vector<EdgeAsked> edges;
+            for (const surface::SidesAsked::Part& part : asked.parts) {
+                if (edges.empty() || edges.back().edge != part.edge)
+                    edges.push_back({part.edge, 0, 0, part.reversed});
+                edges.back().covered += part.to - part.from;
+                edges.back().length += (part.to - part.from) * edges_[edges_.number(m, part.edge)].length;
+            }
+            const bool whole = std::ranges::all_of(
+                edges, [](const EdgeAsked& edge) { return edge.covered > 1 - kInset; });
+            if (whole && static_cast<std::size_t>(asked.count) >= edges.size()) ask_sides(m, asked, edges);
+        }
+    }
+}
+
+void EdgeCounts::ask_sides(std::size_t m, const surface::SidesAsked& asked,
+                           const std::vector<EdgeAsked>& edges)
+{
+    double all = 0, until = 0;
+    for (const EdgeAsked& edge : edges) all += edge.length;
+    int before = 0;
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        until += edges[k].length;
+        const auto left = static_cast<int>(edges.size() - k - 1);
+        const int node = left == 0 ? asked.count
+                                   : std::clamp(static_cast<int>(std::lround(asked.count * until / all)),
+                                                before + 1, asked.count - left);
+        const std::size_t e = edges_.number(m, edges[k].edge);
+        ask_class(e, {node - before, edges_.members()[m].region, asked.name});
+        if (edges.size() == 1 && asked.bias != 1)
+            bias_[edges_.set_of(e)] = {e, edges[k].reversed ? 1 / asked.bias : asked.bias};
+        before = node;
+    }
+}
+
+void EdgeCounts::ask_class(std::size_t e, const SidesOfClass& sides)
+{
+    const auto [found, fresh] = intervals_.try_emplace(class_of(e), sides);
+    if (fresh || found->second.count == sides.count) return;
+    const SidesOfClass& before = found->second;
+    throw NotSweepable(Message("surface.sides_asked",
+                               "intervals: matching edges cannot have both {} sides ({}: {}) and {} ({}: {})",
+                               lacuna::found(sides.count), sides.region, sides.name, needed(before.count),
+                               before.region, before.name)
+                           .remedy("ask for the same number in both"));
+}
+
+int EdgeCounts::layers_asked(std::size_t m) const
+{
+    const LayerSpec& spec = edges_.members()[m].options.layers;
+    const auto demands = demands_.find(m);
+    if (demands != demands_.end() && demands->second.layers) return demands->second.layers->count;
+    return spec.heights.empty() ? spec.count : static_cast<int>(spec.heights.size());
+}
+
+double EdgeCounts::followed_sides(const Followed& followed, const MemberEdge& edge) const
+{
+    double sides = 0;
+    for (std::size_t i = 1; i < followed.ends.size(); ++i)
+        sides += std::max(1.0, std::round((followed.ends[i] - followed.ends[i - 1]) * edge.length /
+                                          size(edge.member, edge.middle)));
+    return sides;
+}
+
+double EdgeCounts::wanted(const MemberEdge& edge) const
+{
+    const std::vector<Vec3> line = surface::edge_line(edges_.model(edge.member), edge.edge);
+    double sides = 0, turn = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const Vec3 &a = line[i], &b = line[i + 1];
+        sides += (b - a).norm() / size(edge.member, (a + b) / 2);
+        if (i > 0) turn += geometry::angle_between(a - line[i - 1], b - a);
+    }
+    const std::size_t own = edges_.number(edge.member, edge.edge);
+    if (const auto followed = followed_.find(edges_.set_of(own)); followed != followed_.end())
+        return followed_sides(followed->second, edge);
+    const auto lines = sides_.find(edge.member);
+    const bool is_side = lines != sides_.end() &&
+                         std::ranges::find(lines->second, edge.edge, &EdgeUse::edge) != lines->second.end();
+    if (is_side) sides = std::max(sides, static_cast<double>(layers_[edge.member]));
+    return std::max(sides, turn * per_turn_[edge.member] / (2 * std::numbers::pi));
+}
+
+void EdgeCounts::count()
+{
+    std::map<std::size_t, std::size_t> asked; // for each class: the member that requests layers
+    for (const auto& [m, sides] : sides_) {
+        if (layers_asked(m) == 0 || sides.empty()) continue;
+        const auto [found, fresh] = asked.try_emplace(class_of(edges_.number(m, sides.front().edge)), m);
+        const AssemblyMember &a = edges_.members()[found->second], &b = edges_.members()[m];
+        if (fresh || layers_asked(found->second) == layers_asked(m)) continue;
+        throw NotSweepable(Message("assembly.layers",
+                                   "{} and {} lie side by side and are swept in the same direction, so they "
+                                   "need equal layers, but {} and {} are asked for",
+                                   a.region, b.region, lacuna::found(layers_asked(found->second)),
+                                   lacuna::found(layers_asked(m)))
+                               .remedy("ask for the same number in both"));
+    }
+    ask_sides();
+    for (const auto& [of, m] : asked)
+        if (const auto other = intervals_.find(of); other != intervals_.end())
+            ask_class(of, {layers_asked(m), edges_.members()[m].region, "its layers"});
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+        SameEdges::Kept& of = kept_of_class_[class_of(e)];
+        of = std::max(of, edges_.kept(e));
+    }
+    std::map<std::size_t, double> most;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+        const std::size_t of = class_of(e);
+        double& sides = most[of];
+        if (asked.contains(of) || edges_.kept(e) != kept_of_class_.at(of)) continue;
+        const auto [taken, left] = beside_rows(e);
+        sides = std::max(sides, edges_.kept(e) != SameEdges::Kept::no ? edges_.given_sides(e)
+                                : taken == 0                          ? wanted(edges_[e])
+                                             : taken + std::max(1.0, std::round(wanted(edges_[e]) * left /
+                                                                                edges_[e].length)));
+    }
+    for (const auto& [of, sides] : most) {
+        if (!(sides < std::numeric_limits<Index>::max() / 16.0))
+            throw InvalidInput(
+                Message("sweep.too_many",
+                        "an edge of the assembly would have more sides than node numbers allow")
+                    .remedy("use a larger 'size'"));
+        count_[of] = std::max(1, static_cast<int>(std::lround(sides)));
+    }
+    for (const auto& [of, m] : asked) {
+        count_[of] = layers_asked(m);
+        asked_.insert(of);
+    }
+    for (const auto& [m, sides] : sides_) {
+        if (sides.empty() || heights_[m].empty()) continue;
+        const std::size_t of = class_of(edges_.number(m, sides.front().edge));
+        count_[of] = static_cast<int>(heights_[m].size());
+        asked_.insert(of);
+    }
+    for (const auto& [of, sides] : intervals_) {
+        if (kept_of_class_.at(of) == SameEdges::Kept::quads)
+            continue; // the sweep reports a conflict of numbers
+        count_[of] = sides.count;
+        asked_.insert(of);
+    }
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+        if (edges_[e].closed) count_[class_of(e)] = std::max(count_[class_of(e)], 4);
+    }
+    check_rows();
+}
+
+void EdgeCounts::make_even()
+{
+    for (int round = 0; round < kRounds; ++round) {
+        bool odd = false;
+        for (std::size_t m = 0; m < edges_.members().size(); ++m) {
+            for (std::size_t f = 0; f < edges_.model(m).faces.size(); ++f) {
+                if (edges_.members()[m].volume->role[f] != Role::wall)
+                    odd = make_even(m, FaceId(f), round) || odd;
+            }
+        }
+        if (!odd) return;
+    }
+}
+
+bool EdgeCounts::make_even(std::size_t m, FaceId face, int round)
+{
+    std::map<std::size_t, int> uses; // number of uses of each class by the face
+    int sides = 0;
+    for (const Loop& loop : border_loops(edges_.model(m), face)) {
+        for (const EdgeUse& use : loop.uses) {
+            const std::size_t e = edges_.number(m, use.edge);
+            if (!planned_[e] && edges_.kept(e) == SameEdges::Kept::no) return false;
+            const std::size_t of = class_of(e);
+            ++uses[of];
+            sides += count_.at(of);
+        }
+    }
+    if (sides % 2 == 0) return false;
+    std::size_t best = edges_.size();
+    for (const auto& [of, times] : uses) {
+        if (times % 2 == 0 || asked_.contains(of) || kept_of_class_.at(of) == SameEdges::Kept::quads)
+            continue;
+        // Later rounds choose the next class, so that two ends do not undo each other's changes. Classes
+        // with given nodes on rims of faces whose mesh only defines the shape are changed last.
+        const auto before = [&](std::size_t a, std::size_t b) {
+            return std::tuple(kept_of_class_.at(a) != SameEdges::Kept::rim, -bumps_[a], count_.at(a)) >
+                   std::tuple(kept_of_class_.at(b) != SameEdges::Kept::rim, -bumps_[b], count_.at(b));
+        };
+        if (best == edges_.size() || before(of, best)) best = of;
+    }
+    if (best == edges_.size()) return false;
+    ++bumps_[best];
+    count_[best] += round < kRounds / 2 ? 1 : count_[best] % 2;
+    return true;
+}
+
+double EdgeCounts::size(std::size_t m, const Vec3& p) const
+{
+    if (edges_.members()[m].options.size) return edges_.members()[m].options.size(p);
+    if (spacing_[m] == 0) spacing_[m] = surface::default_size(*edges_.members()[m].volume).length;
+    return spacing_[m];
+}
+
+int EdgeCounts::layers_of(std::size_t m, const std::vector<std::vector<EdgeUse>>& lines) const
+{
+    double layers = std::max(layers_asked(m), layers_[m]);
+    if (const auto sides = sides_.find(m); sides != sides_.end())
+        layers = count_.at(class_of(edges_.number(m, sides->second.front().edge)));
+    std::size_t most = 1;
+    for (const std::vector<EdgeUse>& line : lines) {
+        double wanted_here = 0;
+        for (const EdgeUse& use : line) wanted_here += wanted(edges_[edges_.number(m, use.edge)]);
+        if (!sides_.contains(m) && layers_asked(m) == 0) layers = std::max(layers, wanted_here);
+        most = std::max(most, line.size());
+    }
+    return std::max(static_cast<int>(std::lround(layers)), static_cast<int>(most));
+}
+
+void EdgeCounts::find_frame()
+{
+    for (std::size_t m = 0; m < edges_.members().size(); ++m) {
+        for (std::size_t e = 0; e < edges_.model(m).edges.size(); ++e)
+            frame_.push_back(
+                std::ranges::any_of(edges_.model(m).uses_of_edge(EdgeId(e)), [&](const FaceUse& user) {
+                    return edges_.members()[m].volume->role[user.face.index()] != Role::wall;
+                }));
+    }
+    for (const auto& [m, sides] : sides_)
+        for (const EdgeUse& side : sides) frame_[edges_.number(m, side.edge)] = true;
+}
+
+} // namespace lacuna::sweep
