@@ -40,7 +40,7 @@ namespace {
 /// Maximum number of nodes on the edges of all members. More nodes would exhaust the memory before anything
 /// is meshed.
 constexpr double kMostNodes = 2e7;
-/// A request for a rim segment ignores an edge if it covers less than this share of the edge.
+/// An interval request for part of a rim does not apply to an edge of which it covers less than this share.
 constexpr double kInset = 1e-3;
 /// Maximum number of rounds that make the number of sides of ends even. Each round adds a side to one class;
 /// families of blocks need far fewer.
@@ -57,7 +57,7 @@ public:
         cells_[cell_at(p)].push_back(points_.size());
         points_.push_back(p);
     }
-    /// The first point within the tolerance. If there is none, the place becomes a point.
+    /// The first point within the tolerance; without one, `p` is added.
     std::size_t find_or_add(const Vec3& p, double tolerance)
     {
         std::size_t first = points_.size();
@@ -108,7 +108,7 @@ public:
         for (const auto& [m, face] : beside) add_beside(m, face);
         for (const SharedFace& face : shared) {
             const bool a = is_wall(face.a, face.face_a), b = is_wall(face.b, face.face_b);
-            // The rows of the wall have a node wherever an edge of the other member's end ends.
+            // If a wall is part of another member's end, its rows need a node at every vertex on its border.
             if (a && !b) add_beside(face.a, face.face_a);
             if (b && !a) add_beside(face.b, face.face_b);
         }
@@ -178,8 +178,8 @@ private:
         for (const SharedFace& face : shared_) find_same_rims(face);
         for (const std::size_t e : beside_) common_[e] = true;
     }
-    /// Unite the rims of a shared face that consist of a single closed edge with those of the same face in
-    /// the other member. They are the same edges even if their chords differ widely.
+    /// Unite each rim of a shared face that is one closed edge with the same rim in the other member. Both
+    /// are the same edge even if their chords differ widely.
     void find_same_rims(const SharedFace& face)
     {
         const auto closed_rims = [&](std::size_t m, FaceId of) {
@@ -206,7 +206,8 @@ private:
     /// and the nodes of all edges of the set.
     void join_periodic()
     {
-        // Transforms onto the first edge of each set.
+        // For each set, keyed by its first edge: its edges, and the motions that move them onto the first
+        // one.
         std::map<std::size_t, std::vector<std::pair<std::size_t, Eigen::Isometry3d>>> images;
         for (const PeriodicFaces& pair : periodic_)
             for (const auto& [own, image] : pair.edges) {
@@ -531,13 +532,13 @@ private:
             classes_.unite(number(m, loops[0].uses[k].edge), number(m, loops[0].uses[k + 2].edge));
     }
 
-    /// An edge that follows facets. `ends` are the positions of those of its vertices that become nodes, as
-    /// shares of its length.
+    /// An edge whose sides follow facets, and the positions of its vertices that become nodes, as shares of
+    /// its length.
     struct Followed {
         std::size_t edge = 0;
         std::vector<double> ends;
     };
-    /// Number of sides, at about the requested size, if all these vertices become nodes.
+    /// Number of sides of about the requested size if all positions in `followed.ends` become nodes.
     [[nodiscard]] double followed_sides(const Followed& followed, const MemberEdge& edge) const
     {
         double sides = 0;
@@ -546,8 +547,8 @@ private:
                                               size(edge.member, edge.middle)));
         return sides;
     }
-    /// Distribute `count` sides over the intervals between these vertices. The interval with the longest
-    /// sides is divided first.
+    /// Distribute `count` sides over the intervals between `ends`: one side each, then each next side to the
+    /// interval with the longest sides.
     static std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count)
     {
         std::vector<int> parts(ends.size() - 1, 1);
@@ -684,8 +685,8 @@ private:
                                .remedy("give both faces the same boundary_layers table"));
     }
 
-    /// Number of sides of an edge that rows take up, and the length of the edge that remains for other sides
-    /// [model length].
+    /// Number of sides of an edge that belong to boundary-layer rows, and the length of the edge outside
+    /// these rows [model length].
     [[nodiscard]] std::pair<int, double> beside_rows(std::size_t e) const
     {
         const auto found = rows_.find(same_.find(e));
@@ -968,8 +969,10 @@ private:
         return std::max(static_cast<int>(std::lround(layers)), static_cast<int>(most));
     }
 
-    /// Places of nodes on a side line: the heights of the member's layers, of which the nearest moves to each
-    /// end of an edge; or, if there are none, or two ends have the same nearest height, evenly between ends.
+    /// Node positions on a side line that consists of several edges, as shares of its length. They are the
+    /// heights of the member's layers, and the height nearest to each vertex is moved onto the vertex. If
+    /// there are no heights, or two vertices share the nearest height, nodes are evenly spaced between
+    /// vertices.
     [[nodiscard]] std::vector<double> places_on(const std::vector<double>& ends, std::size_t m,
                                                 std::size_t count) const
     {
@@ -1057,8 +1060,8 @@ private:
         return width;
     }
 
-    /// Of the same edge in several members, the index of the one with given nodes. Without given nodes, the
-    /// one with an exact curve.
+    /// The edge, among those that are the same in several members, that defines the nodes: one with given
+    /// nodes, else one with an exact curve, else the first.
     [[nodiscard]] std::size_t exact_one(std::size_t e)
     {
         const std::size_t root = same_.find(e);
@@ -1102,7 +1105,7 @@ private:
     /// the nodes of quads.
     enum class Kept : std::uint8_t { no, rim, quads };
     std::vector<Kept> kept_; ///< for each edge, which nodes are kept
-    /// For each class, the highest value of its edges in this order.
+    /// For each class, the largest `Kept` of its edges.
     std::map<std::size_t, Kept> kept_of_class_;
     std::map<std::size_t, std::array<RowsHere, 2>>
         rows_; ///< for each set of same edges, in the direction of the first
@@ -1139,7 +1142,7 @@ private:
     std::set<std::size_t> asked_;         ///< classes with a number requested by the user
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
     PointsByPlace corners_{cell_width()}; ///< stored positions of vertices; see `corner_at()`
-    mutable std::vector<double> spacing_; ///< for each member's rim
+    mutable std::vector<double> spacing_; ///< default size of each member; 0: not computed yet
 };
 
 } // namespace

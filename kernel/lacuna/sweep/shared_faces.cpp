@@ -114,8 +114,8 @@ struct InCommon {
     double sag = 0;         ///< maximum distance of the rims' chords from these arcs
 };
 
-/// Compare the rims of a face that two members share. @return  whether it is one face despite any difference
-/// of the rims
+/// Compare the rims of a face that two members share. @return  whether both are one face, although their rims
+/// may differ
 bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
                 double tolerance, double window, InCommon& common)
 {

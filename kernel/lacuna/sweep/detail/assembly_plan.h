@@ -24,9 +24,9 @@ struct AssemblyPlan {
 ///
 /// Edges that need equal numbers of sides form one class: an edge that several members have; an edge of a
 /// source's rim and its image on the target's rim; the side lines of a member; opposite edges of a four-sided
-/// wall. A class gets the requested number of sides; without a request, the largest number that one of its
-/// edges needs by the size. If an end with only shared edges has an odd total, its longest class gets one
-/// more side.
+/// wall. A class gets the requested number of sides; without a request, the largest number that the size
+/// requires for one of its edges. If an end with only shared edges has an odd number of sides, its longest
+/// class gets one more side.
 ///
 /// Nodes are evenly spaced, except on side lines, where they follow the layers, and where rows of boundary
 /// layers end on an edge, which needs nodes at the rows' heights. Edges of faces shared with an unswept

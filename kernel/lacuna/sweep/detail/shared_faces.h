@@ -28,12 +28,12 @@ struct FacesInCommon {
     std::set<std::pair<std::size_t, std::size_t>> same_side;
 };
 
-/// Whether a member may lie inside another one, as the parts of one skin do. If so, near misses are not
+/// Whether a member may lie inside another one, as the parts of one skin may. If so, near misses are not
 /// searched.
 enum class MayOverlap : bool { no, yes };
 
-/// @param sag  for each member, the sag of its first faces; for others `facet_sag()` is computed. It must be
-///         given for faces that were divided, because their facets no longer show it.
+/// For each member, the sag of its first faces; `facet_sag()` is computed for the other faces. The sag of
+/// faces that were divided must be given, because the facets of their parts are too few to estimate it.
 /// @throw InvalidInput "assembly.overlap", "assembly.rims_apart", "assembly.crack"  as `shared_faces()`
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
                               std::vector<std::vector<double>> sag = {},
