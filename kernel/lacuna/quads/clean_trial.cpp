@@ -72,8 +72,8 @@ bool Trial::exceeds(std::size_t filled, double most) const
 /// `most`
 bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
 {
-    // Smoothing makes no quad worse than the worst quad it gets. The worst quad of the surroundings is
-    // therefore included, so that quads may become as bad as this one.
+    // Smoothing makes no quad worse than the worst of its input. The worst quad of the surroundings is
+    // therefore part of the input, so that other quads may become as bad as that one.
     points_.clear();
     quads_.clear();
     if (worst_ >= 0) {

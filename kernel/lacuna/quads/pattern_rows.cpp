@@ -109,7 +109,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t kFewestRoundEnd = 5; ///< number of nodes with which three nodes remain
+    static constexpr std::size_t kFewestRoundEnd = 5; ///< in shorter loops, the row's inner side would have
+                                                      ///< fewer than three nodes
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return point_of(points_, loop_.nodes, i); }
 

@@ -23,7 +23,7 @@ BoundarySizes sizes_with_boundary(const PlanarRegion& region);
 /// Estimated number of quads of a region: its area divided by that of a square on a mean boundary side.
 double quads_within(const PlanarRegion& region);
 
-/// Whether the number of quads of a mesh differs by at most a quarter from the requested number, as promised.
+/// Whether the number of quads of a mesh differs by at most a quarter from the number that the size requires.
 bool has_quads_asked(const PlanarQuads& mesh, const SizeField& size);
 
 } // namespace lacuna::quads::paving

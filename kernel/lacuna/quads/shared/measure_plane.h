@@ -75,7 +75,7 @@ double row_corner(double angle, Index quads);
 /// ideal angle. A single quad in a corner below 70° or above 110° cannot.
 /// @param angle  angle of the node inside the region [radian].
 bool may_be_good(double angle, Index quads);
-/// Whether this is so for some number of quads from one to four.
+/// Whether `may_be_good()` holds for at least one number of quads from one to four.
 bool may_be_good(double angle);
 
 /// Measure quads over a region.
