@@ -89,7 +89,7 @@ void WholeFolder::commit()
     }
 #ifdef RENAME_EXCHANGE
     if (::renameat2(folder, unfinished_.c_str(), folder, name_.c_str(), RENAME_EXCHANGE) == 0)
-        return remove_unfinished(); // now the old folder
+        return remove_unfinished(); // the hidden folder is now the old one
     if (errno != EINVAL && errno != ENOSYS) fail(errno);
 #endif
     // The file system cannot exchange names. So there is no folder at the path between the two renames.
