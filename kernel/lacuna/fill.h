@@ -56,7 +56,7 @@ Filled fill(const topology::Model& model, const Request& request = {}, const Run
 
 /// Close a volume if it is still open, and sweep it. A volume with steps or branches, or one that makes a
 /// full turn, is cut and its pieces are swept. If the roles were found and the volume cannot be swept with
-/// them, the alternative sweeps of the same void are tried in turn; the report names the one used.
+/// them, the alternative sweeps of the same void are tried in turn; the report names the sweep that was used.
 /// @return  `volumes` holds the one volume with the roles of the successful sweep, sealed unless it was cut.
 /// @throw NotSweepable, NotClosed  the reason why the first sweep failed.
 /// @throw InvalidInput  the errors of `sweep::sweep()`.
@@ -87,7 +87,7 @@ struct ContactRequest {
     std::vector<Pair> pairs;
 };
 
-/// Find the faces of two regions in contact by `sweep::faces_in_contact()`, with one entry for each two
+/// Find the faces of two regions in contact by `sweep::faces_in_contact()`, with one entry for each pair of
 /// regions. The first overload takes the members of an assembly, which are closed first. The second takes a
 /// model, whose bodies are its regions or, if faces have none, the parts that no edge connects.
 /// @throw InvalidInput "fill.contact_region"  a pair names an unknown region; "fill.contact_none"  the

@@ -242,8 +242,8 @@ sweep::AssemblyMember member_of(const KeptMesh& kept, const std::string& number)
     return member;
 }
 
-/// Requested layers apply only to pieces that run from source to target. The other pieces take the layers
-/// that remain.
+/// The number of layers that the user requested applies only to pieces that run from source to target. The
+/// other pieces get the remaining layers.
 sweep::AssemblyMember member_of(const Part& part, const std::string& region, bool alone)
 {
     const Volume& volume = part.volume;
