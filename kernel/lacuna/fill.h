@@ -100,8 +100,9 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
                               const RunContext& context = {});
 
 /// Close several volumes and sweep them, cut into pieces where needed, as one conforming mesh. Volumes that
-/// are not glued have nodes of their own. The faces of `contacts()` are groups NAME_slave and NAME_master of
-/// the mesh: the slave is the side with the smaller faces or, if these are of one area, the finer one.
+/// are not glued do not share nodes with their neighbours. The faces of `contacts()` become groups NAME_slave
+/// and NAME_master of the mesh. The slave is the side with the smaller faces or, if their areas are equal,
+/// the side with the finer mesh.
 /// @return  `volumes` holds the member volumes in their order. A volume that was left out or swept in pieces
 ///          is returned unchanged.
 /// @throw InvalidInput "surface.no_such_face"  an option names a face that no volume has.

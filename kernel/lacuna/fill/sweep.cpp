@@ -253,9 +253,10 @@ private:
 };
 
 /// Mesh a volume that no single sweep fills, in pieces that can be swept. With `Fallback::mixed`, pieces that
-/// cannot be swept are filled with tetrahedra; if there are no pieces, the whole volume is.
+/// cannot be swept are filled with tetrahedra. If the volume cannot be cut into pieces, it is filled with
+/// tetrahedra as a whole.
 /// @param why  why the volume cannot be swept
-/// @return  empty if that fails too.
+/// @return  empty if no mesh is found.
 std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, const SweepRequest& request,
                                       const RunContext& context)
 {

@@ -84,7 +84,7 @@ std::vector<Index> find_middles(const Deck& deck, std::span<const std::array<Ind
     return found;
 }
 
-/// The same for corners given as positions. Several nodes of the deck may lie at each position.
+/// `find_middles()` for corners given as positions. Several nodes of the deck may lie at each position.
 template <std::size_t N>
 std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3, N>> wanted,
                                double tolerance, double scale)

@@ -90,7 +90,7 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
                  const FidelityOptions& options = {}, const RunContext& context = {},
                  const mesh::LayeredNodes* layers = nullptr);
 
-/// As above, for tetrahedra and pyramids.
+/// `compare()` for tetrahedra and pyramids.
 Fidelity compare(const topology::OpenVolume& volume, const mesh::TetPart& mesh,
                  const std::vector<FaceId>& faces, double volume_of_mesh, const FidelityOptions& options = {},
                  const RunContext& context = {});

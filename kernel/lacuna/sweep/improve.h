@@ -84,9 +84,9 @@ struct Improved {
 ///    and prevents folding.
 ///
 /// @post  the minimum scaled Jacobian is not smaller than before. If no cell was folded, the mean decreases
-///   by at most 0.01. If nothing improves, no node moves. Each cell is judged by its distance from the
-///   quality that its fixed nodes allow, so a cell that cannot improve does not stop the improvement of
-///   others. Sliding nodes lie on their surfaces.
+///         by at most 0.01. If nothing improves, no node moves. Each cell is judged by its distance from the
+///         quality that its fixed nodes allow, so a cell that cannot improve does not stop the improvement of
+///         others. Sliding nodes lie on their surfaces.
 /// @throw InvalidInput  an option that `check()` refuses.
 /// @note  Deterministic for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
 Improved improve(mesh::HexMesh mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},

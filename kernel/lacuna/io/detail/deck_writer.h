@@ -53,8 +53,8 @@ Section section_of_points(std::string text, const View& view, std::size_t bytes,
                 return out;
             }};
 }
-/// The same for the cells of a block. @param put  called as `put(index in the block, tag, region, nodes,
-/// out)`
+/// Append all cells of a block. `put(index in the block, tag, region, nodes, out)` writes each cell in at
+/// most `bytes` bytes.
 template <class Put>
 Section section_of_cells(const View& view, std::size_t block, std::size_t bytes, Put put)
 {
@@ -73,7 +73,7 @@ Section section_of_cells(const View& view, std::size_t block, std::size_t bytes,
             return out;
         }};
 }
-/// The same for some cells of a block. @param put  called as `put(tag, nodes, out)`
+/// Append text and some cells of a block. `put(tag, nodes, out)` writes each cell in at most `bytes` bytes.
 template <class Put>
 Section section_of_cells(std::string text, const View& view, std::size_t block, mesh::Ranges cells,
                          std::size_t bytes, Put put)

@@ -32,8 +32,9 @@ struct FacesInCommon {
 /// searched.
 enum class MayOverlap : bool { no, yes };
 
-/// For each member, the sag of its first faces; `facet_sag()` is computed for the other faces. The sag of
-/// faces that were divided must be given, because the facets of their parts are too few to estimate it.
+/// @param sag  for each member, the sag of its first faces; `facet_sag()` is computed for the others. It must
+///         be given for faces that were divided, because the facets of their parts are too few to estimate
+///         it.
 /// @throw InvalidInput "assembly.overlap", "assembly.rims_apart", "assembly.crack"  as `shared_faces()`
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
                               std::vector<std::vector<double>> sag = {},

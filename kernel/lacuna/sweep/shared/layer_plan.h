@@ -50,7 +50,7 @@ struct PlacedLayers {
 /// @throw  as `place_layers()`
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
 
-/// The same layers with middle nodes.
+/// Add middle nodes to placed layers.
 PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunContext& context = {});
 
 /// Serialise a complete plan into a message to other processes.
