@@ -84,7 +84,7 @@ private:
         return Eigen::Map<const Eigen::VectorXd>(places.front().data(), size);
     }
 
-    /// Work on earlier meshes does not count for a mesh that is still folded, because it would be refused.
+    /// While a mesh is folded, work on earlier meshes does not count, because a folded mesh would be refused.
     [[nodiscard]] double work_that_counts() const
     {
         return best_quality_.least > 0 ? options_.spent->work : work_;

@@ -26,9 +26,9 @@ namespace {
 /// of the largest tolerance that a model can have. With a higher value, more intended gaps would be reported.
 /// Not measured.
 constexpr double kWidest = 5e-3;
-/// Least share, of the area closer than four windows, that must also be closer than one window for two faces
-/// to count as a near miss. The share is a quarter between faces that diverge linearly, and a half between
-/// faces that curve away from a contact.
+/// Two faces are a near miss only if at least this share of the area within four windows is within one
+/// window. The share is a quarter between faces that diverge linearly, and a half between faces that curve
+/// away from a contact.
 constexpr double kStaysNear = 0.6;
 /// Least share of a face, or of an edge, that must be near the other member. A smaller part counts if its
 /// mean width exceeds the window or, along an edge, if it is longer than `kCorner` windows.

@@ -13,9 +13,9 @@ namespace lacuna::quads::paving {
 /// region without a size gets the mean length of its boundary sides.
 struct BoundarySizes {
     SizeField usual;
-    /// As `usual`, but the limits apply only where sides deviate slightly more from the requested size. The
-    /// sides of a ring may be 0.6 to 1 / 0.6 times as long as requested, while its rows keep the requested
-    /// size. Rings are laid out with this size, and all meshes are judged by it.
+    /// As `usual`, but sides may deviate slightly more from the requested size before they limit the size.
+    /// The sides of a ring may be 0.6 to 1 / 0.6 times as long as requested, while its rows keep the
+    /// requested size. Rings are laid out with this size, and all meshes are judged by it.
     SizeField ring;
 };
 BoundarySizes sizes_with_boundary(const PlanarRegion& region);

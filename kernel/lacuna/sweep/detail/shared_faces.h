@@ -14,7 +14,7 @@ namespace lacuna::sweep {
 /// A pair of faces that share only a part of their area.
 struct PartlyShared {
     SharedFace faces;
-    double limit = 0; ///< maximum distance of the facets of both faces [model length]
+    double limit = 0; ///< maximum distance between the facets of the two faces [model length]
     Message refusal;  ///< error for this pair; names the covered share of each face
 };
 
