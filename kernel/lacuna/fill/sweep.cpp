@@ -174,9 +174,10 @@ FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPie
     const sweep::Fidelity shape = fidelity(mesh);
     if (const double off = std::abs(shape.volume / shape.sealed_volume - 1); !sized && off > kVolumeNoted)
         throw NotSweepable(
-            "sweep.volume",
-            "the volume of the pieces' meshes differs by {:.2g} % from that of the sealed skin",
-            found(100 * off));
+            Message("sweep.volume",
+                    "the meshes of the pieces together differ by {:.2g} % in volume from the sealed skin",
+                    found(100 * off))
+                .remedy("give a smaller 'size'"));
     return mesh;
 }
 

@@ -179,7 +179,8 @@ WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text())
         throw InvalidInput(
             Message("io.not_a_file", "cannot write '{}': it is a folder", path_).remedy("add a file name"));
     if (exists && !S_ISREG(before.st_mode))
-        throw InvalidInput("io.not_a_file", "cannot write '{}': it is not a plain file", path_);
+        throw InvalidInput(Message("io.not_a_file", "cannot write '{}': it is not a plain file", path_)
+                               .remedy("give another path"));
     if (naming == Naming::none) open_unnamed();
     if (descriptor_ < 0) open_named();
     if (exists && ::fchmod(descriptor_, before.st_mode & 07777) != 0) fail(errno);

@@ -35,8 +35,9 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
 {
     std::tie(folder_, name_) = path.place();
     if (name_.empty())
-        throw InvalidInput("io.not_replaced",
-                           "cannot write '{}': the path does not end in the name of a folder", path_);
+        throw InvalidInput(Message("io.not_replaced",
+                                   "cannot write '{}': the path does not end in the name of a folder", path_)
+                               .remedy("add the name of the folder"));
     struct stat before = {};
     if (::fstatat(folder_->descriptor(), name_.c_str(), &before, AT_SYMLINK_NOFOLLOW) == 0) {
         replaces_ = true;

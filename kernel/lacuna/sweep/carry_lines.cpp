@@ -61,9 +61,11 @@ public:
 private:
     [[noreturn]] void refuse() const
     {
-        throw NotSweepable("surface.not_imprinted",
-                           "the rim of {} has other points than the rim of the neighbour's face",
-                           entity_of(to_, whole_.front()));
+        throw NotSweepable(
+            Message("surface.not_imprinted",
+                    "{} is shared with a neighbour, but its rim has other points in the two volumes",
+                    entity_of(to_, whole_.front()))
+                .remedy("divide the edges of both volumes at the same points"));
     }
 
     [[nodiscard]] std::vector<EdgeId> rim_of_whole() const

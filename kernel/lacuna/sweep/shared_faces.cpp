@@ -275,9 +275,11 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
         }
         if (tree.closest(p, by * by).triangle >= 0) continue;
         if (std::abs(tree.winding_number(p)) < 0.5) continue;
-        throw InvalidInput("assembly.overlap",
-                           "{} reaches into {} at {}: volumes of an assembly may touch, but not overlap",
-                           a.region, b.region, place_in_short(p));
+        throw InvalidInput(
+            Message("assembly.overlap",
+                    "{} reaches into {} at {}: volumes of an assembly may touch, but not overlap", a.region,
+                    b.region, place_in_short(p))
+                .remedy("move or cut one of them in the CAD system"));
     }
 }
 
