@@ -43,8 +43,7 @@ public:
         for (int& rows : loop_.soft) rows = std::max(rows - 1, 0);
     }
 
-    /// Place a row along the whole loop, whose only end is its first node. One quad has its corner at this
-    /// end.
+    /// Place a row along the whole loop, whose only end is its first node. There, one quad takes the corner.
     /// @return false if the loop turns at a node next to this end.
     bool lay_round_end()
     {

@@ -164,8 +164,8 @@ PlacedSkin place_skin(const topology::OpenVolume& volume, const mesh::SkinNodes&
                       const std::vector<FaceId>& faces, const SecondOrderOptions& options,
                       const RunContext& context);
 
-/// Refuse a mesh because of an invalid cell: name the most bent of those sides of the cell that the skin
-/// fixes.
+/// Refuse a mesh of order 2 because of an invalid cell. The error names the most bent side of the cell, of
+/// those whose middle nodes the skin fixes.
 /// @param count  number of invalid cells
 /// @throw NotSweepable "sweep.second_order"
 [[noreturn]] void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
