@@ -22,9 +22,9 @@ namespace {
 
 /// Maximum corner angle of a quad on either end. It decides how many quads meet at a rim node. Not measured.
 constexpr double kWidest = 150 * kDegree;
-/// The quads at a node of the mean outline would have right angles in sum. The first value is the allowed
-/// shortfall of the outline's angle from this sum. If the shortfall is larger, the node is moved inward until
-/// it is the second value. From 45° on, the paver would place one quad fewer there. Not measured.
+/// The quads at a node of the mean outline need 90° each. If the outline's angle is smaller than their sum by
+/// more than the first value, the node is moved inward until the difference is the second value. If 45° were
+/// missing, the paver would place one quad fewer there. Not measured.
 constexpr double kMayLack = 40 * kDegree, kLacks = 30 * kDegree;
 
 /// Interior angle at b [0, 2 π); the region lies to the left of a, b, c.

@@ -114,8 +114,10 @@ struct InCommon {
     double sag = 0;         ///< maximum distance of the rims' chords from these arcs
 };
 
-/// Compare the rims of a face that two members share. @return  whether both are one face, although their rims
-/// may differ
+/// Compare the rims of a face that two members share.
+/// @return  true if the rims agree, at least within the sag of their chords; false if they are farther apart
+///          than `window`.
+/// @throw InvalidInput "assembly.rims_apart"  the distance of the rims is between these limits.
 bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
                 double tolerance, double window, InCommon& common)
 {
