@@ -325,8 +325,8 @@ struct MemberSides {
 
 } // namespace
 
-/// Two facets that meet at an angle approximate an arc. The arc deviates from them by about an eighth of that
-/// angle times the height of a facet over the common side.
+// Two facets that meet at an angle approximate an arc. The arc deviates from them by about an eighth of that
+// angle times the height of a facet over the common side.
 double facet_sag(const Model& model, const Face& face)
 {
     double sag = 0;
