@@ -398,7 +398,7 @@ function Model:contacts(options) end
 --- Faces, free edges, gaps and cavities, as text.
 ---@return string
 function Model:describe() end
---- The same as a table.
+--- The information of `describe`, as a table.
 ---@return lacuna.ModelInfo
 function Model:info() end
 --- Pockets, bores, slots and inner voids of closed surfaces.

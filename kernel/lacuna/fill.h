@@ -56,7 +56,7 @@ Filled fill(const topology::Model& model, const Request& request = {}, const Run
 
 /// Close a volume if it is still open, and sweep it. A volume with steps or branches, or one that makes a
 /// full turn, is cut and its pieces are swept. If the roles were found and the volume cannot be swept with
-/// them, the alternative sweeps of the same void are tried in turn; the report names the one used.
+/// them, the alternative sweeps of the same void are tried in turn; the report names the sweep that was used.
 /// @return  `volumes` holds the one volume with the roles of the successful sweep, sealed unless it was cut.
 /// @throw NotSweepable, NotClosed  the reason why the first sweep failed.
 /// @throw InvalidInput  the errors of `sweep::sweep()`.
@@ -87,7 +87,7 @@ struct ContactRequest {
     std::vector<Pair> pairs;
 };
 
-/// Find the faces of two regions in contact by `sweep::faces_in_contact()`, with one entry for each two
+/// Find the faces of two regions in contact by `sweep::faces_in_contact()`, with one entry for each pair of
 /// regions. The first overload takes the members of an assembly, which are closed first. The second takes a
 /// model, whose bodies are its regions or, if faces have none, the parts that no edge connects.
 /// @throw InvalidInput "fill.contact_region"  a pair names an unknown region; "fill.contact_none"  the
@@ -100,8 +100,9 @@ std::vector<Contact> contacts(const topology::Model& model, const ContactRequest
                               const RunContext& context = {});
 
 /// Close several volumes and sweep them, cut into pieces where needed, as one conforming mesh. Volumes that
-/// are not glued have nodes of their own. The faces of `contacts()` are groups NAME_slave and NAME_master of
-/// the mesh: the slave is the side with the smaller faces or, if these are of one area, the finer one.
+/// are not glued do not share nodes with their neighbours. The faces of `contacts()` become groups NAME_slave
+/// and NAME_master of the mesh. The slave is the side with the smaller faces or, if their areas are equal,
+/// the side with the finer mesh.
 /// @return  `volumes` holds the member volumes in their order. A volume that was left out or swept in pieces
 ///          is returned unchanged.
 /// @throw InvalidInput "surface.no_such_face"  an option names a face that no volume has.

@@ -41,7 +41,7 @@ inline constexpr const char* kClassName = nullptr;
 [[noreturn]] void raise(lua_State* L, const char* code);
 /// Raise a message formatted as by lua_pushfstring, with the code "lua.invalid_input".
 [[noreturn]] void fail(lua_State* L, const char* format, ...);
-/// The same with a code of its own.
+/// fail() with the given code.
 [[noreturn]] void fail_as(lua_State* L, const char* code, const char* format, ...);
 /// Push a description of the value at `index` for messages: `-3`, `"abc"`, `a table`, `a Face`, `nothing`.
 const char* push_found(lua_State* L, int index);

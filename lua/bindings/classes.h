@@ -50,7 +50,7 @@ struct FaceHandle {
 
 /// The current id of a handle's face; invalid if the face has become part of another.
 FaceId face_now(const FaceHandle& handle);
-/// The same, for a face that must exist.
+/// face_now() of a face that must exist.
 /// @throw InvalidInput "lua.face_grown_over"  the face has become part of another.
 FaceId face_of(const FaceHandle& handle);
 

@@ -39,7 +39,7 @@ struct PointAndNormal {
 /// A plane { point, normal } or { point =, normal = }, whose normal is not 0.
 PointAndNormal read_point_and_normal(lua_State* L, int index, const Where& where);
 
-/// The same, with a normal of length 1.
+/// read_point_and_normal() with a normal of length 1.
 geometry::Plane read_plane(lua_State* L, int index, const Where& where);
 template <auto Member, class Options>
 void plane(lua_State* L, int i, const Where& where, Options& o)

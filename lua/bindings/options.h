@@ -89,7 +89,7 @@ void read_array(lua_State* L, int index, const Where& where, const char* expecte
     }
 }
 
-/// The same with the elements of a vector.
+/// Read the array at `index` into `items`: one item for each element, as `read` returns it.
 template <class T, class Read>
 void read_items(lua_State* L, int index, const Where& where, const char* expected, std::vector<T>& items,
                 const Read& read)

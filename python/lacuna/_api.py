@@ -375,7 +375,7 @@ class Model(Shown):
         return self._method("describe")
 
     def info(self):
-        """The same as a table."""
+        """The information of `describe`, as a table."""
         return shaped(self._method("info"), ('of', 'ModelInfo'))
 
     def cavities(self):

@@ -24,7 +24,8 @@ namespace {
 /// Precision of splines relative to the diagonal: a hundredth of the default tolerance.
 constexpr double kPrecision = 1e-8;
 /// Precision of walls and edges that a known motion makes, relative to the diagonal. Their shapes are exact,
-/// so it is higher: a spline of this precision through a circle encloses the circle's area to 1e-10.
+/// so a smaller deviation makes sense: a spline of this precision through a circle encloses the circle's area
+/// to 1e-10.
 constexpr double kMotionPrecision = 1e-11;
 /// Limit on the interpolation points of a filled surface: for each inner loop, and for the facets. The cost
 /// grows with the cube of the number of points.

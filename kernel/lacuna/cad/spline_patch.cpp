@@ -34,7 +34,7 @@ public:
     }
     [[nodiscard]] Eigen::Index poles() const { return std::ssize(flat_) - degree_ - 1; }
 
-    /// The functions that are not zero at a parameter: the number of the first, and the values of all.
+    /// The basis functions that are not zero at a parameter: the index of the first, and the values of all.
     [[nodiscard]] std::pair<Eigen::Index, Eigen::VectorXd> at(double parameter) const
     {
         const auto knot = [&](Eigen::Index i) { return flat_[static_cast<std::size_t>(i)]; };

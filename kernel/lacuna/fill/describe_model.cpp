@@ -12,7 +12,8 @@ namespace lacuna::fill {
 
 namespace {
 
-/// Up to this number of faces, edges or gaps, the text lists each one; more are grouped or counted. A choice.
+/// Up to this number of faces, edges or gaps, the text lists each one; more are grouped or counted. Not
+/// measured.
 constexpr std::size_t kMostLines = 60;
 
 using closure::ModelFacts;

@@ -86,7 +86,7 @@ struct Filled {
     std::variant<FilledVolume, FilledParts> mesh;
 };
 
-/// The same mesh, as a mesh of a single part.
+/// The mesh of one volume as a mesh of parts, with this volume as its single part.
 FilledParts as_parts(const FilledVolume& mesh);
 
 /// The sweeps that produced a mesh: a single one, or one for each part.
@@ -173,11 +173,13 @@ struct InterfaceFaces {
 /// At each node, parts stay connected if they share a side that is not split. Each connected set of parts
 /// gets its own node: three regions that meet at split sides get three nodes. If the interface ends inside
 /// the mesh, all parts around its end stay connected, so nodes there are not duplicated. Existing nodes keep
-/// their numbers; duplicates are numbered after them. Nodes 1 to 4 of a cell lie on the part that was meshed
-/// first, and its stacking direction is from nodes 1-4 to nodes 5-8. Duplicates on a periodic face are paired
-/// with nodes of the part at the image of that face. At order 2, middle nodes are duplicated in the same way,
-/// and each two opposite nodes of a cell get a node between them, as cells of 20 or 27 nodes have: mixed
-/// elements keep their multipliers there. Cells that share the two nodes share the node between them.
+/// their numbers; duplicates are numbered after them.
+///
+/// Nodes 1 to 4 of a cell lie on the part that was meshed first, and its stacking direction is from nodes 1-4
+/// to nodes 5-8. At order 2, middle nodes are duplicated in the same way. The cells then have 20 or 27 nodes:
+/// between each pair of opposite nodes there is a further node, which cells with the same pair share. Mixed
+/// elements have their multipliers at these nodes. Duplicates on a periodic face are paired with nodes of the
+/// part at the image of that face.
 ///
 /// A mesh that is split at levels becomes one part between each two levels. Faces below level k are the group
 /// `level_k:target`, those above it `level_k:source`.

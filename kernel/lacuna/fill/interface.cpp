@@ -280,7 +280,8 @@ private:
         add_sides(corners, 2 * corners);
         for (std::size_t k = 0; k < corners; ++k) add_between(k);
         if (!is_full_) return cell;
-        // The side below each upright face of a hexahedron; those of a wedge are in order.
+        // For each upright face of a hexahedron, the index of the side below it. In a wedge, faces and sides
+        // have the same order.
         constexpr std::array<std::size_t, 4> kSideBelow{3, 1, 0, 2};
         for (std::size_t f = 0; f < corners; ++f) add_between(corners + (corners == 4 ? kSideBelow[f] : f));
         if (corners == 3) return cell;
@@ -316,7 +317,7 @@ private:
         }
     }
 
-    /// Nodes of cells of order 2 between two opposite nodes, by these.
+    /// At order 2: for each pair of opposite nodes of a cell, the node between them.
     std::map<std::pair<Index, Index>, Index> between_{};
     bool is_full_ = false;                      ///< cells of order 2 have centres
     std::vector<std::vector<Index>> numbers_{}; ///< by swept part and its node: the number in the whole mesh

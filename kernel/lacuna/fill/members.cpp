@@ -242,8 +242,8 @@ sweep::AssemblyMember member_of(const KeptMesh& kept, const std::string& number)
     return member;
 }
 
-/// Requested layers apply only to pieces that run from source to target. The other pieces take the layers
-/// that remain.
+/// The number of layers that the user requested applies only to pieces that run from source to target. The
+/// other pieces get the remaining layers.
 sweep::AssemblyMember member_of(const Part& part, const std::string& region, bool alone)
 {
     const Volume& volume = part.volume;
@@ -372,9 +372,10 @@ void fill_rest(const Prepared& ready, bool alone, FilledParts& mesh, const RunCo
     sweep::SharedMiddles middles;
     const auto require_shared = [&](const std::string& region, bool agree) {
         if (!agree)
-            throw NotSweepable("assembly.not_shared",
-                               "middle nodes of {} on shared sides differ from those of its neighbours",
-                               region);
+            throw NotSweepable(
+                Message("assembly.not_shared",
+                        "middle nodes of {} on shared sides differ from those of its neighbours", region)
+                    .remedy("use order = 1"));
     };
     for (std::size_t p = 0; p < swept.parts.size() && !swept.unswept.empty(); ++p)
         if (const mesh::HexMesh& part = swept.parts[p].mesh; part.order() > 1)

@@ -174,9 +174,10 @@ FilledParts sweep_pieces_true(const Volume& sealed, std::vector<closure::StepPie
     const sweep::Fidelity shape = fidelity(mesh);
     if (const double off = std::abs(shape.volume / shape.sealed_volume - 1); !sized && off > kVolumeNoted)
         throw NotSweepable(
-            "sweep.volume",
-            "the volume of the pieces' meshes differs by {:.2g} % from that of the sealed skin",
-            found(100 * off));
+            Message("sweep.volume",
+                    "the meshes of the pieces together differ by {:.2g} % in volume from the sealed skin",
+                    found(100 * off))
+                .remedy("give a smaller 'size'"));
     return mesh;
 }
 
@@ -253,9 +254,10 @@ private:
 };
 
 /// Mesh a volume that no single sweep fills, in pieces that can be swept. With `Fallback::mixed`, pieces that
-/// cannot be swept are filled with tetrahedra; if there are no pieces, the whole volume is.
+/// cannot be swept are filled with tetrahedra. If the volume cannot be cut into pieces, it is filled with
+/// tetrahedra as a whole.
 /// @param why  why the volume cannot be swept
-/// @return  empty if that fails too.
+/// @return  empty if no mesh is found.
 std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, const SweepRequest& request,
                                       const RunContext& context)
 {

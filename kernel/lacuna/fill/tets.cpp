@@ -125,9 +125,10 @@ void prove(FilledTets& tets, const RunContext& context)
                       std::ranges::all_of(tets.mesh.skin,
                                           [&](const Quad& side) { return skin.contains(face_key(side)); });
     if (!same)
-        throw NotSweepable("fill.skin_differs",
-                           "{}: the skin of the tetrahedra differs from the skin that they should fill",
-                           tets.region);
+        throw NotSweepable(Message("fill.skin_differs",
+                                   "{}: the tetrahedra do not have the skin that they should fill",
+                                   tets.region)
+                               .remedy("use another 'size'"));
     tets.quality = std::move(proved.quality);
 }
 

@@ -55,7 +55,8 @@ struct RoleRequest {
     std::optional<topology::Roles> roles;
     bool find_walls = false;                  ///< find the walls from the rim of the one named end
     std::optional<std::vector<FaceId>> faces; ///< without `roles`: the faces to use; not set: all faces
-    int reading = 0; ///< number of a found reading, from 1; with `roles`, 1 accepts ambiguous geometry
+    int reading = 0; ///< which of the possible voids to use, from 1; 0: there must be one. With `roles`, 1
+                     ///< accepts ambiguous geometry
     std::optional<topology::VolumeClass> override_class;
     bool full_turn = false;                 ///< the volume makes a full turn: all faces are walls
     std::optional<geometry::Plane> fill_to; ///< if set, only the part of the void behind this plane is kept

@@ -371,7 +371,8 @@ private:
         for (const DeckBlock& block : deck.blocks)
             for (std::size_t e = 0; e < block.count(); ++e) {
                 if (!std::ranges::binary_search(cells, block.tags[e])) continue;
-                for (const Index node : block.element(e)) // indices; tags in the part that is being read
+                for (const Index node : block.element(e)) // point indices, or node tags while the part is
+                                                          // being read
                     if (node >= 0) set().members.push_back(of_instance ? deck.point_tags[index(node)] : node);
             }
     }
@@ -442,8 +443,9 @@ private:
             else
                 ++further;
         }
-        // The element lists more nodes than its type has. Their number does not show whether the element
-        // continues on the next line, so each line must be one element, with as many nodes as the first.
+        // The element lists more nodes than its type has, so their number does not show whether the element
+        // continues on the next line. Each line must then be one element, with as many nodes as the first
+        // line.
         if (further_ < 0) further_ = static_cast<std::ptrdiff_t>(further);
         if (further_ != static_cast<std::ptrdiff_t>(further) || (further > 0 && !from_start))
             fail("expected {} nodes of {}, or the same larger number on each line; found another number",
@@ -553,8 +555,8 @@ private:
         }
     }
 
-    /// Without sections, and where *ELEMENT names no set, the element sets are the regions if each element is
-    /// in exactly one of them. Other programs convert regions to such sets.
+    /// If there are no sections and *ELEMENT names no set, the element sets become the regions, provided each
+    /// element is in exactly one of them. Other programs convert regions to such sets.
     static void take_sets_for_sections(Scope& scope)
     {
         const Deck& deck = scope.builder.deck();
@@ -604,7 +606,8 @@ private:
         copy(*part, instance_name_, placement(), !rows_.empty());
     }
 
-    /// Add a copy of a part to the deck. Unless all its numbers are above those in the deck, they are raised.
+    /// Add a copy of a part to the deck. Its numbers are raised unless all of them are above those in the
+    /// deck.
     void copy(Scope& scope, const std::string& name, const Eigen::Isometry3d& to, bool moved)
     {
         const Deck& part = scope.builder.deck();

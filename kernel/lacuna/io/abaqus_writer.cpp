@@ -378,8 +378,8 @@ private:
                 if (set.kind != mesh::SetKind::elements || !same_word(set.name, regions[r].name) ||
                     !is_region(set, r))
                     continue;
-                // Write the set on a card of its own or as ELSET, not both: CalculiX would then list each
-                // element of the set twice.
+                // Write the set either on a card of its own or as ELSET of the elements. With both, CalculiX
+                // would list each element of the set twice.
                 makes_set_[r] = by_elements_[s] = !set.listed;
                 set_of_region_[r] = static_cast<Index>(s);
             }

@@ -179,7 +179,7 @@ NodesAt nodes_at(const Deck& deck, std::span<const Vec3> places, double toleranc
 /// @param context  its log gets the deck's warnings, each after "note: ".
 /// @throw InvalidInput  as read_facets().
 Deck read_deck(const std::string& path, const RunContext& context = {});
-/// The same for bytes in memory, without logging. @param name  used like a path: for the extension, the
+/// `read_deck()` for bytes in memory, without logging. @param name  used like a path: for the extension, the
 /// folder and messages.
 Deck read_deck(const std::string& name, std::string_view bytes);
 

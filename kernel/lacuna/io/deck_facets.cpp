@@ -69,7 +69,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The content of a label, by number: regions of shells and solids, and a list of sets; region -1: none.
+/// What a label stands for. Regions of shells and solids and lists of sets are given by number; region -1:
+/// none.
 struct Label {
     Index shell = -1;     ///< region of the shells
     int sets = 0;         ///< list of the shells' sets, or of the surfaces that contain the sides
@@ -77,7 +78,7 @@ struct Label {
     friend auto operator<=>(const Label&, const Label&) = default;
 };
 
-constexpr Index kSingles = -2; ///< replaces a shell's region in labels that would have one shell only
+constexpr Index kSingles = -2; ///< region of the label that shells share if each would be alone in its label
 
 class Facets {
 public:

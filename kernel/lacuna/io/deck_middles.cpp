@@ -84,7 +84,7 @@ std::vector<Index> find_middles(const Deck& deck, std::span<const std::array<Ind
     return found;
 }
 
-/// The same for corners given as positions. Several nodes of the deck may lie at each position.
+/// `find_middles()` for corners given as positions. Several nodes of the deck may lie at each position.
 template <std::size_t N>
 std::vector<Vec3> find_middles(const Deck& deck, std::span<const std::array<Vec3, N>> wanted,
                                double tolerance, double scale)
@@ -177,9 +177,11 @@ void join_centres(const Deck& deck, const Mesh& mesh, const std::vector<bool>& m
                             corners)
                         .remedy("sweep with order = 2, without serendipity"));
             throw InvalidInput(
-                "io.mixed_order",
-                "{}: the centre node of the quad of {} has different positions in the deck and in the mesh",
-                face, corners);
+                Message("io.mixed_order",
+                        "{}: the centre node of the quad of {} has different positions in the deck and in "
+                        "the mesh",
+                        face, corners)
+                    .remedy("sweep a model that was loaded from this deck"));
         }
         points[middle] = found[q];
     }
@@ -234,9 +236,11 @@ void join_all(const Deck& deck, const Mesh& mesh, const std::vector<bool>& match
         const Vec3 there = deck.points[index(found[s])] * scale;
         if (!((mesh.node(sides[s].middle) - there).norm() <= tolerance))
             throw InvalidInput(
-                "io.mixed_order",
-                "{}: the middle of the side between {} and {}, {}, has another position in the mesh",
-                face_at(s), node(pairs[s][0]), node(pairs[s][1]), node(found[s]));
+                Message(
+                    "io.mixed_order",
+                    "{}: the middle node {} of the side between {} and {} has another position in the mesh",
+                    face_at(s), node(found[s]), node(pairs[s][0]), node(pairs[s][1]))
+                    .remedy("sweep a model that was loaded from this deck"));
         points[sides[s].middle] = found[s];
     }
     join_centres(deck, mesh, matched, tolerance, scale, points);

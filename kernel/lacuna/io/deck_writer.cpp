@@ -91,11 +91,11 @@ void unv_numbers(std::string_view text, TextNumbers& numbers)
         text.remove_prefix(std::min(end + 1, text.size()));
         return numbers_of(line);
     };
-    next(); // the mark
+    next(); // the line -1 that begins the dataset
     const std::vector<std::int64_t> dataset = next();
     while (!text.empty()) {
         const std::vector<std::int64_t> head = next();
-        if (head.size() < 6) continue; // blank, or the mark
+        if (head.size() < 6) continue; // blank, or the line -1 that ends the dataset
         numbers.cells.insert(head[0]);
         if (unv_has_orientation(head[1], static_cast<int>(dataset.at(0)))) next();
         for (std::int64_t left = head.back(); left > 0 && !text.empty();)

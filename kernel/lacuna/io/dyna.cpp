@@ -701,10 +701,11 @@ private:
         if (!text.empty()) file_.add(head_of(set, "*SET_SEGMENT_TITLE") + text);
     }
 
-    /// Add pairs of segment sets: the slave's is surface A, the master's is B. A tie with an offset moves no
-    /// node. With negative thicknesses (fields 3 and 4 of the third card) the distance alone decides which
-    /// nodes are tied (PyDYNA's keyword classes). The limit is the sum of both, or 0.6 times the sum in
-    /// converters to OpenRadioss; half the sum is the tolerance, which is below either.
+    /// Add each contact pair as two segment sets: surface A is the slave, surface B the master. A tie with an
+    /// offset moves no node. Fields 3 and 4 of the third card are thicknesses; if they are negative, nodes
+    /// are tied by distance alone (PyDYNA's keyword classes). The distance limit is the sum of both, or 0.6
+    /// times the sum in converters to OpenRadioss. Each is minus the tolerance, so either limit exceeds the
+    /// tolerance.
     void add_contacts()
     {
         for (const mesh::ContactPair& pair : view_->contacts) {

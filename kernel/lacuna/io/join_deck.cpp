@@ -244,12 +244,12 @@ private:
             if (face == nullptr || matched == quads || !is_of_deck(*face)) continue;
             const std::size_t given = face->given_quads.size();
             throw InvalidInput(Message("io.not_conformal",
-                                       "the deck has {} quads and {} triangles on {}, but only {} of the "
-                                       "mesh's {} quads there are faces of its elements",
-                                       given,
-                                       face->triangles.size() - std::min(2 * given, face->triangles.size()),
-                                       entity_of(patch), found(matched), needed(quads))
-                                   .remedy("mesh:report lists the kept meshes"));
+                                       "on {}, only {} of the mesh's {} quads are faces of the deck's "
+                                       "elements, of which {} quads and {} triangles lie there",
+                                       entity_of(patch), found(matched), needed(quads), given,
+                                       face->triangles.size() - std::min(2 * given, face->triangles.size()))
+                                   .remedy("sweep with the deck's mesh kept on this face; mesh:report lists "
+                                           "the kept meshes"));
         }
     }
 

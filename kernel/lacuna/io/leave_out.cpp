@@ -358,7 +358,8 @@ void refuse_part(std::span<const Deck> decks, const std::string& name)
         for (const DeckSet& set : deck.sets)
             if (set.kind == DeckSet::Kind::elements) add_once(known, set.name);
     }
-    throw InvalidInput("io.no_such_part", "without: {} is no region, property or set of {}{}", name, paths,
+    throw InvalidInput("io.no_such_part", "without: {} is neither a region nor a property nor a set of {}{}",
+                       name, paths,
                        known.empty() ? ", which has none with a name"
                                      : formatted(", which has {}", short_list(known, std::identity())));
 }

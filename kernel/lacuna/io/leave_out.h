@@ -32,10 +32,10 @@ std::vector<DeckTag> cells_of_part(const Deck& deck, std::string_view name);
 /// unchanged, including numbers, order and text.
 ///
 /// A part is a region, an element set, or an instance or part of an Abaqus deck, named in upper or lower
-/// case. If the format has properties, the number of one is also a part. Nodes also stay if they are used by
-/// elements that are kept as text, or by cards of constraints or coordinate systems. Sets lose the removed
-/// members. `Deck::gap` records regions and sets that become empty, so that a mesh of the same name can
-/// replace them.
+/// case. In formats with properties, a part may also be the number of a property. Nodes also stay if they are
+/// used by elements that are kept as text, or by cards of constraints or coordinate systems. Sets lose the
+/// removed members. `Deck::gap` records regions and sets that become empty, so that a mesh of the same name
+/// can replace them.
 /// @throw InvalidInput "io.no_such_part"  no part has this name; lists the existing ones.
 ///                     "io.nothing_left"  the parts contain all elements of the deck.
 /// @note  O(n); O(n log n) if tags have large gaps. A copy of the deck is made.

@@ -54,7 +54,8 @@ struct FacetFile {
 /// @note  Linear time, apart from sorting sparse node numbers and splitting non-convex polygons; memory at
 ///        most 20 times the file's size, including the file itself.
 FacetFile read_facets(const std::string& path);
-/// The same for bytes in memory. @param name  used like a path: for the extension, the folder and messages.
+/// `read_facets()` for bytes in memory. @param name  used like a path: for the extension, the folder and
+/// messages.
 FacetFile read_facets(const std::string& name, std::string_view bytes);
 
 /// Options of `load_facets()` and `cad::load()`.

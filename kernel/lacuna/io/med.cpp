@@ -129,9 +129,9 @@ std::string in_other_process(std::uint64_t bytes, const Work& work)
     }
     if (child == 0) {
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-        // Time limit: ten seconds, plus one for each million bytes. On the test machine libmedC takes 0.02 s
-        // for these. Elapsed time is limited, because the process would wait forever for a lock that another
-        // thread of the host held at fork().
+        // Time limit: ten seconds, plus one for each million bytes, for which libmedC takes 0.02 s on the
+        // test machine. Elapsed time is limited, because the process would wait forever for a lock that
+        // another thread of the host held at fork().
         sigset_t alarm_alone;
         ::sigemptyset(&alarm_alone);
         ::sigaddset(&alarm_alone, SIGALRM);

@@ -128,8 +128,11 @@ private:
         if (in_both(taken, own).empty()) return 0;
         const DeckTag highest = *std::ranges::max_element(taken), last = *std::ranges::max_element(own);
         if (highest + last > std::numeric_limits<Index>::max())
-            throw InvalidInput("io.number_taken", "option 'with': the highest {} would get the number {}",
-                               what, highest + last);
+            throw InvalidInput(
+                Message("io.number_taken",
+                        "option 'with': the highest {} would get the number {}, above the limit of {}", what,
+                        highest + last, std::numeric_limits<Index>::max())
+                    .remedy("lower the numbers in the decks"));
         return highest;
     }
 

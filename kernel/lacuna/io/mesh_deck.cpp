@@ -602,7 +602,7 @@ private:
             }
         }
         // Groups with names that are valid in Abaqus come first and keep their names: of "wall:3" and
-        // "wall_3", the former is renamed. Names with a colon are generated and come last.
+        // "wall_3", "wall:3" is renamed. Names with a colon are generated and come last.
         const auto rank = [&](const std::string& name) {
             if (options_.format != DeckFormat::abaqus || abaqus_name(name) == name) return 0;
             return name.find(':') == std::string::npos ? 1 : 2;

@@ -82,7 +82,7 @@ void write_view(const FormatRow& format, const View& view, const std::function<m
     write_file(path, file.sections, file.sizes, context, team);
 }
 
-/// Whether the format has named sets of nodes. MED has, though its nodes need no numbers.
+/// Whether the format has named sets of nodes. Formats with numbered nodes have them, and so has MED.
 bool has_sets(const Format& format) { return format.is_numbered || format.deck == DeckFormat::med; }
 bool has_fields(const Format& format) { return !format.is_numbered || format.deck == DeckFormat::exodus; }
 

@@ -93,9 +93,9 @@ struct LayeredField {
     std::function<std::vector<double>(int first, int last)> values;
 };
 
-/// The same for a mesh whose nodes are computed during writing. The bytes are the same. Except for the skin,
-/// memory does not depend on the number of layers. For Exodus, nodes are computed three times, because x, y
-/// and z are stored in separate arrays.
+/// `write_mesh()` for a mesh whose nodes are computed during writing. The file has the same bytes as if they
+/// were stored. Except for the skin, memory does not depend on the number of layers. For Exodus, nodes are
+/// computed three times, because x, y and z are stored in separate arrays.
 /// @param options  without fields, which are given separately.
 /// @param team  processes that share the work: each writes its share of the file, or some of the pieces, to
 ///              the path of rank 0; null: this process works alone.
@@ -105,10 +105,10 @@ void write_mesh(const Format& format, const mesh::LayeredMesh& layered, const Ou
                 const std::vector<LayeredField>& fields = {}, const RunContext& context = {},
                 const Team* team = nullptr);
 
-/// The same for several meshes with shared nodes, stored or not. There is one region for each name, with
-/// groups named like those of the meshes. If there are at least as many volumes as parts, a partition assigns
-/// whole volumes to parts so that numbers of cells are as even as possible. Otherwise each volume is divided
-/// by its layers into one or several parts. Quads belong to the part of their cell.
+/// `write_mesh()` for several meshes with shared nodes, stored or not. There is one region for each name,
+/// with groups named like those of the meshes. If there are at least as many volumes as parts, a partition
+/// assigns whole volumes to parts so that numbers of cells are as even as possible. Otherwise each volume is
+/// divided by its layers into one or several parts. Quads belong to the part of their cell.
 /// @pre  there is at least one part.
 /// @param options  without fields
 /// @param team  processes that each write their share of the file; each process must have all meshes.

@@ -41,15 +41,17 @@ MeshSkin skin_of(const mesh::HexMesh& mesh, const RunContext& context)
         face.name = of.groups.empty() ? "" : of.groups.front();
         face.tag = of.face != 0 ? of.face : of.tag;
         if (skin.face[patch].valid())
-            throw InvalidInput("io.skin_in_pieces", "the quads of {} of a mesh are not connected",
-                               NamedEntity{"patch", of.tag, face.name});
+            throw InvalidInput(Message("io.skin_in_pieces", "the quads of {} of a mesh are not connected",
+                                       NamedEntity{"patch", of.tag, face.name})
+                                   .remedy("give the assembly the volume instead of its mesh"));
         skin.face[patch] = FaceId(f);
         roles.walls.emplace_back(f);
     }
     for (std::size_t p = 0; p < skin.face.size(); ++p) {
         if (!skin.face[p].valid())
-            throw InvalidInput("io.skin_in_pieces", "{} of a mesh has no quads",
-                               numbered("patch", mesh.patches[p].tag));
+            throw InvalidInput(Message("io.skin_in_pieces", "{} of a mesh has no quads",
+                                       numbered("patch", mesh.patches[p].tag))
+                                   .remedy("give the assembly the volume instead of its mesh"));
     }
     skin.volume = topology::open_volume(std::move(model).finish(), roles, context);
     return skin;

@@ -606,8 +606,8 @@ private:
         for (const MeshView::Periodic& own : view_->periodic) {
             std::map<Index, Index> from; // for each node of the second side, its partner on the first
             for (const auto& [a, b] : own.nodes.pairs) from.emplace(b, a);
-            // For each quad on the first side, its surface; for each quad on the second side, its surface and
-            // nodes.
+            // The surface of each quad, by the quad's sorted nodes; and for each quad on the second side its
+            // surface and nodes.
             std::map<std::vector<Index>, std::size_t> entity_of;
             std::vector<std::pair<std::size_t, std::vector<Index>>> sides;
             for (const MeshView::Block& block : view_->blocks) {

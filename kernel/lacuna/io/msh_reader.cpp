@@ -23,8 +23,7 @@ struct ElementType {
     bool is_kept = true; ///< if false, elements are only counted
 };
 
-// Types without a DeckShape: points, and elements of order 3 and more. The latter are reduced to their
-// corners.
+// Types without a DeckShape: points, and elements of order 3 and more, which are reduced to their corners.
 using enum DeckShape;
 constexpr ElementType kFurtherTypes[] = {
     {15, 0, 1, line2, false}, {26, 1, 4, line2, false}, {27, 1, 5, line2, false}, {28, 1, 6, line2, false},

@@ -22,7 +22,8 @@ void add_orientation(std::span<const BulkPart> parts, bool fields, mesh::MeshVie
                     own[part.cells.cell(kind, i)]);
         }
     }
-    for (std::size_t b = 0; b < view.blocks.size(); ++b) // cells of no thickness follow
+    for (std::size_t b = 0; b < view.blocks.size(); ++b) // cells without thickness come last and have no
+                                                         // directions
         if (!(*frames)[b].empty()) (*frames)[b].resize(view.blocks[b].count);
     view.frames = frames;
     if (!fields) return;
@@ -35,7 +36,7 @@ void add_orientation(std::span<const BulkPart> parts, bool fields, mesh::MeshVie
             {name,
              [frames, direction = direction](std::size_t b, std::size_t begin, std::size_t end, double* out) {
                  const std::vector<CellFrame>& of = (*frames)[b];
-                 for (; begin < end; ++begin) { // quads of the skin have none
+                 for (; begin < end; ++begin) { // skin quads have no directions
                      const Vec3 v = of.empty() ? Vec3(Vec3::Zero()) : of[begin].*direction;
                      for (const double x : v) *out++ = x;
                  }

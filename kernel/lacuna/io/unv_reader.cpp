@@ -273,7 +273,7 @@ private:
     std::vector<std::string_view> numbers_;    ///< words of the line
     std::string_view whole_;                   ///< the whole file
     std::string text_;                         ///< datasets that are not part of the mesh
-    std::map<int, std::string> others_;        ///< elements that are no shells or solids, by dataset
+    std::map<int, std::string> others_;        ///< elements that are neither shells nor solids, by dataset
     std::map<Index, std::size_t> frames_used_; ///< frames used by nodes, and the place of their first use
     std::set<Index> frames_turned_;
 };

@@ -253,7 +253,7 @@ private:
             take(i, binary_ ? type.real(bytes.data() + i * type.bytes, true) : cursor_.text_real());
     }
 
-    /// The same for whole numbers in a text file.
+    /// Read `count` whole numbers from a text file, and call `take` with each.
     template <class Take>
     void each_whole(const VtkType& type, std::uint64_t count, const Take& take)
     {

@@ -179,7 +179,8 @@ WholeFile::WholeFile(const OutputPath& path, Naming naming) : path_(path.text())
         throw InvalidInput(
             Message("io.not_a_file", "cannot write '{}': it is a folder", path_).remedy("add a file name"));
     if (exists && !S_ISREG(before.st_mode))
-        throw InvalidInput("io.not_a_file", "cannot write '{}': it is not a plain file", path_);
+        throw InvalidInput(Message("io.not_a_file", "cannot write '{}': it is not a plain file", path_)
+                               .remedy("give another path"));
     if (naming == Naming::none) open_unnamed();
     if (descriptor_ < 0) open_named();
     if (exists && ::fchmod(descriptor_, before.st_mode & 07777) != 0) fail(errno);
@@ -321,8 +322,8 @@ void WholeFile::publish_unnamed()
     if (link_as(name_)) return;
     if (errno != EEXIST) fail(errno);
     // Linking does not replace an existing file, but renaming does. So the file has a temporary name during
-    // two system calls. An old temporary file is left over if it is not locked; process numbers do not tell,
-    // because they recur in containers.
+    // two system calls. A temporary file without a lock is abandoned. Process numbers would not show this,
+    // because they repeat in containers.
     ::flock(descriptor_, LOCK_EX | LOCK_NB);
     const std::string prefix = replacing_prefix(name_);
     remove_left_over(prefix, [](const LeftOver& file) { return is_abandoned(file.folder, file.name); });

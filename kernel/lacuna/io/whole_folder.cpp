@@ -35,8 +35,9 @@ WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::s
 {
     std::tie(folder_, name_) = path.place();
     if (name_.empty())
-        throw InvalidInput("io.not_replaced",
-                           "cannot write '{}': the path does not end in the name of a folder", path_);
+        throw InvalidInput(Message("io.not_replaced",
+                                   "cannot write '{}': the path does not end in the name of a folder", path_)
+                               .remedy("add the name of the folder"));
     struct stat before = {};
     if (::fstatat(folder_->descriptor(), name_.c_str(), &before, AT_SYMLINK_NOFOLLOW) == 0) {
         replaces_ = true;
@@ -89,7 +90,7 @@ void WholeFolder::commit()
     }
 #ifdef RENAME_EXCHANGE
     if (::renameat2(folder, unfinished_.c_str(), folder, name_.c_str(), RENAME_EXCHANGE) == 0)
-        return remove_unfinished(); // now the old folder
+        return remove_unfinished(); // the hidden folder is now the old one
     if (errno != EINVAL && errno != ENOSYS) fail(errno);
 #endif
     // The file system cannot exchange names. So there is no folder at the path between the two renames.

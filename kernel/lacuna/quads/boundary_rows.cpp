@@ -152,13 +152,13 @@ private:
 
     /// How the rows of a run end at one end of the run.
     struct RunEnd {
-        /// Nodes on which the rows end, the lowest row first. They are new nodes if the rows end on a side of
-        /// their own.
+        /// Nodes on which the rows end, the lowest row first: existing nodes of the adjacent side, or new
+        /// nodes.
         std::vector<Index> nodes;
         std::vector<double> lean; ///< for each row, offset of its end node along the run [length]
         /// Length from this end over which the rows of the adjacent side cross the rows of the run.
         double block = 0;
-        bool own = false; ///< whether the rows end on a side of their own
+        bool own = false; ///< whether the rows end on a new side, which their end nodes form
     };
 
     /// The nodes of the run, each with a vector inward. A node that is moved by h times its vector is at
@@ -344,7 +344,7 @@ private:
         // where the rows end, around to the first node of the run.
         std::size_t from = after, left = n - run.sides;
         if (end.own) {
-            // For the rows of the adjacent side, the end of these rows is a side.
+            // The ends of these rows form a new side, along which the rows of the adjacent side continue.
             for (std::size_t r = rows; r > 0; --r) {
                 next.nodes.push_back(level[r].back());
                 next.table.push_back(after_table);

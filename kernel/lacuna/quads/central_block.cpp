@@ -20,8 +20,8 @@ constexpr double kBulge = 21 * kPi / 180;
 /// inside.
 constexpr double kCornerReach = 0.5, kSideReach = 0.5;
 
-/// Distance from the centre to the boundary in a direction. It is the smallest distance of a boundary node
-/// within an eighth of a turn to either side, repeated by quarter turns.
+/// Smallest distance from the centre to a boundary node whose direction differs by less than 22.5° from
+/// `angle` or from `angle` turned by 90°, 180° or 270°.
 double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
 {
     double least = kInfinity;
@@ -33,7 +33,7 @@ double free_way(const PlanarRegion& region, const Vec2& centre, double angle)
     return least;
 }
 
-/// The angle of one of four axes at 45°; empty if there are no such axes.
+/// The angle of one of four mirror axes that are 45° apart; empty if there are no such axes.
 std::optional<double> eighths(const std::vector<Symmetry>& symmetries)
 {
     for (const Symmetry& first : symmetries) {

@@ -42,7 +42,8 @@ void PatchGrower::look_for_others(Index seed, std::size_t most)
             see(net.to(side));
             last = side;
         });
-        // One more neighbour on the boundary; at an inner point it was visited before.
+        // On the boundary, a point has one neighbour more than quads. At an inner point, this neighbour was
+        // already visited.
         see(net.from(QuadNet::before(last)));
     }
 }

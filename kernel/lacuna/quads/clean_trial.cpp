@@ -12,9 +12,9 @@ namespace {
 /// fewer from 20,000 quads on, while the mean scaled Jacobian decreases by at most 0.0003. With 2.5 it
 /// decreases by 0.002. Measured on the named outlines, 30 of the held family and 60 generated ones.
 constexpr double kLossForgiven = 1.2;
-/// Share of a filling's loss that remains after the first smoothing sweeps. In 99 % of 6,000 fillings from
-/// six domains, the remaining share was larger. A filling is therefore rejected early if this share of its
-/// loss is above the limit.
+/// Lower bound of the share of a filling's loss that remains after the first smoothing sweeps: 99 % of 6,000
+/// fillings from six domains kept a larger share. A filling is rejected early if this share of its loss is
+/// above the limit.
 constexpr double kLeft = 0.6;
 /// Number of smoothing sweeps over a filling and its surroundings before the last judgement, and number of
 /// rounds in which the poor quads among them are improved.
@@ -72,8 +72,8 @@ bool Trial::exceeds(std::size_t filled, double most) const
 /// `most`
 bool Trial::settles(const TemplateMesh& filling, int sweeps, double most)
 {
-    // Smoothing makes no quad worse than the worst quad it gets. The worst quad of the surroundings is
-    // therefore included, so that quads may become as bad as this one.
+    // Smoothing makes no quad worse than the worst of its input. The worst quad of the surroundings is
+    // therefore part of the input, so that other quads may become as bad as that one.
     points_.clear();
     quads_.clear();
     if (worst_ >= 0) {

@@ -118,7 +118,8 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
         if (!task.segments[run.segment].fixed)
             add(counted, run, std::max(1, static_cast<int>(std::lround(run.wanted))) - run.count);
     }
-    // By rounding, a segment that has several runs may have fewer sides than its minimum.
+    // Because each run is rounded separately, a segment with several runs may have fewer sides than its
+    // minimum.
     for (CountedRun& run : counted.runs) {
         const BoundarySegment& own = task.segments[run.segment];
         if (!own.fixed && sides_of(counted, run.segment) < own.least) add(counted, run, 1);
@@ -128,7 +129,7 @@ std::optional<CountedLoop> counted_loop(const CountTask& task, PatternLoop loop,
 
 bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& range)
 {
-    // Numbers of runs and of sides of each segment.
+    // For each segment: number of its runs, and of its sides.
     std::vector<int> runs(task.segments.size(), 0), sides(task.segments.size(), 0);
     for (const CountedRun& run : loop.runs) {
         ++runs[run.segment];
@@ -144,8 +145,8 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
         CountedRun *best = nullptr, *other = nullptr;
         int best_by = 0;
         for (CountedRun& run : loop.runs) {
-            // If the number of a segment is given and the segment has a single run, it contains no turn that
-            // could be moved.
+            // If the number of sides of a segment is given and the segment has a single run, it contains no
+            // turn that could be moved.
             if (task.segments[run.segment].fixed && runs[run.segment] == 1) continue;
             for (const int by : {1, -1}) {
                 if (!may_be(task, sides[run.segment], run, run.count + by, range)) continue;
@@ -158,8 +159,8 @@ bool close_counts(const CountTask& task, CountedLoop& loop, const CountRange& ra
                     best_by = by;
                     continue;
                 }
-                // If the number of the segment is given, another run of the segment changes by the opposite
-                // number: the turn between the runs moves.
+                // If the number of sides of the segment is given, another run of the segment changes by the
+                // opposite amount: the turn between the two runs moves.
                 for (CountedRun& next : loop.runs) {
                     if (next.segment != run.segment || &next == &run || next.count - by < 1) continue;
                     const double both = cost + cost_of(next, next.count - by) - cost_of(next, next.count);

@@ -321,8 +321,8 @@ private:
         return true;
     }
 
-    /// Give the two loops of a ring the same number of sides along the ring, by the means that the pattern
-    /// allows.
+    /// Give the two loops of a ring the same number of sides along the ring: by steps of the outer loop, or
+    /// by rows that change their number of sides, as the pattern says.
     bool make_alike(PatternLoop& outer, PatternLoop& inner)
     {
         more_sides_ = along(outer) + along(inner);

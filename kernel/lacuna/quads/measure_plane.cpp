@@ -68,8 +68,9 @@ std::string find_bad_corner(const PlanarQuads& mesh)
     return {};
 }
 
-/// Find a side that is used wrongly. A side that only one quad uses must be a side of the loops. Counts the
-/// sides in `edges`.
+/// Find a side of a quad that breaks the mesh: it is used three times, or twice in one direction, or it is
+/// used once without being a boundary side. Also finds boundary sides without a quad. `edges` returns the
+/// number of sides.
 std::string find_bad_side(const PlanarQuads& mesh, const PlanarRegion& region, std::size_t& edges)
 {
     const std::vector<Index> opposite = mesh::opposite_sides(mesh.quads,

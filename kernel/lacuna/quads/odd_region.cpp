@@ -111,7 +111,7 @@ public:
     }
 
 private:
-    /// Quality of the worst cell at a node. If it does not exceed `floor`, some value from -1 to `floor`.
+    /// Quality of the worst cell at a node; if it does not exceed `floor`, any value from -1 to `floor`.
     [[nodiscard]] double worst_at(Index n, double floor) const
     {
         double worst = 1;

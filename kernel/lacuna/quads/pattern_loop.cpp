@@ -14,10 +14,9 @@ namespace lacuna::quads {
 namespace {
 
 /// A turn is soft if it differs from the boundary's own turn by more than this [right angles]. At an end, one
-/// quad takes the whole angle. The limit there is halfway to a side: 135°, a sine of 0.7. At a corner three
-/// quads share the angle, and at a reversal four. The limit there is that of `least_irregular()` for each
-/// quad, which then has 0.8 right angles. Higher limits give fewer irregular nodes and worse quads at the
-/// boundary.
+/// quad takes the whole angle, and the limit is halfway to a side: 135°, a sine of 0.7. Three quads share the
+/// angle of a corner, and four that of a reversal. There each quad may have about 0.8 right angles, the limit
+/// of `least_irregular()`. Higher limits give fewer irregular nodes and worse quads at the boundary.
 constexpr double kSoftEnd = 0.5 + 1e-9, kSoftHalf = 0.49, kSoftCorner = 0.65 / 3;
 
 double square(double x) { return x * x; }
@@ -61,8 +60,8 @@ LoopAngles angles_of(std::span<const Vec2> points, const std::vector<Index>& loo
     return angles;
 }
 
-/// Whether a turn is soft: the grid makes it some rows further inside, because the boundary's own turn
-/// differs too much.
+/// Whether a turn is soft: it differs too much from the boundary's own turn, so the grid makes it some rows
+/// further inside.
 bool is_soft(double own, int turn, TurnStyle style)
 {
     const double limit = turn < 0                        ? kSoftCorner * (2 - turn)

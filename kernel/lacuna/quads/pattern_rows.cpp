@@ -43,8 +43,7 @@ public:
         for (int& rows : loop_.soft) rows = std::max(rows - 1, 0);
     }
 
-    /// Place a row along the whole loop, whose only end is its first node. One quad has its corner at this
-    /// end.
+    /// Place a row along the whole loop, whose only end is its first node. There, one quad takes the corner.
     /// @return false if the loop turns at a node next to this end.
     bool lay_round_end()
     {
@@ -109,7 +108,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t kFewestRoundEnd = 5; ///< number of nodes with which three nodes remain
+    static constexpr std::size_t kFewestRoundEnd = 5; ///< in shorter loops, the row's inner side would have
+                                                      ///< fewer than three nodes
 
     [[nodiscard]] const Vec2& at(std::size_t i) const { return point_of(points_, loop_.nodes, i); }
 

@@ -111,8 +111,8 @@ private:
         double angle, part;
     };
 
-    /// The corner of the present joined loop, at a node, that a line in direction `along` divides. Empty if
-    /// there is none.
+    /// The corner at a node of a loop, as it is after all joins so far, that a line in direction `along`
+    /// divides. Empty if there is none.
     std::optional<Corner> corner_now(std::size_t loop, Index node, const Vec2& along)
     {
         const Cycle& cycle = cycles_[joined_.find(loop)];

@@ -9,8 +9,8 @@
 namespace lacuna::quads::paving {
 namespace {
 
-/// A part with this number of nodes is filled without a cut if its quality exceeds the result. A cut costs a
-/// few irregular nodes whatever the size of the part is, whereas in a poor patch all quads are poor.
+/// The quality above which a part with `nodes` nodes is filled without a cut. A cut costs a few irregular
+/// nodes whatever the size of the part, whereas a poor patch makes all its quads poor.
 double good_patch(const CutWeights& weights, std::size_t nodes)
 {
     // Above kFrom nodes, the bound rises by kSlope with each doubling of the outline. With a steeper slope,

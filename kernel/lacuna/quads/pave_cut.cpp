@@ -96,7 +96,7 @@ private:
         double part_from = 0, part_to = 0; ///< angles between the outline and the line
     };
 
-    /// Reduction of a line's cost if it ends at a node.
+    /// Reduction of a line's cost if it ends at node `i` and the outline turns inward there.
     [[nodiscard]] double gain(std::size_t i) const
     {
         return angles_[i] > kReversalAbove * kDegree ? partial_.weights.bent : 0.0;

@@ -25,7 +25,8 @@ double judge_block(const PartialMesh& partial, const std::array<Sampled, 4>& sid
 {
     const std::size_t n = side[0].points.size() - 1, m = side[1].points.size() - 1;
     const auto& [b, r, t, l] = side;
-    // Samples are at even steps of the edge number, so that each cell stands for equally many quads.
+    // Samples are evenly spaced by the number of the edge, not by arc length, so that every cell represents
+    // the same number of quads.
     const std::vector<Vec2> grid = geometry::transfinite(b.points, r.points, t.points, l.points,
                                                          {.by_arc_length = false});
     double worst = 1, stray = 0, weight = 0;

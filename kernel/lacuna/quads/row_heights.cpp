@@ -62,8 +62,8 @@ private:
 
     void raise(const Post& post)
     {
-        // With larger tolerances, fewer nodes are moved.
-        /// Deviations up to this share of the height are not corrected.
+        // Deviations up to this share of the height are not corrected. With larger values, fewer nodes are
+        // moved.
         constexpr double kHeight = 0.2, kLean = 0.2;
         const Vec2 start = at(post.top), arm = start - at(post.foot);
         const Vec2 along(post.inward.y(), -post.inward.x());

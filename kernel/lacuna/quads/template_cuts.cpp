@@ -121,7 +121,8 @@ bool spoke_feet(const SideCounts& counts, bool ends_in_cut, std::array<int, kMos
 bool can_fill(const SideCounts& counts)
 {
     if (counts.count != 4) return needs_no_cut(counts);
-    // The columns that turn in each direction must leave a row and a column beside each irregular node.
+    // Columns that turn must leave at least one row and one column beside each irregular node, in each
+    // direction.
     const int more = std::abs(counts.side[0] - counts.side[2]),
               less = std::abs(counts.side[1] - counts.side[3]);
     const int across = std::min(counts.side[0], counts.side[2]),
@@ -145,9 +146,9 @@ std::vector<TemplateCut> find_cuts(std::span<const Vec2> loop, std::span<const s
     // Maximum number of positions tried along a side of three or five, to limit the time.
     constexpr int kTried = 16;
     const CutRanker ranker(loop);
-    // Number of sides from one side that the cut joins to the other. For an even number of sides, the cut has
-    // one or three corners on either side. With two corners on either side, the parts of a patch of four
-    // sides would only be strips.
+    // Difference between the numbers of the two sides that the cut joins. For an even number of sides, the
+    // cut has one or three corners on either side. With two corners on either side, the parts of a patch of
+    // four sides would only be strips.
     const std::size_t between = n / 2 - (n == 4 ? 1 : 0);
     // If the cut joins opposite sides, each pair would occur twice.
     const std::size_t pairs = 2 * between == n ? n / 2 : n;

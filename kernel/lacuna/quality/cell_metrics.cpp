@@ -31,7 +31,8 @@ struct Parts {
     Real centre;     ///< Jacobian at the centre, for the map of the unit cube
 };
 
-/// The three edges at a corner, in the order u, v, w; the corner is encoded in bits.
+/// The three edges at a corner, in the order u, v, w. The bits of the corner's number give its position along
+/// u, v, w.
 struct CornerEdges {
     int u, v, w;
 };

@@ -84,7 +84,7 @@ enum class Keep {
 /// @pre  every corner is a valid node number (`prove()` checks it).
 Quality measure(const mesh::HexMesh& mesh, const RunContext& context = {}, Keep keep = Keep::sums);
 
-/// Measure a list of cells, as above. Wedges, pyramids and tetrahedra are stored as hexahedra with merged
+/// `measure()` for a list of cells. Wedges, pyramids and tetrahedra are stored as hexahedra with merged
 /// corners (see `mesh::is_wedge()`, and `mesh::has_apex()` in `mesh/tet_mesh.h`).
 /// @param columns  the column of a sweep for each cell, for `Quality::worst`; empty: unknown.
 Quality measure_cells(std::span<const Vec3> nodes, std::span<const Hex> hexes, const RunContext& context = {},

@@ -72,8 +72,8 @@ constexpr double kNearImage = 0.25;
 constexpr std::array<std::string_view, 4> kGivenMesh{"surface.wall_rows", "surface.wall_not_rows",
                                                      "surface.kept_rim", "sweep.layers_given"};
 
-/// The reason for a member's failure. If the member has no given mesh, the quads that it keeps come from
-/// neighbours meshed before it. Loading it without its mesh would not help, so that remedy is replaced.
+/// The reason for a member's failure. A remedy that loads the member without its mesh is replaced if the
+/// member has no given mesh: the quads that it keeps are then those of neighbours meshed before it.
 Message why_failed(const AssemblyMember& member, const Error& error)
 {
     Message why = error.message().about(member.region);
@@ -408,7 +408,7 @@ private:
             return;
         }
         SweepOptions options = member.options;
-        options.fallback = Fallback::none;                      // the whole assembly is computed again
+        options.fallback = Fallback::none;                      // the caller applies the fallback
         options.layered = options.layered && periodic_.empty(); // periodic pairs need stored nodes
         if (plan_.layers[m] > 0 && options.layers.heights.empty()) options.layers.count = plan_.layers[m];
         if (!plan_.heights[m].empty()) {
@@ -422,7 +422,8 @@ private:
         options.beside.own_mesh = came_with_mesh(member);
         OpenVolume volume = *member.volume, sealed = *member.volume;
         give_edge_nodes(volume, plan_.nodes[m]);
-        // Rows along walls continue across a shared face, so both members make the rows themselves.
+        // Rows along walls continue across a shared face, so each member paves that face itself. Otherwise
+        // the member keeps the quads of the neighbour that was meshed first.
         if (options.quads != Quads::automatic && options.rows == 0 && options.boundary_layers.empty())
             for (const Neighbour& n : handed) options.beside.handed.insert(n.own);
         for (const auto& [own, other, from, onto] : handed) {
@@ -713,7 +714,7 @@ SweptAssembly sweep_assembly(std::span<const AssemblyMember> members, const RunC
     }
     std::vector<std::size_t> place(left.size());
     std::iota(place.begin(), place.end(), std::size_t{0});
-    // The first error of each region that was repeated with wedges.
+    // For each region that was repeated with wedges: its error without wedges.
     std::map<std::string, MemberFailed> without_wedges;
     std::map<std::size_t, Message> failures; // errors of members that are not swept, by index
     std::vector<LeftOut> left_out;

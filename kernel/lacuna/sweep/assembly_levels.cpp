@@ -17,9 +17,9 @@ using namespace topology;
 
 namespace {
 
-/// Levels that differ by less than this share of the height of the tallest member that is joined by walls are
-/// treated as one. A layer boundary can bend to reach both, whereas a layer between them would be very thin.
-/// A choice.
+/// Two levels count as one if their distance is below this share of the height of the tallest member of the
+/// group. A layer boundary can bend to reach both, whereas a layer between them would be very thin. Not
+/// measured.
 constexpr double kSameLevel = 1e-2;
 
 /// Whether the layers of a member are free: neither the user nor a given mesh prescribes them.
@@ -153,7 +153,7 @@ std::vector<std::vector<double>> AssemblyLevels::heights(
     const std::vector<Contact> all = contacts();
     geometry::UnionFind groups(members_.size());
     for (const Contact& c : all) groups.unite(c.a, c.b);
-    std::map<std::size_t, double> tallest; // of each group [model length]
+    std::map<std::size_t, double> tallest; // for each group joined by walls: height of its tallest member
     for (std::size_t m = 0; m < members_.size(); ++m)
         tallest[groups.find(m)] = std::max(tallest[groups.find(m)], length_[m]);
     for (std::size_t m = 0; m < members_.size(); ++m) {

@@ -38,7 +38,7 @@ public:
         cells_[cell_at(p)].push_back(points_.size());
         points_.push_back(p);
     }
-    /// The first point within the tolerance. If there is none, the place becomes a point.
+    /// The first point within the tolerance; without one, `p` is added.
     std::size_t find_or_add(const Vec3& p, double tolerance)
     {
         std::size_t first = points_.size();
@@ -198,8 +198,10 @@ private:
         return at;
     }
 
-    /// Places of nodes on a side line: the heights of the member's layers, of which the nearest moves to each
-    /// end of an edge; or, if there are none, or two ends have the same nearest height, evenly between ends.
+    /// Node positions on a side line that consists of several edges, as shares of its length. They are the
+    /// heights of the member's layers, and the height nearest to each vertex is moved onto the vertex. If
+    /// there are no heights, or two vertices share the nearest height, nodes are evenly spaced between
+    /// vertices.
     [[nodiscard]] std::vector<double> places_on(const std::vector<double>& ends, std::size_t m,
                                                 std::size_t count) const
     {
@@ -253,8 +255,8 @@ private:
         }
     }
 
-    /// Of the same edge in several members, the index of the one with given nodes. Without given nodes, the
-    /// one with an exact curve.
+    /// The edge, among those that are the same in several members, that defines the nodes: one with given
+    /// nodes, else one with an exact curve, else the first.
     [[nodiscard]] std::size_t exact_one(std::size_t e) const
     {
         const std::size_t root = edges_.set_of(e);

@@ -61,9 +61,11 @@ public:
 private:
     [[noreturn]] void refuse() const
     {
-        throw NotSweepable("surface.not_imprinted",
-                           "the rim of {} has other points than the rim of the neighbour's face",
-                           entity_of(to_, whole_.front()));
+        throw NotSweepable(
+            Message("surface.not_imprinted",
+                    "{} is shared with a neighbour, but its rim has other points in the two volumes",
+                    entity_of(to_, whole_.front()))
+                .remedy("divide the edges of both volumes at the same points"));
     }
 
     [[nodiscard]] std::vector<EdgeId> rim_of_whole() const
@@ -80,8 +82,8 @@ private:
         return std::ranges::any_of(model.vertices, [&](const Vertex& v) { return v.point == point; });
     }
 
-    /// Add the points that the rim of the whole face lacks. Points that are vertices of the parts become
-    /// vertices there.
+    /// Add the points of the parts' rim that the whole face's rim lacks. If a point is a vertex of a part, it
+    /// becomes a vertex of the whole face.
     void copy_rim()
     {
         for (const Rim& rim : rims(from_, parts_)) {
@@ -340,8 +342,8 @@ private:
         std::swap(line.source_to, line.target_to);
     }
 
-    /// Corresponding lines and vertices of both ends of a member, listed as if the end that is split were the
-    /// source.
+    /// Corresponding lines and vertices on both ends of a member. The end that is to be split takes the place
+    /// of the source.
     [[nodiscard]] std::vector<surface::KnownLine> known_lines(std::size_t m, Role end) const
     {
         std::vector<surface::KnownLine> lines = known_[m];

@@ -149,7 +149,7 @@ mesh::Incidence uses_of(const CellRegion& region)
     });
 }
 
-/// Two sides of a cell that are collinear and fixed.
+/// The first corner of a cell at which two fixed sides are collinear.
 std::optional<StuckCorner> stuck_corner(const Hex& hex, const std::array<Vec3, 8>& corners,
                                         const std::vector<char>& locked)
 {
@@ -269,7 +269,8 @@ double RegionEnergy::operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradi
             std::copy(slope.begin(), slope.end(), slopes_.begin() + static_cast<std::ptrdiff_t>(8 * c));
         }
     });
-    // A sum takes a fraction of the time of a cell: starting threads pays from 32 times as many on.
+    // Summing the gradients at a node is much cheaper than evaluating a cell, so threads pay off only from 32
+    // times as many nodes on.
     parallel_each(context_, region_.free, 32 * kChunk, [&](std::size_t i) {
         Vec3 sum = Vec3::Zero();
         for (const Index use : region_.uses.of(i)) sum += slopes_[index(use)];

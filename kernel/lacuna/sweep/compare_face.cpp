@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Meshes of millions of cells have a hundred thousand quads on their skin, each with four points to compare.
-// The usual point must therefore cost only a few operations. Quads are stored in rows. The facet below the
-// last point, or a neighbour of it, is usually below the next point too (`FacetWalk`). Likewise, the quad
-// nearest to one point of a facet is usually nearest to the next point. An answer that is found in this way
-// is used only if it is certain; otherwise a tree is searched.
+// The usual point must therefore cost only a few operations. Neighbouring quads have neighbouring numbers, so
+// the facet below the last point, or an adjacent facet, is usually below the next point too (`FacetWalk`).
+// Likewise, the quad nearest to one point of a facet is usually nearest to the next point. Such an answer is
+// used only if it is certain; otherwise a tree is searched.
 #include <lacuna/sweep/detail/compare_face.h>
 
 #include <lacuna/core/shared/criteria.h>
@@ -451,8 +451,7 @@ private:
         tally.add(sample, allowed(sample));
     }
 
-    // --- statistics and result
-    // ---------------------------------------------------------------------------------
+    // --- statistics and result ------------------------------------------------------------------------
 
     /// Call `body(i, tally)` for all numbers `i` below `count`, in blocks. The sums of blocks are added in
     /// order, so that the result does not depend on the number of threads.
@@ -520,9 +519,9 @@ private:
             most = sag;
             result_.side = result_.source_side = (b - a).norm();
             if (mesh_ == nullptr) continue;
-            // Find the corresponding side of the mesh's quad. At order 2, quads are compared in four parts.
-            // The side of the whole quad is then the one that contains this side as a half, or the one
-            // parallel to this side.
+            // Find the side of the mesh's quad that deviates. At order 2, the compared quad is a quarter of
+            // the mesh's quad. If its side is half of a side of the mesh's quad, take that side, otherwise
+            // the parallel one.
             const Index row = mesh_->nodes_per_layer;
             const std::size_t own = mesh_->order() == 1 ? k : (worst_ + 3 * (k % 2)) % 4;
             const Quad whole = mesh::skin_quad(*mesh_, item_[worst_]).nodes;
@@ -560,7 +559,7 @@ void set_mean_sides(Skin& skin)
 /// @param points   the nodes of the skin
 /// @param quads    number of quads of the skin that precede its first triangle, if the mesh is of order 2
 /// @param at       returns the index in `points` of a node of the mesh
-/// @param whole    at order 2, the allowed distance of a part of a side is that of the whole side
+/// @param whole    whether, at order 2, the allowed distance at half a side follows the whole side's length
 template <class Mesh, class At>
 Skin skin_of(const Mesh& mesh, std::vector<Vec3> points, std::size_t quads, const At& at, bool whole,
              const std::vector<FaceId>& faces, std::size_t face_count, const RunContext& context)

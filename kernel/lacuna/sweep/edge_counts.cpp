@@ -28,7 +28,7 @@ using namespace topology;
 
 namespace {
 
-/// A request for a rim segment ignores an edge if it covers less than this share of the edge.
+/// An interval request for part of a rim does not apply to an edge of which it covers less than this share.
 constexpr double kInset = 1e-3;
 /// Maximum number of rounds that make the number of sides of ends even. Each round adds a side to one class;
 /// families of blocks need far fewer.

@@ -11,8 +11,8 @@ namespace lacuna::sweep {
 
 namespace {
 
-/// Up to this height, as a share of the facet's minimum altitude, only adjacent facets can be nearer than the
-/// foot point. Whether they are follows from their angles. For greater heights, facets at angles of up to 90°
+/// Up to this height over a facet, as a share of its smallest altitude, only adjacent facets can be nearer
+/// than the foot point, and their angles show whether they are. Above this height, facets folded by up to 90°
 /// are assumed. Not measured.
 constexpr double kLow = 0.1;
 /// Maximum number of steps of a walk. For points in rows, the next facet is one or two steps away. More steps

@@ -20,7 +20,8 @@ namespace {
 
 /// Allowed distance as a share of a quad's side, if no length is given; see `FidelityOptions`.
 constexpr double kShareOfSide = 0.25;
-/// The same share within two sides of a tip, where at most four quads meet, and on faces between two volumes.
+/// Allowed distance, as a share of a quad's side, within two sides of a tip, where at most four quads meet,
+/// and on faces between two volumes.
 constexpr double kShareAtTip = 1;
 
 /// Lower bound of the allowed distance: this share of the model's diagonal, or this share of the face's

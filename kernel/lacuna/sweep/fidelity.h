@@ -22,7 +22,7 @@ enum class Misfit {
     none,
     no_quads, ///< the face has no quads
     folded,   ///< a quad is inverted against the face
-    /// Nodes are off the face, or a part of the face is off the quads because they cut off one of its edges.
+    /// Nodes are off the face, or the quads cut off an edge of the face.
     cut,
     straight, ///< nodes are on the face, but the face curves between them
 };
@@ -90,7 +90,7 @@ Fidelity compare(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,
                  const FidelityOptions& options = {}, const RunContext& context = {},
                  const mesh::LayeredNodes* layers = nullptr);
 
-/// As above, for tetrahedra and pyramids.
+/// `compare()` for tetrahedra and pyramids.
 Fidelity compare(const topology::OpenVolume& volume, const mesh::TetPart& mesh,
                  const std::vector<FaceId>& faces, double volume_of_mesh, const FidelityOptions& options = {},
                  const RunContext& context = {});

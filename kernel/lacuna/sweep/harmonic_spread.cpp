@@ -140,7 +140,8 @@ LACUNA_INLINE void substitute_rows(const Eigen::SparseMatrix<double>& lower, con
         int p = begin[j];
         const int end = begin[j + 1];
         // Often a column of the factor has the entries of the next column plus one more. Both columns are
-        // then applied in one pass through memory. The order of the subtractions stays the same.
+        // then applied in one pass through memory. The order of subtractions is unchanged, and so is the
+        // rounding.
         if (p < end && inner[p] == j + 1 && end - p - 1 == begin[j + 2] - end) {
             Four next[kPacks];
             for (int k = 0; k < kPacks; ++k) row(j + 1)[k] = next[k] = row(j + 1)[k] - value[p] * known[k];

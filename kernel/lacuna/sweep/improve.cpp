@@ -24,15 +24,15 @@ constexpr double kLeastEpsilon = 1e-3;
 /// limit the time spent on cells that cannot be unfolded. Not measured.
 constexpr int kUntanglings = 40;
 constexpr int kPatience = 4;
-/// Minimum decrease of the total shortfall, as a share of it, that counts as a gain while untangling.
+/// While untangling, a round counts as a gain if the total shortfall decreases by at least this share.
 constexpr double kGain = 0.01;
 /// Exponent k in each round of the second stage. With low values all poor corners have weight, with high
 /// values only the worst ones.
 constexpr std::array<double, 6> kSharpness{6, 12, 20, 30, 45, 60};
 /// Weight of the shape energy in the second stage: enough to keep lengths and to prevent folds.
 constexpr double kShapeShare = 1e-3;
-/// Nodes are moved only if the minimum scaled Jacobian rises by more than this, or if the total shortfall
-/// falls by more than this share of it.
+/// A result is kept only if the minimum scaled Jacobian rises by more than this, or if the total shortfall
+/// decreases by more than this share.
 constexpr double kWorthIt = 1e-4;
 /// Largest decrease of the mean scaled Jacobian that is accepted for a higher minimum; part of the contract
 /// of `improve()`.
@@ -84,7 +84,7 @@ private:
         return Eigen::Map<const Eigen::VectorXd>(places.front().data(), size);
     }
 
-    /// Work on earlier meshes does not count for a mesh that is still folded, because it would be refused.
+    /// While a mesh is folded, work on earlier meshes does not count, because a folded mesh would be refused.
     [[nodiscard]] double work_that_counts() const
     {
         return best_quality_.least > 0 ? options_.spent->work : work_;

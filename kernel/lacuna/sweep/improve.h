@@ -30,7 +30,7 @@ struct ImproveOptions {
     double seconds = 0;       ///< no step begins after this time, >= 0; 0: only `work` limits
     // `work` counts evaluations instead of time, so that the result is the same on every machine.
     /// The work and time spent so far, shared by copies of these options; null: each copy has its own limits.
-    /// As long as a mesh has folded cells, only its own work counts.
+    /// While a mesh has folded cells, only the work on this mesh counts, not that on earlier meshes.
     std::shared_ptr<ImproveSpent> spent{};
 };
 
@@ -83,10 +83,10 @@ struct Improved {
 ///    corners have the largest terms. A share of the first energy is added: it keeps the lengths of the edges
 ///    and prevents folding.
 ///
-/// @post  the minimum scaled Jacobian is not smaller than before. If no cell was folded, the mean is not
-///         smaller by more than a hundredth. If nothing improves, no node moves. Each cell is judged by its
-///         distance from the quality that its fixed nodes allow, so a cell that cannot improve does not stop
-///         the improvement of others. Sliding nodes lie on their surfaces.
+/// @post  the minimum scaled Jacobian is not smaller than before. If no cell was folded, the mean decreases
+///         by at most 0.01. If nothing improves, no node moves. Each cell is judged by its distance from the
+///         quality that its fixed nodes allow, so a cell that cannot improve does not stop the improvement of
+///         others. Sliding nodes lie on their surfaces.
 /// @throw InvalidInput  an option that `check()` refuses.
 /// @note  Deterministic for any thread count, unless `seconds` ends it. O(iterations · cells of the region).
 Improved improve(mesh::HexMesh mesh, const ImproveOptions& options = {}, const Sliding& sliding = {},

@@ -22,9 +22,9 @@ namespace {
 
 /// Maximum corner angle of a quad on either end. It decides how many quads meet at a rim node. Not measured.
 constexpr double kWidest = 150 * kDegree;
-/// Amounts by which the angle at a node of the mean outline may be smaller than the right angles of its
-/// quads. If it is smaller by more than the first value, the node is moved inward until the difference is the
-/// second value. From 45° on, the paver would place one quad fewer there. Not measured.
+/// The quads at a node of the mean outline need 90° each. If the outline's angle is smaller than their sum by
+/// more than the first value, the node is moved inward until the difference is the second value. If 45° were
+/// missing, the paver would place one quad fewer there. Not measured.
 constexpr double kMayLack = 40 * kDegree, kLacks = 30 * kDegree;
 
 /// Interior angle at b [0, 2 π); the region lies to the left of a, b, c.
@@ -60,8 +60,8 @@ FlatRims flat_rims(const mesh::QuadMesh& source, const RimColumns& columns)
     return rims;
 }
 
-/// Move nodes of a loop inward where the angle of the mean outline is too small for the larger of the two
-/// angles at the ends.
+/// Move nodes of a loop inward where the quads that the ends need at a node do not fit into the angle of the
+/// mean outline.
 void draw_in(const std::vector<Index>& loop, FlatRims& rims)
 {
     const std::size_t n = loop.size();

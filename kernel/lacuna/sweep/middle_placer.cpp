@@ -155,8 +155,8 @@ void MiddlePlacer::place(int first, int last, std::span<Vec3> out, const RunCont
     const Corners corners(corners_, low.first, std::max(high.first + high.count, last + 1), context);
     const std::size_t period = places_.side(1, 0), on_level = places_.upright(0, 0);
     const auto layers = index(last - first);
-    // Call `visit` for each of `count` levels or layers, with the output position of its nodes. This is
-    // `skip` entries after the first entry of the level, or of the level below the layer.
+    // Call `visit` for each of `count` levels or layers, with the output position of its nodes. The position
+    // is `skip` entries after that of the level or, for a layer, of the level below it.
     const auto each = [&](std::size_t count, std::size_t skip, const auto& visit) {
         parallel_each(context, count, 1,
                       [&](std::size_t i) { visit(first + static_cast<int>(i), &out[i * period + skip]); });

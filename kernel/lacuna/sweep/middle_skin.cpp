@@ -85,7 +85,7 @@ private:
     {
         return (corners_[side.from] + corners_[side.to]) / 2;
     }
-    /// The wanted sides whose middles are not placed yet.
+    /// Sides whose middle is not placed yet, as far as `wanted(side)` selects them.
     template <class Wanted>
     [[nodiscard]] std::vector<const SkinSide*> open_sides(const Wanted& wanted) const
     {

@@ -157,8 +157,8 @@ Morphed morph(const mesh::QuadMesh& source, const RimColumns& columns, const Sur
     result.worst_source = worst_quad(source.quads, source.nodes, context);
     result.report = guess.affine ? "affine image of the source" : "fitted image of the source";
     Candidate found{guess.nodes, worst_quad(source.quads, guess.nodes, context)};
-    // If the map of the rims is affine, the quality lost by this map is due to the rims. Smoothing can only
-    // regain the quality that the projection loses.
+    // Smoothing cannot undo the distortion of an affine map between the rims, only that of the projection. In
+    // this case, the goal is the quality before the projection.
     const double model = guess.affine ? std::min(result.worst_source, found.worst) : result.worst_source;
     if (project && !free_nodes.empty()) {
         Candidate projected{guess.nodes, -1};

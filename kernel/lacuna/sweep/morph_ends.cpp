@@ -65,8 +65,10 @@ Part part_of(const mesh::QuadMesh& whole, const std::vector<Quad>& quads,
     for (const Index node : rim) {
         const std::optional<Vec3>& place = places[index(part.node[index(node)])];
         if (!place) {
-            throw NotSweepable("sweep.imprint_torn", "an edge between faces of the target has nodes that "
-                                                     "no edge imprinted on the source reaches");
+            throw NotSweepable(Message("sweep.imprint_torn",
+                                       "nodes between faces of the target have no counterpart on the edges "
+                                       "that were imprinted on the source")
+                                   .remedy("merge these faces of the target in the CAD system"));
         }
         part.columns.points.push_back(*place);
     }

@@ -26,9 +26,9 @@ namespace {
 /// of the largest tolerance that a model can have. With a higher value, more intended gaps would be reported.
 /// Not measured.
 constexpr double kWidest = 5e-3;
-/// Two faces stay near each other if at least this share of the area closer than four windows is also closer
-/// than one window. The share is a quarter between faces that diverge linearly, and a half between faces that
-/// curve away from a contact.
+/// Two faces are a near miss only if at least this share of the area within four windows is within one
+/// window. The share is a quarter between faces that diverge linearly, and a half between faces that curve
+/// away from a contact.
 constexpr double kStaysNear = 0.6;
 /// Least share of a face, or of an edge, that must be near the other member. A smaller part counts if its
 /// mean width exceeds the window or, along an edge, if it is longer than `kCorner` windows.
@@ -36,7 +36,8 @@ constexpr double kPart = 0.05;
 /// Two vertices of two rims correspond if their distance is at most this many times the distance of the rims.
 /// At corners of 30°, corresponding vertices are nearly four times as far apart as the sides.
 constexpr double kCorner = 4;
-/// If a larger share of the area within the window is beyond the tolerance, the faces coincide only in part.
+/// If more than this share of the area within the window is beyond the tolerance, the faces coincide only in
+/// part.
 constexpr double kApart = 0.05;
 /// Factor on the tolerance for parts that were split off faces. Their corners were moved onto the other face
 /// and then along its rim, each time within the tolerance, so the total may reach √2 times the tolerance.
@@ -261,7 +262,7 @@ private:
         }
     }
 
-    /// Whether this face is in a near miss with a face of the other member.
+    /// Whether a face of a member is in a near miss with a face of the other member.
     [[nodiscard]] bool is_near(std::size_t member, FaceId face) const
     {
         return std::ranges::any_of(near_, [&](const Faces& faces) {

@@ -24,8 +24,8 @@ namespace {
 /// missed. Not measured.
 constexpr int kSamples = 32;
 
-/// Number of chords that represent a column when its turning is measured. There are few enough of them to
-/// ignore local dents, and enough to resolve the bends of a sweep. Not measured.
+/// Number of chords by which the turning of a column is measured: few enough to ignore local dents, and
+/// enough to resolve the bends of a sweep. Not measured.
 constexpr std::size_t kTurnChords = 8;
 
 /// Values averaged over the columns between both rims.

@@ -67,8 +67,8 @@ void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mes
         face = entity_of(volume.model, faces[index(mesh::skin_quad(mesh, i).patch)]);
         break;
     }
-    // The bend of a side relative to its length is proportional to the length. The suggested size is a tenth
-    // smaller than this requires.
+    // The bend of a side, relative to its length, is proportional to the length, so a cell of `share` times
+    // the size is valid. The suggestion is a tenth smaller.
     constexpr double kBelow = 0.9;
     const double share = kBelow * valid_share(quality::hex27_of(mesh, cell));
     constexpr std::size_t kFirstUpright = 16;

@@ -39,7 +39,7 @@ SameEdges::SameEdges(std::span<const AssemblyMember> members, std::span<const Sh
     for (const auto& [m, face] : beside) add_beside(m, face);
     for (const SharedFace& face : shared) {
         const bool a = is_wall(face.a, face.face_a), b = is_wall(face.b, face.face_b);
-        // The rows of the wall have a node wherever an edge of the other member's end ends.
+        // If a wall is part of another member's end, its rows need a node at every vertex on its border.
         if (a && !b) add_beside(face.a, face.face_a);
         if (b && !a) add_beside(face.b, face.face_b);
     }
@@ -115,7 +115,7 @@ void SameEdges::find_same_rims(const SharedFace& face)
 
 void SameEdges::join_periodic()
 {
-    // Transforms onto the first edge of each set.
+    // For each set, keyed by its first edge: its edges, and the motions that move them onto the first one.
     std::map<std::size_t, std::vector<std::pair<std::size_t, Eigen::Isometry3d>>> images;
     for (const PeriodicFaces& pair : periodic_)
         for (const auto& [own, image] : pair.edges) {

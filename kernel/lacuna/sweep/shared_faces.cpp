@@ -114,8 +114,10 @@ struct InCommon {
     double sag = 0;         ///< maximum distance of the rims' chords from these arcs
 };
 
-/// Compare the rims of a face that two members share. @return  whether it is one face despite any difference
-/// of the rims
+/// Compare the rims of a face that two members share.
+/// @return  true if the rims agree, at least within the sag of their chords; false if they are farther apart
+///          than `window`.
+/// @throw InvalidInput "assembly.rims_apart"  the distance of the rims is between these limits.
 bool rims_agree(const AssemblyMember& a, const Side& one, const AssemblyMember& b, const Side& other,
                 double tolerance, double window, InCommon& common)
 {
@@ -275,9 +277,11 @@ void check_apart(const AssemblyMember& a, std::span<const Side> sides_of_a,
         }
         if (tree.closest(p, by * by).triangle >= 0) continue;
         if (std::abs(tree.winding_number(p)) < 0.5) continue;
-        throw InvalidInput("assembly.overlap",
-                           "{} reaches into {} at {}: volumes of an assembly may touch, but not overlap",
-                           a.region, b.region, place_in_short(p));
+        throw InvalidInput(
+            Message("assembly.overlap",
+                    "{} reaches into {} at {}: volumes of an assembly may touch, but not overlap", a.region,
+                    b.region, place_in_short(p))
+                .remedy("move or cut one of them in the CAD system"));
     }
 }
 
@@ -321,8 +325,8 @@ struct MemberSides {
 
 } // namespace
 
-/// Two facets that meet at an angle approximate an arc. The arc deviates from them by about an eighth of that
-/// angle times the height of a facet over the common side.
+// Two facets that meet at an angle approximate an arc. The arc deviates from them by about an eighth of that
+// angle times the height of a facet over the common side.
 double facet_sag(const Model& model, const Face& face)
 {
     double sag = 0;

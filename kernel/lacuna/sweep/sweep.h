@@ -174,9 +174,9 @@ struct Swept {
 ///
 /// Given meshes of faces are kept, node for node: the source's quads, rows of quads on walls, the target's
 /// quads if they are connected like the source's, and the nodes of the rims of all these. The report counts
-/// them. On a face with given quads, the given triangles become cells too. The triangles of a face without
-/// quads only define its shape, and its inside is remeshed. With `wedges`, they become cells if the face
-/// keeps its nodes. With an explicit option such as `Quads::paved`, all faces are remeshed.
+/// them. Given triangles become cells too on a face with given quads and, with `wedges`, on a face that keeps
+/// its nodes. Other triangles only define the shape of their face, whose inside is remeshed. With an explicit
+/// option such as `Quads::paved`, all faces are remeshed.
 ///
 /// Edges between the faces of an end, and edges around or up the walls, become chains of mesh edges. The
 /// sweep runs from source to target. If that gives poor cells, it runs from target to source, or the quads

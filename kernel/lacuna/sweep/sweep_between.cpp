@@ -42,7 +42,7 @@ using namespace topology;
 namespace {
 
 /// Whether walls are meshed while another thread meshes the source's quads. This saves time if the quads,
-/// which use one thread, take long. It is possible if the two tasks do not need the same CAD process.
+/// which use one thread, take long. It is possible only if the two tasks do not need the same CAD process.
 bool walls_beside(const OpenVolume& volume, const surface::Seeds& seeds,
                   const std::vector<surface::LinkingNodes>& rim, const std::vector<double>& heights)
 {
@@ -99,8 +99,8 @@ void hold_creases(const std::vector<surface::LinkingSurface>& links, const surfa
     }
 }
 
-/// Whether all walls are void and ruled between the ends, with straight void edges. This is class I of the
-/// paper, in which node lines are straight.
+/// Whether all walls are void and ruled between the ends, with straight void edges. Node lines are then
+/// straight: class I of Roca and Sarrate (2010).
 bool ruled(const OpenVolume& volume, const std::vector<surface::LinkingSurface>& links)
 {
     for (const FaceId wall : volume.faces(Role::wall)) {
@@ -270,7 +270,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     const bool keeps_target = !given_target.face.empty();
     const bool moved = motion && !keeps_target;
     if (!keeps_target && !imprint && !moved && !surface::inner_edges(volume, Role::target).empty())
-        // Raises an error that names the faces if they keep their quads.
+        // If faces of the target keep their quads, this raises an error that names them.
         imprint = surface::imprint_target(volume, links, size);
     EndFaces ends = end_faces(volume, source, imprint, motion != nullptr);
     if (keeps_target) ends.target = std::move(given_target.face);

@@ -23,7 +23,7 @@ std::map<EdgeId, std::vector<std::string>> edge_sets(topology::Model& model,
                                                      double scale);
 
 /// If a volume is swept from a source alone: the node sets of its decks that hold nodes of the source. Each
-/// becomes a set of the columns of mesh nodes that stand on these nodes. Otherwise empty.
+/// becomes the set of all mesh nodes in the columns over these nodes. Otherwise empty.
 std::vector<io::ColumnSet> column_sets(const Volume& volume, const sweep::Swept& swept);
 
 } // namespace lacuna::fill

@@ -32,11 +32,12 @@ auto sweep_or_name_tets(const sweep::SweepOptions& options, const Do& sweep)
 /// Make the options keep the middle nodes that the decks of a volume contain.
 void keep_given_middles(const Volume& volume, sweep::SecondOrderOptions& options);
 
-/// The volume, with the rounds divided at which its walls meet an end smoothly (see
-/// `closure::split_round_rims()`). Unchanged if it has no such rounds, or if the user matched or closed it.
+/// Divide the rounds at which the walls of a volume meet an end smoothly (see `closure::split_round_rims()`).
+/// The volume is unchanged if it has no such rounds, or if the user matched or closed it.
 Volume with_rims_divided(const Volume& volume, const RunContext& context);
 
-/// Note the faces that pieces of a whole contain only as parts of the walls beside them.
+/// Note the given faces that pieces do not contain as faces of their own, because cutting joined them with
+/// the walls beside them.
 void note_joined(const topology::Model& whole, const std::vector<closure::StepPiece>& pieces,
                  const RunContext& context);
 

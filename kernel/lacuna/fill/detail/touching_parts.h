@@ -24,14 +24,15 @@ struct JoinedParts {
 
 /// Leave out faces that coincide with another one on the same edges, before walls are found. A STEP file of
 /// solids that touch has the faces between them twice.
-/// @param ends  they are kept, rather than the faces that coincide with them.
+/// @param ends  these faces are kept, and the faces that coincide with them are left out.
 /// @return  empty if there are no such faces.
 std::optional<JoinedParts> leave_out_double_faces(const topology::Model& model,
                                                   const std::vector<FaceId>& ends);
 
-/// Leave out the faces that solids share where one solid stands on the whole top of another. At each edge of
-/// such a face three faces of the volume meet; without it, two remain.
-/// @param named  faces of the volume. If `all_follow`, its ends: they stay, and any other face may be a wall.
+/// Leave out the faces that two solids share where one solid stands on the whole top of the other. At each
+/// edge of such a face three faces of the volume meet; without the shared face, two remain.
+/// @param named  all faces of the volume; if `all_follow`, only its ends, which are kept.
+/// @param all_follow  the walls are not known yet, so that every other face of the model may be one.
 /// @return  empty if there are no such faces.
 std::optional<JoinedParts> leave_out_shared_faces(const topology::Model& model,
                                                   const std::vector<FaceId>& named, bool all_follow);

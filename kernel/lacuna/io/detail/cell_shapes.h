@@ -51,12 +51,12 @@ inline std::optional<DeckShape> shape_numbered(int ShapeWords::*format, std::int
     return {};
 }
 
-/// Write pyramids as bricks whose four upper nodes are the apex, in UNV, which has no pyramid, and in Abaqus,
-/// because CalculiX does not know its pyramid and none has order 2. The brick of eight nodes is exactly a
-/// pyramid. Its sides are linear, so it fits tetrahedra; in a patch test with CalculiX the stress is uniform
-/// to 1e-12. The sides of a brick of twenty nodes fit those of tetrahedra if the displacement is linear along
-/// the sides of the base. Equations in the deck enforce this (`abaqus_writer.cpp`): the stress is then
-/// uniform to 1e-7; without them it is 22 % off.
+/// The brick as which a pyramid is written in UNV and Abaqus: its four upper nodes are the apex. UNV has no
+/// pyramid; CalculiX does not know the pyramid of Abaqus, which has none of order 2. The brick of eight nodes
+/// is exactly a pyramid with linear sides, so it fits tetrahedra: in a patch test with CalculiX the stress is
+/// uniform to 1e-12. The brick of twenty nodes fits them if the displacement is linear along the sides of the
+/// base. Equations in the deck enforce this (`abaqus_writer.cpp`): the stress is then uniform to 1e-7;
+/// without them it is 22 % off.
 ///
 /// @return  the brick of a pyramid; empty for other shapes
 inline std::optional<DeckShape> merged_brick(DeckShape shape)

@@ -53,8 +53,8 @@ Section section_of_points(std::string text, const View& view, std::size_t bytes,
                 return out;
             }};
 }
-/// The same for the cells of a block. @param put  called as `put(index in the block, tag, region, nodes,
-/// out)`
+/// Append all cells of a block. `put(index in the block, tag, region, nodes, out)` writes each cell in at
+/// most `bytes` bytes.
 template <class Put>
 Section section_of_cells(const View& view, std::size_t block, std::size_t bytes, Put put)
 {
@@ -73,7 +73,7 @@ Section section_of_cells(const View& view, std::size_t block, std::size_t bytes,
             return out;
         }};
 }
-/// The same for some cells of a block. @param put  called as `put(tag, nodes, out)`
+/// Append text and some cells of a block. `put(tag, nodes, out)` writes each cell in at most `bytes` bytes.
 template <class Put>
 Section section_of_cells(std::string text, const View& view, std::size_t block, mesh::Ranges cells,
                          std::size_t bytes, Put put)
@@ -130,12 +130,11 @@ bool share_names(DeckFormat format, DeckSet::Kind a, DeckSet::Kind b);
 /// Whether an Abaqus type word (in capitals) is an element of this shape.
 bool is_abaqus_element(std::string_view type, DeckShape shape);
 
-/// Fields of a line, separated by commas or, if it has none, by tabs if `tabs` says so, else by columns:
-/// `first` characters of the first field, `width` of each other.
+/// Fields of a line. They are separated by commas; in a line without commas, by tabs if there are any and
+/// `tabs` is set. Otherwise the first field has `first` characters and each later one `width`.
 std::vector<std::string_view> split_fields(std::string_view line, std::size_t first, std::size_t width,
                                            bool tabs = false);
-/// Fields of a Nastran line, separated by commas or, if it has none, by tabs or columns; the first is the
-/// card's name.
+/// Fields of a Nastran line, separated by commas, tabs or columns. The first field is the name of the card.
 std::vector<std::string_view> nastran_fields(std::string_view line);
 
 /// Numbers used in the text of a deck.

@@ -11,15 +11,14 @@
 /// HDF5 and curl.
 namespace lacuna::io {
 
-/// Exodus property that gives, for each block, the id of the first block of its region. A block has one
-/// shape, but a region may have several shapes and so several blocks. The property is written if a region has
-/// several.
+/// Exodus property that gives, for each block, the id of the first block of its region. It is written if a
+/// region has several blocks, because it has cells of several shapes.
 inline constexpr const char* kRegionProperty = "REGION";
 
 /// Convert the number of a side from Abaqus to Exodus. Abaqus numbers the bottom and top faces first, Exodus
 /// last. Tetrahedra and pyramids have only a bottom face.
 int exodus_side(DeckShape shape, int side);
-/// The inverse. @return  false if the element has no such side
+/// Convert the number of a side from Exodus to Abaqus. @return  false if the element has no such side
 bool abaqus_side(DeckShape shape, int exodus, int& side);
 
 } // namespace lacuna::io

@@ -47,10 +47,11 @@ struct CornerHash {
 /// and those that duplicate regions. After a merge, also sets that held all of one of the merged decks.
 std::vector<std::size_t> sets_of_all(const Deck& deck);
 
-/// Add the data of a mesh to those sets of a deck that should contain it. These are the sets of all nodes or
-/// elements, and the sets that lost members when parts were left out. For the latter:
-/// - A set of all nodes or elements of the part with the volume's name gets all new ones. If there is no such
-///   part, each set of everything that was left out gets them.
+/// Add the data of a mesh to those sets of a deck that should contain it: the sets of all nodes or elements,
+/// and the sets that lost members when parts were left out. The sets that lost members are treated as
+/// follows:
+/// - A set of all nodes or elements of the part with the volume's name gets all nodes or cells of the mesh.
+///   If there is no such part, this applies to each set that contained everything left out.
 /// - A surface, or a set of elements on the skin, gets the quads of the skin in place of its old sides or
 ///   elements. A set of nodes gets the nodes of these quads.
 /// `Deck::gap` records the extended sets.

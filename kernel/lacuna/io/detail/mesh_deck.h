@@ -38,8 +38,8 @@ struct AddedMesh {
     JoinedBefore* before = nullptr;
     /// Null: the deck stores the nodes and cells of the mesh. Not null: the deck gets only regions, sets and
     /// empty blocks of the cells' shapes, and `*bulk` gets the place of the mesh.
-    /// @pre  if not null: the deck contains only such meshes, and `bulk->first_node` of each is that of the
-    ///       first.
+    /// @pre  if not null: the deck contains only meshes that were added in this way, and they all have the
+    ///       `first_node` of the first of them.
     BulkPlace* bulk = nullptr;
     /// With `bulk`: the number of each node in the whole mesh, from 0; null: its own number.
     const mesh::NodeNumbers* numbers = nullptr;

@@ -22,7 +22,7 @@ struct Card {
     [[nodiscard]] std::string_view field(std::size_t number) const;
     /// The number of a node, property or frame, >= 0; `otherwise` if the field is blank.
     [[nodiscard]] Index whole(std::size_t number, Index otherwise) const;
-    /// The same for a field that must not be blank.
+    /// The number of a node, property or frame, >= 0, from a field that must not be blank.
     [[nodiscard]] Index needed(std::size_t number) const;
     /// A real number; 0 if the field is blank.
     [[nodiscard]] double real(std::size_t number) const;

@@ -134,7 +134,8 @@ public:
         }
     }
 
-    /// The same, with the cell behind quad `quad_of(i)` of the skin.
+    /// Call `visit(i, value)` for each i in [begin, end), where `value` is that of the cell behind quad
+    /// `quad_of(i)` of the skin. Thread-safe.
     /// @param cells  result of `cells_of_skin()`
     template <class QuadOf, class Visit>
     void each_behind_skin(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& cells,

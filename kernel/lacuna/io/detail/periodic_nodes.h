@@ -25,8 +25,8 @@ struct PeriodicTerm {
 /// Linear equations between displacements: the terms of each sum up to zero. The first term of an equation
 /// depends on the others, and is the first term of no other equation.
 struct PeriodicEquations {
-    /// For each translation, the vector of the translation. A reference node stands for it in equations: its
-    /// displacement is the difference between those on the two sides. Rotations have no reference.
+    /// For each translation, its vector. A reference node represents it in equations: the displacement of
+    /// this node is the difference between the displacements of the two sides. Rotations have no reference.
     std::vector<Vec3> references;
     std::vector<std::size_t>
         number; ///< number of the reference of each periodic pair; `kNoIndex`: it has none

@@ -17,9 +17,9 @@ public:
     /// @note  O(n log n) in the sides, O(n) in the cells
     explicit SideNodes(const mesh::MeshView& view);
 
-    /// The nodes of a side, as indices: its corners, the middles of its edges, and its centre. The corners
-    /// are counter-clockwise seen from outside; for a shell, seen from that side. Empty for an edge of a
-    /// shell.
+    /// The nodes of a side, as indices: its corners, the middles of its edges, and its centre. The corners of
+    /// a solid's side are counter-clockwise seen from outside; those of a shell's front or back, seen from
+    /// the front or back. Empty for an edge of a shell.
     /// @pre  the side is a member of a set of the view
     [[nodiscard]] std::span<const Index> operator[](const mesh::CellSide& side) const;
 

@@ -41,8 +41,8 @@ public:
     /// inside
     bool grow_to(Index other);
     /// Add quads until no point of the outline is concave and none occurs twice.
-    /// @return hopeless if the patch has a hole, touches itself at a point of the mesh's boundary, or
-    ///         contains such a point that should have three quads or more; too large if it needs more than
+    /// @return hopeless if the patch has a hole, touches itself at a boundary point of the mesh, or contains
+    ///         a boundary point that should have three quads or more; too large if it needs more than
     ///         `largest` quads.
     PatchState close(std::size_t largest);
     /// The quads around the patch, within `layers` rings.

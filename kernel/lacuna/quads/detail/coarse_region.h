@@ -43,7 +43,7 @@ struct CoarseRegion {
 /// Which runs have whole sides.
 enum class WholeSides {
     of_odd_runs, ///< only runs with an odd number of sides, one each
-    of_outline,  ///< also the longest run of the outer loop: as many as all other runs together
+    of_outline,  ///< also the longest run of the outer loop: one for each odd run elsewhere
 };
 
 /// Leave every other boundary node out.

@@ -15,8 +15,8 @@ namespace lacuna::quads {
 /// cost. @return empty if the region cannot be cut along any axis.
 std::optional<Counts> mirror_counts(const CountTask& task);
 
-/// Give the axes of a part numbers of sides with which one grid fills the part, as `pattern_counts()` does.
-/// If there are no such numbers, use those that the size requires, with an even total around the part.
+/// Set the numbers of sides of a part's axes so that one grid fills the part, as `pattern_counts()` does. If
+/// there are no such numbers, use those that the size requires, with an even total around the part.
 /// @param few  whether numbers may deviate from the wanted ones as much as on a ring, if nothing else fits.
 /// @return  cost of the grid, for comparison with other parts; infinite if there is no grid.
 /// @throw Cancelled

@@ -63,7 +63,8 @@ struct MirrorPart {
     /// For each node: 0 if it is on no axis, 1 or 2 if it is on that axis, 3 if it is the centre.
     std::vector<char> ray;
     bool has_centre = false;    ///< whether the centre lies in the region
-    bool is_some = false;       ///< whether the region has other symmetries besides those of the images
+    bool is_some = false;       ///< whether the region has symmetries besides those that map the part onto
+                                ///< its images
     std::vector<double> wanted; ///< number of sides that the size requires on each piece of an axis
     /// The images, in order around the centre. The first image is the part itself. The second, fourth and so
     /// on are mirrored.

@@ -37,11 +37,13 @@ public:
 
     /// Run all steps below until a further one cannot improve the result.
     void run();
-    /// Try meshes in this order. First come grids and then, if there are many quads, the quads of a coarser
-    /// region, each cut in four. If neither is good and there are few quads, pave without rows, using the
-    /// weights for few quads, and then with rows, using the first of `cut_weight_rows()`. If the result is
-    /// poor, or if there are more quads, pave with rows and the default weights. Finally pave without rows,
-    /// if the attempt with rows failed, or if the region is small and the mesh not yet good enough.
+    /// Try these meshes in turn until one is good:
+    /// 1. grids;
+    /// 2. if there are many quads, the quads of a coarser region, each cut in four;
+    /// 3. if there are few quads, paving without rows with the weights for few quads, and with rows with the
+    ///    first of `cut_weight_rows()`;
+    /// 4. if there are more quads, or the result is poor, paving with rows and the default weights;
+    /// 5. if that failed, or the region is small and the mesh not yet good enough, paving without rows.
     void try_default_weights();
     /// The score of a row style with other cut weights. The attempt is not kept.
     [[nodiscard]] double score_with(RowStyle style, const CutWeights& weights) const;

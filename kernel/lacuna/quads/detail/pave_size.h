@@ -13,9 +13,9 @@ namespace lacuna::quads::paving {
 /// region without a size gets the mean length of its boundary sides.
 struct BoundarySizes {
     SizeField usual;
-    /// As `usual`, but the limits apply only where sides deviate slightly more from the requested size. The
-    /// sides of a ring may be 0.6 to 1 / 0.6 times as long as requested, while its rows keep the requested
-    /// size. Rings are laid out with this size, and all meshes are judged by it.
+    /// As `usual`, but sides may deviate slightly more from the requested size before they limit the size.
+    /// The sides of a ring may be 0.6 to 1 / 0.6 times as long as requested, while its rows keep the
+    /// requested size. Rings are laid out with this size, and all meshes are judged by it.
     SizeField ring;
 };
 BoundarySizes sizes_with_boundary(const PlanarRegion& region);
@@ -23,7 +23,7 @@ BoundarySizes sizes_with_boundary(const PlanarRegion& region);
 /// Estimated number of quads of a region: its area divided by that of a square on a mean boundary side.
 double quads_within(const PlanarRegion& region);
 
-/// Whether the number of quads of a mesh differs by at most a quarter from the requested number, as promised.
+/// Whether the number of quads of a mesh differs by at most a quarter from the number that the size requires.
 bool has_quads_asked(const PlanarQuads& mesh, const SizeField& size);
 
 } // namespace lacuna::quads::paving

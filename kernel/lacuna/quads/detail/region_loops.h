@@ -29,7 +29,8 @@ inline const Vec2& point_of(std::span<const Vec2> points, const Cycle& loop, std
 /// the start.
 Vec2 point_along(std::span<const Vec2> points, const Cycle& loop, std::size_t from, double sides);
 
-/// Add points that divide a loop evenly from one place up to another, excluding the latter.
+/// Add points that divide a loop evenly from one place to another. The point at the second place is not
+/// added.
 void add_divided(std::span<const Vec2> points, const Cycle& loop, std::size_t from, std::size_t to, int sides,
                  std::vector<Vec2>& divided);
 

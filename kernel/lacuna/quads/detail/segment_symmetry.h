@@ -26,12 +26,12 @@ std::size_t segment_count(std::span<const int> segment);
 /// @param segment  segment of the side from each node to the next, 0, 1, …
 std::vector<SegmentSymmetry> segment_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
-/// The symmetries of `segment_symmetries()` that also keep the first node of loops with a single segment: it
-/// is mapped onto the first node of such a loop. This is needed where nodes are counted from the first node.
+/// The symmetries of `segment_symmetries()` that also map the first node of each loop with a single segment
+/// onto the first node of such a loop. This is needed where nodes are counted from the first node.
 std::vector<SegmentSymmetry> end_symmetries(const PlanarRegion& region, std::span<const int> segment);
 
-/// Two segments that are mirror images of each other. If a segment is its own mirror image, both are this
-/// segment.
+/// Two segments that are mirror images of each other. A segment that is its own mirror image is paired with
+/// itself.
 using SegmentPair = std::array<std::size_t, 2>;
 
 /// For each reflection of `end_symmetries()`, its pairs of segments in the order of the loops.

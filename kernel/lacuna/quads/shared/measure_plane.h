@@ -19,7 +19,7 @@ double scaled_jacobian(std::span<const Vec2> points, const Quad& quad);
 
 /// The least scaled Jacobian of all quads; 1 if there are none.
 double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads);
-/// The same on all threads.
+/// The least scaled Jacobian of all quads, computed by all threads.
 double least_scaled_jacobian(std::span<const Vec2> points, std::span<const Quad> quads,
                              const RunContext& context);
 
@@ -75,7 +75,7 @@ double row_corner(double angle, Index quads);
 /// ideal angle. A single quad in a corner below 70° or above 110° cannot.
 /// @param angle  angle of the node inside the region [radian].
 bool may_be_good(double angle, Index quads);
-/// Whether this is so for some number of quads from one to four.
+/// Whether `may_be_good()` holds for at least one number of quads from one to four.
 bool may_be_good(double angle);
 
 /// Measure quads over a region.
@@ -99,8 +99,8 @@ PlaneQuality measure_plane(const PlanarQuads& mesh, const PlanarRegion& region);
 /// @param euler   Euler number of the region: 2 minus the number of its loops
 int least_irregular(std::span<const double> angles, int euler, double either = 0);
 
-/// As above, for a region. No mesh has fewer irregular nodes if boundary nodes whose number of quads does not
-/// fit their angle are counted too.
+/// `least_irregular()` for a region. No mesh has fewer irregular nodes if boundary nodes whose number of
+/// quads does not fit their angle are counted too.
 int least_irregular(const PlanarRegion& region);
 
 /// The first reason, in words, why the quads are not a valid mesh of the region. Empty if they are valid.

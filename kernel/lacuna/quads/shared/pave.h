@@ -54,9 +54,10 @@ struct Paved {
 ///
 /// Up to 4000 quads, the paver makes several meshes, with and without rows and with several weightings of the
 /// cuts, and keeps the best by measured quality. Below about 1500 quads it makes three meshes without rows,
-/// with weightings of their own, and one with rows. It cleans and smooths the two with the fewest initial
-/// irregular nodes, and the other two only if the worst quad of the first two is below 0.75. It tries
-/// everything else only if these four are poor. Sizes are compared with the size that the given sides permit.
+/// with weights chosen for few quads, and one with rows. It cleans and smooths the two with the fewest
+/// initial irregular nodes, and the other two only if the worst quad of the first two is below 0.75. It tries
+/// other weights only if these four meshes are poor. Sizes are compared with the size that the given sides
+/// permit.
 /// The search ends when a mesh is good and its number of irregular nodes is near the minimum that topology
 /// allows (`least_irregular()`). Boundary nodes are kept, in order, bit for bit. Quads are counter-clockwise
 /// and convex. Flat quads remain only where the boundary's sides are long compared with the gap between them;

@@ -30,7 +30,7 @@ std::vector<std::set<std::size_t>> members_before(std::span<const AssemblyMember
 ///    rows are meshed first;
 /// 6. members that share an end with a placed member, and none with a wall of a member still to come;
 /// 7. members that share no end with a wall of a member still to come;
-/// 8. other members;
+/// 8. other members.
 ///
 /// A member is passed over in steps 5 to 8 as long as it shares a wall with an unplaced member, and this wall
 /// lies inside the other member's walls, away from the rims of its ends. If every member is passed over, the

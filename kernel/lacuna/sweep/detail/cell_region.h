@@ -19,7 +19,7 @@ namespace lacuna::sweep {
 struct CellRegion {
     std::vector<Hex> cells; ///< corners of each cell, by the region's node numbers
     std::vector<Vec3> box;  ///< for each cell: its initial mean edges
-    /// For each cell: the scaled Jacobian to reach, which the cell's fixed nodes may limit.
+    /// For each cell, the scaled Jacobian to reach. Fixed nodes may make it less than the required quality.
     std::vector<double> aim;
     std::vector<Index> node;    ///< for each node of the region, its number in the mesh
     std::size_t free = 0;       ///< nodes that may move
@@ -27,8 +27,8 @@ struct CellRegion {
     mesh::Incidence uses;       ///< for each free node, its cells as 8 · cell + corner
 };
 
-/// Select poor cells that their fixed nodes allow to be better, and `rings` of neighbours around them. A
-/// corner cannot be better than the angle between two fixed edges allows.
+/// Select poor cells whose quality is not already at the bound set by their fixed nodes, and `rings` rings of
+/// cells around them. The angle between two fixed edges bounds the quality of the corner between them.
 CellRegion poor_region(const mesh::HexMesh& mesh, const ImproveOptions& options, const Sliding& sliding,
                        const RunContext& context);
 
@@ -40,7 +40,7 @@ std::optional<StuckCorner> stuck_corner(const mesh::HexMesh& mesh, const Sliding
 struct RegionQuality {
     double least = 1; ///< minimum scaled Jacobian; 0 or less if a cell is not certified positive
     double mean = 1;
-    double lacking = 0; ///< sum over the cells of the shortfall from their targets
+    double lacking = 0; ///< sum over the cells of the amount by which they miss `CellRegion::aim`
 };
 
 RegionQuality measure(const CellRegion& region, const std::vector<Vec3>& places, const RunContext& context);

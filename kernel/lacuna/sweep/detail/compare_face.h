@@ -48,7 +48,7 @@ struct DeviationLimit {
     bool folds = true;
 };
 
-/// As above, for tetrahedra and pyramids, whose skin has triangles too.
+/// The skin of tetrahedra and pyramids by face of the model. It contains triangles as well as quads.
 Skin skin_of(const mesh::TetPart& mesh, const std::vector<FaceId>& faces, std::size_t face_count);
 
 /// Compare a face with its quads.

@@ -17,17 +17,17 @@
 /// Interval assignment over an assembly. Internal to this folder.
 namespace lacuna::sweep {
 
-/// Distribute `count` sides over the intervals between the vertices of a line, given as shares of its length.
-/// The interval with the longest sides is divided first.
+/// Distribute `count` sides over the intervals between `ends`, vertices of a line as shares of its length:
+/// one side each, then each next side to the interval with the longest sides.
 std::vector<double> spread_between(const std::vector<double>& ends, std::size_t count);
 
 /// Numbers of sides of all edges of an assembly's members.
 ///
 /// Edges that need equal numbers of sides form one class: an edge that several members have; an edge of a
 /// source's rim and its image on the target's rim; the side lines of a member; opposite edges of a four-sided
-/// wall. A class gets the requested number of sides; without a request, the largest number that one of its
-/// edges needs by the size. If an end with only shared edges has an odd total, its longest class gets one
-/// more side.
+/// wall. A class gets the requested number of sides; without a request, the largest number that the size
+/// requires for one of its edges. If an end with only shared edges has an odd number of sides, its longest
+/// class gets one more side.
 class EdgeCounts {
 public:
     using Line = std::vector<topology::EdgeUse>;
@@ -38,8 +38,8 @@ public:
         std::size_t member = 0;
         FaceId face;
     };
-    /// An edge that follows facets. `ends` are the positions of those of its vertices that become nodes, as
-    /// shares of its length.
+    /// An edge whose sides follow facets, and the positions of its vertices that become nodes, as shares of
+    /// its length.
     struct Followed {
         std::size_t edge = 0;
         std::vector<double> ends;
@@ -119,8 +119,8 @@ private:
     /// the edge.
     void find_rows();
     [[noreturn]] void refuse_rows(const RowsHere& there, std::size_t m, FaceId face, std::size_t e) const;
-    /// Number of sides of an edge that rows take up, and the length of the edge that remains for other sides
-    /// [model length].
+    /// Number of sides of an edge that belong to boundary-layer rows, and the length of the edge outside
+    /// these rows [model length].
     [[nodiscard]] std::pair<int, double> beside_rows(std::size_t e) const;
     /// Check that edges have enough sides for their rows.
     void check_rows() const;
@@ -131,7 +131,7 @@ private:
     void ask_sides(std::size_t m, const surface::SidesAsked& asked, const std::vector<EdgeAsked>& edges);
     void ask_class(std::size_t e, const SidesOfClass& sides);
     [[nodiscard]] int layers_asked(std::size_t m) const;
-    /// Number of sides, at about the requested size, if all these vertices become nodes.
+    /// Number of sides of about the requested size if all positions in `followed.ends` become nodes.
     [[nodiscard]] double followed_sides(const Followed& followed, const MemberEdge& edge) const;
     /// Number of sides that an edge needs for the size and the curvature of its member.
     [[nodiscard]] double wanted(const MemberEdge& edge) const;
@@ -163,7 +163,7 @@ private:
     std::map<std::size_t, SidesOfClass> intervals_; ///< for each class: sides requested by 'intervals'
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
     std::set<std::size_t> asked_; ///< classes with a number requested by the user
-    /// For each class, the highest value of its edges in this order.
+    /// For each class, the largest `Kept` of its edges.
     std::map<std::size_t, SameEdges::Kept> kept_of_class_;
     std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
     mutable std::vector<double> spacing_; ///< for each member: default size; 0: not yet known

@@ -23,9 +23,9 @@ public:
         Index facet = -1;
         Vec3 barycentric = Vec3::Zero(); ///< weights of the corners, 0 to 1 to rounding, sum 1
         double height = 0;               ///< over the facet, along its normal [model length]
-        /// Whether it is certain that no other facet is closer. It is certain if the foot point is so far
-        /// from the facet's sides that the adjacent facets, at their angles, cannot be closer. Facets within
-        /// that height are assumed to have no sharper angles. If false, the distance is still an upper bound.
+        /// Whether no other facet can be closer: the foot point is so far from the facet's sides that the
+        /// adjacent facets, at their angles, cannot reach the point. Facets farther away are assumed to be
+        /// folded no more sharply. If false, the distance is still an upper bound.
         bool nearest = false;
     };
     /// The facet below a point.
@@ -46,7 +46,8 @@ private:
         /// Altitude of each corner over the opposite side; zero: the facet is too thin.
         Vec3 altitude = Vec3::Zero();
         double rounding = 0; ///< tolerance of distances [model length]
-        /// Tangent of half the largest angle between its normal and that of a facet at one of its corners.
+        /// Tangent of half the largest angle between this facet's normal and the normals of facets at its
+        /// corners.
         double fold = 1;
     };
     void set_frame(std::size_t facet, const std::array<Vec3, 3>& corners);

@@ -10,8 +10,8 @@
 
 namespace lacuna::sweep {
 
-/// The map of an inner layer without its residual: from_source · source node + from_target · target node +
-/// shift.
+/// The affine map of an inner layer, before the rim residual is added: from_source · source node +
+/// from_target · target node + shift.
 struct LayerMap {
     Eigen::Matrix3d from_source, from_target;
     Vec3 shift;

@@ -12,7 +12,8 @@
 #include <span>
 #include <vector>
 
-/// Data shared by the steps that place middle nodes. Internal to this folder.
+/// Data shared by the steps that place middle nodes. The bend of a side is the vector from its straight
+/// midpoint to its middle node. Internal to this folder.
 namespace lacuna::sweep {
 
 /// State of a middle node.
@@ -42,8 +43,9 @@ public:
 
 private:
     std::size_t period_, on_level_, layers_;
-    std::size_t ring_ = 0;    ///< number of places on a level and the layer over it
-    std::vector<Index> rank_; ///< compact index of each place on a level and the layer above; -1: inside
+    std::size_t ring_ = 0;    ///< number of middle nodes on a level and in the layer above it
+    std::vector<Index> rank_; ///< compact index of each middle node of a level and of the layer above it; -1:
+                              ///< inside
 };
 
 /// The middle nodes of a mesh's skin, by their index among all middle nodes.
@@ -162,8 +164,8 @@ PlacedSkin place_skin(const topology::OpenVolume& volume, const mesh::SkinNodes&
                       const std::vector<FaceId>& faces, const SecondOrderOptions& options,
                       const RunContext& context);
 
-/// Refuse a mesh because of an invalid cell: name the most bent of those sides of the cell that the skin
-/// fixes.
+/// Refuse a mesh of order 2 because of an invalid cell. The error names the most bent side of the cell, of
+/// those whose middle nodes the skin fixes.
 /// @param count  number of invalid cells
 /// @throw NotSweepable "sweep.second_order"
 [[noreturn]] void refuse_middles(const topology::OpenVolume& volume, const mesh::HexMesh& mesh,

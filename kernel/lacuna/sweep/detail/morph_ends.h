@@ -32,7 +32,8 @@ Morphed morph_onto_faces(const surface::SourceMesh& source, const RimColumns& co
                          const surface::Seeds& seeds, const surface::Imprint& imprint,
                          const std::vector<FaceId>& face, const RunContext& context);
 
-/// The source moved by the motion that made the walls. The rim nodes are those of the columns on the target.
+/// The source moved by the motion that made the walls. Rim nodes take the positions of the columns on the
+/// target.
 Morphed moved_by(const geometry::Motion& motion, const surface::SourceMesh& source,
                  const RimColumns& columns);
 

@@ -35,8 +35,8 @@ std::vector<PeriodicFaces> periodic_faces(std::span<const AssemblyMember> member
                                           const RunContext& context);
 
 /// Spacing of a grid of coordinates, a power of two. Sums and halves of grid coordinates are exact up to four
-/// times the members' coordinates. A grid point moved by a grid translation is therefore exact, and points
-/// that are reached by several translations are bit-identical in any order of these.
+/// times the members' coordinates. Moving a grid point by a grid translation is therefore exact, and a point
+/// reached by several translations has the same bits whatever their order.
 double grid_of(std::span<const AssemblyMember> members);
 inline Vec3 on_grid(const Vec3& p, double grid) { return (p / grid).array().round() * grid; }
 

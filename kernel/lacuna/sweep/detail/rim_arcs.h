@@ -36,7 +36,7 @@ std::vector<RimChord> rim_chords(const topology::Model& model, FaceId face);
 /// O(chords).
 double off_arcs(const Vec3& p, std::span<const RimChord> rim);
 
-/// Maximum distance of the corners of two rims from each other's arcs [model length]. O(chords²).
+/// Maximum distance of the corners of either rim from the arcs of the other rim [model length]. O(chords²).
 double arcs_apart(std::span<const RimChord> one, std::span<const RimChord> other);
 
 /// The area between the chords and arcs of two rims that approximate one curve. Two faces on opposite sides

@@ -18,7 +18,7 @@ namespace lacuna::sweep {
 /// The result of adding middle nodes to a mesh.
 struct Elevated {
     quality::Quality quality; ///< quality of the cells of order 2
-    std::string report;       ///< a line
+    std::string report;       ///< a line of the report
     /// The layers, if their nodes are generated on demand; empty: the mesh holds all nodes.
     std::optional<PlacedLayers> layers;
 };

@@ -14,7 +14,7 @@ namespace lacuna::sweep {
 /// A pair of faces that share only a part of their area.
 struct PartlyShared {
     SharedFace faces;
-    double limit = 0; ///< maximum distance of the facets of both faces [model length]
+    double limit = 0; ///< maximum distance between the facets of the two faces [model length]
     Message refusal;  ///< error for this pair; names the covered share of each face
 };
 
@@ -28,12 +28,13 @@ struct FacesInCommon {
     std::set<std::pair<std::size_t, std::size_t>> same_side;
 };
 
-/// Whether a member may lie inside another one, as the parts of one skin do. If so, near misses are not
+/// Whether a member may lie inside another one, as the parts of one skin may. If so, near misses are not
 /// searched.
 enum class MayOverlap : bool { no, yes };
 
-/// @param sag  for each member, the sag of its first faces; for others `facet_sag()` is computed. It must be
-///         given for faces that were divided, because their facets no longer show it.
+/// @param sag  for each member, the sag of its first faces; `facet_sag()` is computed for the others. It must
+///         be given for faces that were divided, because the facets of their parts are too few to estimate
+///         it.
 /// @throw InvalidInput "assembly.overlap", "assembly.rims_apart", "assembly.crack"  as `shared_faces()`
 FacesInCommon faces_in_common(std::span<const AssemblyMember> members, const RunContext& context,
                               std::vector<std::vector<double>> sag = {},

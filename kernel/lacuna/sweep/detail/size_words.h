@@ -26,7 +26,6 @@ struct SourceSize {
     surface::ShapeSizing sizing;
     surface::ShapeSize shape; ///< the requested size, reduced by the shape
     surface::SizeField along; ///< size of the layers; narrow places of the source do not reduce it by default
-    /// A place that is too narrow to get the default of `kDefaultGap` quads across: there would be too many
     /// A narrow place that does not get the default of `kDefaultGap` quads across, because the mesh would
     /// then have too many quads.
     std::optional<surface::SizeCause> too_narrow;

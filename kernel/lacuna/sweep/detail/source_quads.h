@@ -23,8 +23,8 @@ quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow)
 
 /// The requested or default size, reduced by the shape of the volume. It is reduced everywhere if the volume
 /// plan requires that.
-/// @throw InvalidInput  a size is not a positive length, or there are too many cells to number. @throw
-///         Cancelled
+/// @throw InvalidInput  a size is not a positive length, or there are too many cells to number.
+/// @throw Cancelled
 SourceSize source_size(const topology::OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context);
 

@@ -28,12 +28,11 @@ void project_nodes(std::vector<Vec3>& nodes, std::span<const Index> which, const
 /// Moves the free nodes of a mesh along a surface until its worst quad is as good as that of a reference
 /// mesh.
 ///
-///
 /// Two methods are used; the result of each is kept only as far as it improves the worst quad. Relaxation
 /// moves every node to the weighted mean of its neighbours. The weights reproduce the reference mesh, so that
 /// its grading is kept. All nodes are solved for at once, with the graph Laplacian as preconditioner. Then
-/// the nodes of quads that are still poor try the mean of their neighbours and steps along the surface. A
-/// node keeps a move that improves the worst of their own quads.
+/// each node of a quad that is still poor tries the mean of its neighbours and steps along the surface. It
+/// keeps a move that improves the worst of its own quads.
 class SurfaceSmoother {
 public:
     /// All arguments must outlive the smoother. @param spread  with the fixed nodes of the smoothing.

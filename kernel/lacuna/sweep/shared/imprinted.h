@@ -22,7 +22,7 @@ struct ImprintedVolumes {
 /// @throw InvalidInput  as `shared_faces()`; "assembly.part_of_face"  a face cannot be split.
 ImprintedVolumes imprinted(std::span<const AssemblyMember> members, const RunContext& context = {});
 
-/// As above, for members that may lie inside each other, as the parts of one skin do. All volumes are
+/// `imprinted()` for members that may lie inside each other, as the parts of one skin may. All volumes are
 /// returned.
 /// @param takes  decides whether a pair of faces counts as shared. Its second argument tells whether both
 ///         members lie on the same side of some face that they share.

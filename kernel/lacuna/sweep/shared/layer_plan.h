@@ -23,7 +23,8 @@ struct MiddlePlan {
     std::vector<Vec3> skin; ///< middle nodes of the skin, in an internal order
 };
 
-/// The data that determine the layers of a mesh. Their size is that of the source and the rims of the walls.
+/// The data that determine all layers of a mesh. They need memory only for the source and for the rims of the
+/// walls.
 struct LayerPlan {
     mesh::QuadMesh source; ///< without labels of its quads
     std::vector<Vec3> target;
@@ -49,7 +50,7 @@ struct PlacedLayers {
 /// @throw  as `place_layers()`
 PlacedLayers placed_layers(std::shared_ptr<const LayerPlan> plan, const RunContext& context = {});
 
-/// The same layers with middle nodes.
+/// Add middle nodes to placed layers.
 PlacedLayers with_middles(PlacedLayers layers, MiddlePlan middles, const RunContext& context = {});
 
 /// Serialise a complete plan into a message to other processes.

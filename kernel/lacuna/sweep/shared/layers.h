@@ -15,7 +15,8 @@ namespace lacuna::sweep {
 enum class Placement { straight, affine, fitted, normals };
 
 struct PlacementOptions {
-    bool straight_lines = false; ///< Class I of the paper: nodes lie on straight lines from source to target
+    bool straight_lines = false; ///< nodes lie on straight lines from source to target: class I of Roca and
+                                 ///< Sarrate (2010)
     std::vector<double> heights; ///< layers + 1 numbers from 0 to 1; empty: from the columns' lengths [-]
     /// Whether the residual of the rims is spread; false: the affine fit alone, for comparison.
     bool spread_residual = true;

@@ -19,7 +19,7 @@ public:
     ///         borders are added.
     /// @return  false if a known side or quad has another middle node in this mesh.
     [[nodiscard]] bool add(const mesh::HexMesh& mesh, const std::function<bool(Index patch)>& wanted);
-    [[nodiscard]] bool add(const mesh::TetPart& mesh); ///< as above, the whole skin
+    [[nodiscard]] bool add(const mesh::TetPart& mesh); ///< add the whole skin of a mesh
 
     /// The middle node of a side, by the positions of its ends, or of a quad, by those of two opposite
     /// corners.
