@@ -280,7 +280,7 @@ bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
     return true;
 }
 
-/// Direction in which a rotation moves a place.
+/// Unit tangent, at a place, of the rotation about an axis.
 Vec3 start_of_turn(const Vec3& point, const Vec3& axis, const Vec3& place)
 {
     const Vec3 way = axis.cross(place - point);
@@ -525,7 +525,8 @@ struct MotionMaker {
         if (along.turns == 0)
             throw InvalidInput("closure.along_turns", "along: a helix needs 'turns' other than {}", found(0));
         check_axis(swept.source.model, along.point, axis);
-        // Reverse the pitch for negative turns: otherwise the path would go down the same right-handed helix.
+        // A negative turn means a left-handed helix: the pitch changes sign too, so that the path still
+        // advances along the axis.
         const double pitch = along.turns < 0 ? -along.pitch : along.pitch;
         return distorted(geometry::screw(along.point, axis, along.turns * kFullTurn, pitch), centre,
                          start_of_turn(along.point, axis, centre), by);

@@ -136,9 +136,9 @@ public:
         return least;
     }
 
-    /// Move the middles of faces (unless `fixed`) and of the volume along the coordinate axes, by shorter and
-    /// shorter steps, where this improves the blocks at them. The middles of cut faces stay, because a
-    /// neighbouring piece may have them too.
+    /// Move the middles of faces (unless `fixed`) and of the volume along the coordinate axes, in ever
+    /// shorter steps, where this improves the adjacent blocks. The middles of cut faces stay, because the
+    /// neighbouring piece uses them too.
     void improve(bool fixed, const RunContext& context)
     {
         constexpr double kFirst = 0.25, kShorter = 0.8,
@@ -297,8 +297,8 @@ public:
     {
     }
 
-    /// @param fixed  whether the middles of faces stay at their centroids, where the neighbour that shares
-    ///         the face has them.
+    /// @param fixed  whether the middles of faces stay at their centroids, because the neighbour that shares
+    ///         the face puts them there.
     std::vector<OpenVolume> run(bool fixed)
     {
         const std::size_t edges = model_.edges.size(), faces = model_.faces.size();
