@@ -93,8 +93,8 @@ Vec3 centroid(const Model& model)
     return origin + sum / volume;
 }
 
-/// The corners of a block. Corner 0 is the vertex;
-/// the neighbour of corner c along axis k is corner c ^ (1 << k).
+/// The corners of a block. Corner 0 is the vertex. The neighbour of corner c along axis k is corner
+/// c ^ (1 << k).
 using Block = std::array<std::size_t, 8>;
 
 /// The places of vertices, middles of edges, middles of faces and the middle of the volume, in this order.
