@@ -53,7 +53,6 @@ std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Ro
 /// so that these edges coincide. Next, the edges of the target are intersected with those of the source.
 /// Edges and vertices closer to each other than a fraction of the quad size are merged. The source faces are
 /// split along the remaining edges and retriangulated.
-/// along the remaining edges and retriangulated.
 /// @param known  corresponding lines that an earlier imprint created on both ends. They are made to coincide
 ///         in the plane.
 /// @throw NotSweepable "surface.not_imprinted"  the ends cannot be mapped onto each other one to one, an edge
