@@ -79,8 +79,8 @@ Positions ring(const Facets& facets)
         energy += facets.shapes[t].area * slope.squaredNorm();
     }
     const double decay = 2 * std::numbers::pi / energy;
-    constexpr double kMostDecay = 8; // limit of log(outer / inner radius); the paver cannot mesh thinner
-                                     // rings
+    constexpr double kMostDecay = 8; // limit of log(outer / inner radius): the paver cannot mesh a ring with
+                                     // a smaller hole
     if (!(decay <= kMostDecay)) return {};
     Positions positions;
     for (Eigen::Index p = 0; p < strip.rows(); ++p) {
