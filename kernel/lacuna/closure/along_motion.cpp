@@ -396,9 +396,10 @@ std::vector<double> thickness_at(const Model& model, const std::function<double(
         for (const Index p : corners_of(face)) {
             at[index(p)] = thickness(model.at(p));
             if (!std::isfinite(at[index(p)]))
-                throw InvalidInput("closure.along_thickness",
-                                   "along: the thickness at {} is not a finite number",
-                                   place_with_digits(model.at(p), 4));
+                throw InvalidInput(Message("closure.along_thickness",
+                                           "along: the thickness at {} is not a finite number",
+                                           place_with_digits(model.at(p), 4))
+                                       .remedy("let the function return one at every point of the source"));
         }
     note_coarse_facets(model, thickness, at, context);
     return at;
@@ -579,7 +580,7 @@ void check_source(const OpenVolume& source)
                                .remedy("open a volume for each of them"));
     if (free_edges(source).empty())
         throw InvalidInput(
-            Message("closure.along_closed", "the source, with {}, is a closed surface",
+            Message("closure.along_closed", "the source, which contains {}, is a closed surface",
                     entity_of(model, FaceId(0)))
                 .remedy("open a volume for a part of it, or name an inner and an outer surface"));
 }
