@@ -488,7 +488,7 @@ GivenRows given_columns(const OpenVolume& volume, std::span<const LinkingSurface
             } else {
                 result.notes.push_back(formatted(
                     "{} was given with {} sides from source to target, but there are {} "
-                    "layers: only the ends stay",
+                    "layers: only its end nodes are kept",
                     entity_of(volume.model, line.line.uses.front().edge), own, layers > 0 ? layers : rows));
             }
         }
