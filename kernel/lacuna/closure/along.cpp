@@ -26,8 +26,8 @@ using namespace topology;
 
 namespace {
 
-/// `moved` is the source, moved halfway along the motion. For each of its edges: the names of the sets that
-/// contain the corresponding edge of the source.
+/// For each edge of `moved`: the names of the sets that contain the corresponding edge of the source. `moved`
+/// is the source, moved halfway along the motion.
 std::map<EdgeId, std::vector<std::string>> sets_above(const SweptSource& swept, const Model& moved)
 {
     std::map<EdgeId, std::vector<std::string>> sets;
@@ -109,7 +109,7 @@ private:
         return places;
     }
 
-    /// Indices of the first and the last row between a level and the next level.
+    /// Indices of the first and the last row between a level (a break of the motion) and the next level.
     [[nodiscard]] std::pair<std::size_t, std::size_t> rows_between(std::size_t level) const
     {
         const auto row = [&](double height) {
@@ -120,8 +120,8 @@ private:
 
     // --- checks -------------------------------------------------------------------------------------------
 
-    /// Check that every facet of the source advances along its normal from one row to the next, or that every
-    /// facet advances against its normal.
+    /// Check that all facets of the source move along their normals from one row to the next, or all against
+    /// them: a change of sign means that a layer folds.
     void check_advance(const std::vector<Vec3>& low, const std::vector<Vec3>& high, std::size_t row)
     {
         for (const FaceId face : all_faces(given_)) {
@@ -153,7 +153,7 @@ private:
         throw NotClosed(std::move(message).remedy("use a wider bend, or a smaller source"));
     }
 
-    /// Largest share of the thickness at which no facet has folded yet, rounded down to a percent.
+    /// Largest share of the requested thickness at which no facet folds, rounded down to whole percent.
     [[nodiscard]] double largest_share() const
     {
         constexpr int kPercent = 100;
@@ -364,7 +364,8 @@ private:
     std::set<std::pair<VertexId, std::size_t>> paths_; ///< source vertices and levels whose void edge along
                                                        ///< the path exists
     std::vector<FaceId> walls_;
-    std::vector<Vec3> reach_; ///< by point of the source: its displacement, if each point has its own
+    std::vector<Vec3> reach_; ///< by source point: its displacement over the whole height; used if each point
+                              ///< has its own
     double sense_ = 0;        ///< sign of the advance of the source's facets along their normals
 };
 
@@ -406,7 +407,8 @@ std::vector<StepPiece> halves_along(const SweptSource& swept, const RunContext& 
     SweptSource half{swept.source, geometry::part_of_motion(swept.motion, 0, kHalf), false, swept.sets};
     StepPiece first{.volume = close_along(half, {}, context).volume, .turn_to = kHalf};
     const Model& model = first.volume.model;
-    // The source of the second half is the target of the first half. Its edges have another order.
+    // The target of the first half is the source of the second. `extract()` renumbers its edges, so the sets
+    // are found again by place.
     half.source.model = extract(model, first.volume.faces(Role::target));
     half.source.role.assign(half.source.model.faces.size(), Role::source);
     half.motion = geometry::part_of_motion(swept.motion, kHalf, 1);

@@ -280,7 +280,7 @@ bool has_edges_on_axis(const Model& model, const Vec3& point, const Vec3& axis)
     return true;
 }
 
-/// Direction in which a rotation moves a place.
+/// Unit tangent, at a place, of the rotation about an axis.
 Vec3 start_of_turn(const Vec3& point, const Vec3& axis, const Vec3& place)
 {
     const Vec3 way = axis.cross(place - point);
@@ -396,9 +396,10 @@ std::vector<double> thickness_at(const Model& model, const std::function<double(
         for (const Index p : corners_of(face)) {
             at[index(p)] = thickness(model.at(p));
             if (!std::isfinite(at[index(p)]))
-                throw InvalidInput("closure.along_thickness",
-                                   "along: the thickness at {} is not a finite number",
-                                   place_with_digits(model.at(p), 4));
+                throw InvalidInput(Message("closure.along_thickness",
+                                           "along: the thickness at {} is not a finite number",
+                                           place_with_digits(model.at(p), 4))
+                                       .remedy("let the function return one at every point of the source"));
         }
     note_coarse_facets(model, thickness, at, context);
     return at;
@@ -525,7 +526,8 @@ struct MotionMaker {
         if (along.turns == 0)
             throw InvalidInput("closure.along_turns", "along: a helix needs 'turns' other than {}", found(0));
         check_axis(swept.source.model, along.point, axis);
-        // Reverse the pitch for negative turns: otherwise the path would go down the same right-handed helix.
+        // A negative turn means a left-handed helix: the pitch changes sign too, so that the path still
+        // advances along the axis.
         const double pitch = along.turns < 0 ? -along.pitch : along.pitch;
         return distorted(geometry::screw(along.point, axis, along.turns * kFullTurn, pitch), centre,
                          start_of_turn(along.point, axis, centre), by);
@@ -578,7 +580,7 @@ void check_source(const OpenVolume& source)
                                .remedy("open a volume for each of them"));
     if (free_edges(source).empty())
         throw InvalidInput(
-            Message("closure.along_closed", "the source, with {}, is a closed surface",
+            Message("closure.along_closed", "the source, which contains {}, is a closed surface",
                     entity_of(model, FaceId(0)))
                 .remedy("open a volume for a part of it, or name an inner and an outer surface"));
 }

@@ -38,17 +38,17 @@ constexpr double kConcave = 15;
 /// of the distance to the opposite wall. For equal tubes the dip then reaches the axis.
 constexpr double kDeepest = 0.5;
 /// Cosine of 30°. Two branches share a plane along the main body if the normals of their planes, up to sign,
-/// differ by less than this angle. An edge within this angle of the axis runs along the axis. A higher value
-/// adds planes at small angles to each other; a lower value lets branches on different sides share a plane.
+/// differ by less than this angle. An edge within this angle of the axis runs along the axis. A higher cosine
+/// adds nearly equal planes; a lower one makes branches on different sides share a plane.
 constexpr double kSameSide = 0.87;
 /// Cosine of 44°. A face at the mouth is an end of its branch, not a wall, if its normal is within this angle
 /// of the branch's direction: about half way between an end square to the branch and a wall along it.
 constexpr double kAlongWay = 0.72;
-/// Lines along the main body that are closer to each other than this share of the widest mouth are merged,
-/// because the strip between them would be a sliver. A higher value moves lines further from the centres of
-/// their mouths.
+/// Two planes along the main body are merged if their lines on its end are closer than this share of the
+/// widest mouth, because the strip between the lines would be a sliver. A higher value moves the planes
+/// further from the centres of their mouths.
 constexpr double kBeside = 0.1;
-/// Number of chords of the dip, a parabola: each has a sag of 1/256 of its depth.
+/// Number of chords of the dip, a parabola: the sag of a chord is 1/256 of the depth of the dip.
 constexpr int kChords = 16;
 
 /// A closed line of concave edges between a branch and its main body.
@@ -57,7 +57,7 @@ struct Mouth {
     std::size_t host = 0, branch = 0; ///< skin regions on its two sides
 };
 
-/// The skin's regions between mouths, and the ends of each region.
+/// The regions into which the mouths divide the skin, and the ends of each region.
 struct Branching {
     std::vector<std::size_t> region;        ///< by face
     std::vector<std::vector<FaceId>> faces; ///< by region
@@ -333,7 +333,7 @@ private:
                 return std::abs(plane.normal.dot(n)) > kSameSide;
             });
             if (known) return;
-            // Move the plane to pass through the ends of nearby lines.
+            // Let the plane pass through the ends of nearby lines, so that no sliver is left beside them.
             for (const auto& [a, b] : across) {
                 const auto is_near = [&](const Vec3& p) {
                     return std::abs((p - place).dot(n)) <= kBeside * width();
@@ -357,8 +357,9 @@ private:
         return planes;
     }
 
-    /// Split the walls of the main body along some planes, then cut the branches. Mouths on several sides
-    /// bend the rims of the arms' ends; the new lines determine how these rims correspond.
+    /// Split the walls of the main body by planes along its axis, then cut off the branches. Where mouths lie
+    /// on several sides, the rims of the two ends of a piece are bent differently. The new wall edges fix
+    /// which of their vertices correspond.
     std::vector<StepPiece> with_lines(const std::vector<geometry::Plane>& planes) const
     {
         OpenVolume lined = volume_;
@@ -438,9 +439,9 @@ private:
         return result;
     }
 
-    /// Heights of the two sides of a mouth that are normal to the axis, such as those of a square duct on a
-    /// flat wall; empty unless there are two. The part between them is swept along the axis, with the duct's
-    /// sides as parts of its ends.
+    /// Heights along the axis of the two sides of a mouth that are normal to the axis, as those of a square
+    /// duct on a flat wall; empty unless there are two. The body between them is swept along the axis; the
+    /// duct's sides are parts of its ends.
     [[nodiscard]] std::vector<double> sides_across(const Mouth& mouth) const
     {
         const Model& model = volume_.model;

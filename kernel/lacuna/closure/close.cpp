@@ -182,8 +182,8 @@ private:
 
     [[nodiscard]] bool leads() const { return follower_ && follower_->leads(); }
 
-    /// With automatic options, a bent volume is closed with bent edges, and a straight one with straight
-    /// edges unless these cross given faces or enclose no volume.
+    /// The closing methods to try, in order. A given shape is the only one. Otherwise edges that follow bent
+    /// walls come first, and straight edges where no walls are given or these are straight.
     std::vector<Way> wanted(const matching::Match& match) const
     {
         if (value_ == VolumeClass::IV) {
@@ -202,9 +202,9 @@ private:
         return ways;
     }
 
-    /// Report the other possible shape of the void edges and the volume with it. Between inclined ends
-    /// without walls, edges are straight or bent; next to bent walls, and along a loop without walls, they
-    /// are straight or follow the walls.
+    /// Report the other possible shape of the void edges and the volume that it encloses. Between inclined
+    /// ends without walls, edges are straight or smooth. Beside bent walls, and along a loop without walls,
+    /// they are straight or follow the given walls.
     void add_ambiguity_notes(const Way& way, const matching::Match& match, Closed& closed)
     {
         Closure& closure = closed.closure;
@@ -247,8 +247,8 @@ private:
                share);
     }
 
-    /// Note three kinds of ambiguity: a missing end with missing walls that several flat faces close; void
-    /// faces whose rim does not determine their inside; void faces that may close off a pocket.
+    /// Note three kinds of ambiguity: a missing end with missing walls that is closed by several flat faces;
+    /// void faces whose rims do not determine their inside; void faces that may close off a pocket.
     void say_what_is_open(Closed& closed) const
     {
         auto& [sealed, closure] = closed;
@@ -284,7 +284,7 @@ private:
         return unless_refused([&] { return enclosed_volume(seal_as(way, match).volume); });
     }
 
-    /// An error whose remedy is an option that was tried and seals the volume, if there is one.
+    /// The error `failed`, with a remedy if one is found: an option that seals the volume when tried.
     Message with_what_helps(const Message& failed, const matching::Match& match)
     {
         const auto otherwise = [&]() -> Message {
@@ -323,8 +323,8 @@ private:
     std::optional<Follower> follower_;
 };
 
-/// Whether side lines run up along open rims, where adjacent walls end at different heights. There is then no
-/// loop to match, but the side lines give the correspondence.
+/// Whether side lines run along open rims, where adjacent walls end at different heights. Such rims form no
+/// loop to match; the side lines then give the correspondence.
 bool climbs_open_rims(const OpenVolume& volume, const matching::Match& match)
 {
     const std::vector<EdgeId> free = free_edges(volume);
@@ -383,7 +383,7 @@ matching::Match match_ends(const OpenVolume& volume, const CloseOptions& options
     return matching::match(volume, by_hand, context);
 }
 
-/// Seal a volume whose holes without walls are already covered, or are extended like the rest of the end.
+/// Close a volume whose holes without walls are already covered, or are extended to the other end.
 /// @param whole  the class of the volume with its holes
 Closed close_rest(const OpenVolume& volume, const matching::Match& match, VolumeClass whole,
                   const Asked& options, const RunContext& context)

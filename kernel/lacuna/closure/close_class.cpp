@@ -77,8 +77,8 @@ void add_faces(OpenVolume& volume, Closure& closure, const std::vector<std::vect
     closure.void_faces.insert(closure.void_faces.end(), made.begin(), made.end());
 }
 
-/// Reverse the target if the match traverses its loops against their own direction: without walls between the
-/// ends, only the match shows how they face each other. Walls connected to the target only are reversed too.
+/// Reverse the target if the match traverses its loops against their direction: without walls between the
+/// ends, only the match tells how they face each other. Walls that touch only the target are reversed too.
 void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
 {
     if (match.loops.empty() || !match.loops.front().flipped) return;

@@ -41,7 +41,7 @@ using namespace topology;
 
 namespace {
 
-/// Up to this many open walks are joined by trying all orders.
+/// Up to this number of open section lines, all orders of joining them are tried.
 constexpr std::size_t kAllOrders = 7;
 
 class PlaneCutter {

@@ -44,8 +44,8 @@ std::vector<EdgeId> edges_along(const Model& model, FaceId face, const Vec3& axi
     return edges;
 }
 
-/// The bend of a face; empty if the face is no cylinder, if it is convex, or if it turns by no more than a
-/// right angle and is no fillet, which continues the faces on both sides.
+/// The bend of a face: a concave cylinder that turns by more than a right angle, or a concave fillet, which
+/// continues the faces on both sides. Empty for any other face.
 std::optional<Bend> round_bend(const Model& model, FaceId face, const SkinTurns& turns)
 {
     const double area = face_area(model, face);

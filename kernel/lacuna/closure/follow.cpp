@@ -14,21 +14,21 @@ namespace {
 
 /// Number of heights at which the walls are cut: one per segment of a void edge.
 constexpr int kLevels = 64;
-/// Largest bow of ring walls, as a share of the rims' radius, up to which void edges are straight. The
-/// section then loses about twice that share, 1 %.
+/// Ring walls: void edges are straight as long as the bow of the walls (`bow_of()`) is at most this share of
+/// the rims' radius. The section then loses about twice that share, 1 %.
 constexpr double kAstray = 0.005;
-/// The same limits for open walls: the first if the walls determine the rest of their loop, otherwise the
-/// second. These limits are higher because walls with a given mesh, and single twisted walls of few facets,
-/// deviate as much even if the true wall is straight.
+/// The same limit for walls that do not form a ring: kAstrayOpen if they determine the rest of their loop,
+/// kAstrayGuessed otherwise. The limits are higher because walls with a given mesh, and single twisted walls
+/// of few facets, have as much bow even if the true wall is straight.
 constexpr double kAstrayOpen = 0.03, kAstrayGuessed = 0.04;
-/// If the bow of open walls exceeds kBeside (share of the rims' radius), they may belong to another shape
-/// than a sweep. Edges that follow them are then tried before straight ones only if they leave their chord by
-/// more than kFarAstray (same unit).
+/// Walls that do not form a ring and whose bow exceeds kBeside may not be part of a sweep. Edges that follow
+/// them are then tried before straight ones only if they leave their chord by more than kFarAstray. Both are
+/// shares of the rims' radius.
 constexpr double kBeside = 0.5, kFarAstray = 0.25;
-/// If some walls form closed rings, a loop with open walls gets its own motion only if the median distance
-/// between these walls and their image under the rings' motion exceeds this share of the loop's radius.
-/// Below it, the rings represent the bend better. On 350 bent, twisted and tapered tubes the distance was at
-/// most 0.005 in nine of ten cases; on a lofted pipe it was 0.017.
+/// If some walls form rings, a loop with open walls gets a motion of its own only if these walls are further
+/// than this share of the loop's radius (median) from where the rings' motion takes their lower edge. Below
+/// it, the rings represent the bend better. On 350 bent, twisted and tapered tubes the distance was at most
+/// 0.005 in nine of ten cases; on a lofted pipe it was 0.017.
 constexpr double kMissed = 0.01;
 
 /// Mean distance of points from their centroid; 0 if there are none.
@@ -65,9 +65,9 @@ double median(std::vector<double> values)
     return *middle;
 }
 
-/// How far the walls stray from straight lines between the rims, as a share of the source rim's radius: for
-/// each point of the sections, the largest distance at any height from the strip of such lines is taken, and
-/// the median of these distances is returned.
+/// The bow of walls: how far they are from straight lines between the rims, as a share of the source rim's
+/// radius. For each point of a rim the largest distance over the heights is taken; the result is the median
+/// of these.
 double bow_of(const std::vector<std::vector<Vec3>>& levels)
 {
     constexpr std::size_t kStep = 4; // checks every fourth level only, to save time

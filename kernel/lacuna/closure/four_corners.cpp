@@ -16,7 +16,7 @@ using namespace topology;
 
 namespace {
 
-/// Mismatch between the first and the third side when the first is moved along the second and the fourth.
+/// Mismatch between the first and the third side after the first is moved along the second and the fourth.
 double unlike(const Model& model, const std::vector<std::vector<EdgeUse>>& sides)
 {
     std::array<std::vector<Vec3>, 4> side;

@@ -31,10 +31,10 @@ constexpr int kDirections = 8;
 /// first. Otherwise the sag of facets would decide between planes through a round wall.
 constexpr double kAsShort = 0.02;
 
-/// Sections used to measure the length of the turn. With this number, the chords of a half circle are too
-/// short by 0.2 %; each section costs a pass over the walls.
+/// Number of sections that measure the length of the turn. The chords of a half circle are then too short by
+/// 0.2 %; each section costs a pass over the walls.
 constexpr std::size_t kSections = 16;
-/// Share of the turn of a piece if the lengths cannot be measured.
+/// Share of the turn of each piece if the lengths cannot be measured.
 constexpr double kHalf = 0.5;
 
 struct Candidate {

@@ -33,8 +33,8 @@ using namespace topology;
 
 namespace {
 
-/// A bent face is ambiguous if more than this share of the enclosed volume lies between it and its plane: the
-/// shape of the face may change the volume by about as much.
+/// A bent face is ambiguous if more than this share of the enclosed volume lies between the face and its
+/// plane: another bend of the face would change the volume by about as much.
 constexpr double kDoubt = 0.05;
 /// A missing end is ambiguous if more than this share of the enclosed volume lies between it and another
 /// smooth face over its rim. Measured on 893 ends over twelve outlines. Of the 762 accepted ends, 12 have a
@@ -415,8 +415,8 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                std::abs(beside_thin_plate(model, face).above) / enclosed);
     if (by == RolesBy::finding) note_flat_in_circles(model, enclosed, closure);
     for (const FaceId face : closure.void_faces) {
-        // If the user named the roles, exactly one wall is missing there. Otherwise the void face may stand
-        // for several faces.
+        // If the user named the roles, exactly one wall is missing at such a rim. Otherwise the void face may
+        // stand for several faces.
         if (by == RolesBy::finding && !is_membrane(model, face) &&
             (is_untold(model, face) || closes_hole_in_bent_face(model, face)))
             assume(closure,

@@ -93,8 +93,8 @@ Vec3 centroid(const Model& model)
     return origin + sum / volume;
 }
 
-/// The corners of a block. Corner 0 is the vertex;
-/// the neighbour of corner c along axis k is corner c ^ (1 << k).
+/// The corners of a block. Corner 0 is the vertex. The neighbour of corner c along axis k is corner
+/// c ^ (1 << k).
 using Block = std::array<std::size_t, 8>;
 
 /// The places of vertices, middles of edges, middles of faces and the middle of the volume, in this order.
@@ -136,9 +136,9 @@ public:
         return least;
     }
 
-    /// Move the middles of faces (unless `fixed`) and of the volume along the coordinate axes, by shorter and
-    /// shorter steps, where this improves the blocks at them. The middles of cut faces stay, because a
-    /// neighbouring piece may have them too.
+    /// Move the middles of faces (unless `fixed`) and of the volume along the coordinate axes, in ever
+    /// shorter steps, where this improves the adjacent blocks. The middles of cut faces stay, because the
+    /// neighbouring piece uses them too.
     void improve(bool fixed, const RunContext& context)
     {
         constexpr double kFirst = 0.25, kShorter = 0.8,
@@ -297,8 +297,8 @@ public:
     {
     }
 
-    /// @param fixed  whether the middles of faces stay at their centroids, where the neighbour that shares
-    ///         the face has them.
+    /// @param fixed  whether the middles of faces stay at their centroids, because the neighbour that shares
+    ///         the face puts them there.
     std::vector<OpenVolume> run(bool fixed)
     {
         const std::size_t edges = model_.edges.size(), faces = model_.faces.size();

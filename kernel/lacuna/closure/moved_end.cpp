@@ -34,8 +34,8 @@ using namespace topology;
 
 namespace {
 
-/// Tolerance of the motion, as a share of the end's width: the largest distance of a moved foot of a wall
-/// from the wall's top, and of the points of a straight side from a line. It exceeds the sag of round sides.
+/// Tolerance of the motion, as a share of the end's width: how far a moved foot of a wall may be from the top
+/// of the wall, and a point of a straight side from its line. It exceeds the sag of round sides.
 constexpr double kOnTop = 0.01;
 /// Number of sample points along each wall's foot, at which the fit is made and tested.
 constexpr int kSamples = 8;
@@ -161,8 +161,8 @@ private:
         return true;
     }
 
-    /// The walls' free edges from one vertex to another; empty if they pass a vertex of the end or do not
-    /// lead there.
+    /// The chain of free wall edges from one vertex to another; empty if it passes a vertex of the end or
+    /// does not lead there.
     [[nodiscard]] std::vector<EdgeUse> top_between(VertexId from, VertexId to) const
     {
         std::vector<EdgeUse> top;

@@ -33,11 +33,11 @@ using namespace topology;
 
 namespace {
 
-/// Bounds of the search, so that a part with hundreds of features ends in seconds.
+/// Bounds of the search: with them, a part with hundreds of features takes seconds.
 constexpr std::size_t kMostCuts = 200, kMostPieces = 64;
-/// The ends of pieces are searched only for this many cuts, those that leave the least length to cut, because
-/// a search costs more than a cut. The same number limits the planes between features and the axes for steps
-/// that are tried.
+/// Ends of pieces are searched only for this number of cuts, those that leave the least length to cut,
+/// because that search costs more than a cut. The same number limits the planes tried between features and
+/// the axes tried for steps.
 constexpr std::size_t kMostRead = 6;
 
 /// A piece and, if it has no ends, the bends and the length that are left to cut.
@@ -202,8 +202,8 @@ std::vector<Vec3> centres_of(const Model& model)
     return centres;
 }
 
-/// Three directions at right angles to each other. They are normals of flat faces or directions from one
-/// centre to another. Where there are none, they point to vertices or to points of edges, so that no cut runs
+/// Three directions at right angles to each other: normals of flat faces, or directions from one centre to
+/// another. If these do not suffice, the directions point to vertices or points of edges, so that no cut runs
 /// closely beside a seam.
 std::array<Vec3, 3> directions_at(const Vec3& centre, const std::vector<Vec3>& centres,
                                   const OpenVolume& volume)
@@ -278,8 +278,8 @@ struct CutTried {
 
 /// Cut a piece by each plane that may help and makes no cusp. The cuts that leave the least to cut come
 /// first.
-/// @param whole  cut by the planes that have edges, in all their regions; otherwise by all planes, but by
-///        those that have edges only in the regions that adjoin these.
+/// @param whole  false: use all planes; one that lists edges cuts only in its regions that adjoin these
+///         edges. True: use only the planes that list edges, and cut in all their regions.
 std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                const RunContext& context)
 {
@@ -307,8 +307,8 @@ std::vector<CutTried> try_cuts(const CutPart& part, double least, bool whole, st
 }
 
 /// The cuts of a piece that reduce the length left to cut in pieces without ends, best first. A cut into two
-/// pieces with ends is the only one. Cuts that leave the same length, by planes of coplanar faces or of equal
-/// features, are listed once.
+/// pieces that both have ends is returned alone. Cuts that leave the same length, such as those by coplanar
+/// faces, are listed once.
 std::vector<CutTried> best_cuts(const CutPart& part, double least, bool whole, std::size_t& tried,
                                 const CanSweep& can_sweep, const RunContext& context)
 {
@@ -371,8 +371,8 @@ public:
         return cuts;
     }
 
-    /// Cut the parts of a part in turn. Returns the part itself unless one of the resulting parts has ends or
-    /// was divided.
+    /// Cut each of the parts `made` from `part` in turn. Returns `part` itself unless one of the resulting
+    /// parts has ends or was divided.
     std::vector<CutPart> cut_on(CutPart part, std::vector<CutPart> made)
     {
         if (pieces_ + made.size() > kMostPieces + 1) return {std::move(part)};
@@ -401,7 +401,7 @@ public:
         return all;
     }
 
-    /// Start again with the whole volume. The cuts that were tried still count.
+    /// Begin with the whole volume again. The cuts tried so far still count towards `kMostCuts`.
     void start_again() { pieces_ = 1; }
 
 private:
@@ -463,8 +463,8 @@ std::vector<StepPiece> cut_in_steps(const OpenVolume& volume, const CanSweep& ca
     return {};
 }
 
-/// The pieces of the parts of a volume. Parts that still have a length to cut are divided at their middles
-/// where that is possible.
+/// The pieces of a volume that was cut into parts. A part that has length left to cut is divided at its
+/// middle where that is possible.
 std::vector<StepPiece> pieces_of(std::vector<CutPart> parts, const CanSweep& can_sweep,
                                  const RunContext& context)
 {

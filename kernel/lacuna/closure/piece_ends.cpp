@@ -32,8 +32,9 @@ constexpr std::size_t kMostEnds = 600;
 /// Any two faces of one end have normals at less than 110°; this is its cosine. A lower cosine joins faces
 /// that fold back on each other; a higher one separates the slopes of a steep roof.
 constexpr double kOneEnd = -0.35;
-/// A face of an end turns from the end's mean normal by less than 70°; this is its cosine. Columns run along
-/// a steeper face, such as a riser between two steps, and cells beside it have no volume.
+/// A face of an end turns from the end's mean normal by less than 70°; this is its cosine. A steeper face,
+/// such as a riser between two steps, is parallel to the columns, and the cells beside it would have no
+/// volume.
 constexpr double kFacesEnd = 0.34;
 /// A face may belong to an end if its mean normal, which has the length 1 on a flat face, is longer than 1 −
 /// kFlat.
@@ -55,7 +56,7 @@ void for_each(FaceSet set, const Do& use)
     for (; set != 0; set &= set - 1) use(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-/// Pairs of faces that adjoin a face along two successive edges in one line.
+/// Pairs of faces that touch the same face along two successive edges in one line.
 using Beside = std::vector<std::pair<FaceId, FaceId>>;
 
 Beside faces_in_line(const Model& model, FaceId face)
@@ -153,7 +154,7 @@ public:
         return found;
     }
 
-    /// Whether each wall runs from end to end, so that columns can follow the line in which two walls meet.
+    /// Whether each wall runs from end to end, so that columns can follow the edge between two walls.
     [[nodiscard]] bool are_ends(FaceSet source, FaceSet target) const
     {
         const FaceSet all = one(faces_.size()) - 1;
@@ -292,8 +293,8 @@ std::size_t unlike(const Ends& a, const Ends& b)
     }));
 }
 
-/// Pairs of ends that a piece can be swept between. The current pair comes first if it is valid. If there is
-/// no such pair, the list has one pair of empty ends.
+/// Pairs of ends between which a piece can be swept. The current pair comes first if it is valid. If there is
+/// no pair, the list holds one entry with empty ends.
 std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
 {
     const Model& model = piece.model;
@@ -349,7 +350,7 @@ ReadPieces read_ends(std::vector<StepPiece> pieces, const RunContext& context)
         all_fit = all_fit && ways.back().front().as_named;
     }
     if (all_fit) return {std::move(pieces)};
-    // For each pair of ends of the first piece, choose the best pairs of the following pieces in turn.
+    // For each pair of ends of the first piece, choose the best pair of each following piece in turn.
     std::vector<const Ends*> best;
     double least = kInfinity;
     for (const Ends& first : ways.front()) {

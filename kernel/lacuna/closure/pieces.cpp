@@ -24,8 +24,8 @@ using namespace topology;
 
 namespace {
 
-/// A cut is across the sweep, and so an end of its pieces, if the cosine between its normal and the source's
-/// exceeds this (26°); otherwise it is a wall.
+/// A cut face is an end of its pieces if the cosine between its normal and the source's exceeds this (26°);
+/// otherwise it is a wall.
 constexpr double kAcross = 0.9;
 
 /// A piece, as faces of the common model.
@@ -107,8 +107,8 @@ private:
             else
                 lone[sets.find(f)].emplace_back(f);
         }
-        // Faces that touch no partition belong to the piece that they lie in. If they lie in no closed piece,
-        // as ends without walls may, the piece with the largest winding number gets them.
+        // A part of the skin that touches no partition belongs to the piece that encloses it. If no closed
+        // piece does, as for ends without walls, the piece with the largest winding number gets it.
         std::vector<std::size_t> home;
         for (const auto& [root, skin] : lone) home.push_back(part_round(skin));
         std::size_t next = 0;
@@ -204,7 +204,7 @@ private:
         return parted_.plane && lies_in_plane(model_, face, *parted_.plane);
     }
 
-    /// In a piece with both ends, the end that a flat cut across the sweep belongs to: the one with the same
+    /// The end that a flat cut across the sweep belongs to, in a piece with both ends: the one with the same
     /// normal. Null if the cut is not across the sweep.
     [[nodiscard]] std::vector<FaceId>* faced_as(const std::vector<FaceId>& cut, const Part& part,
                                                 Roles& roles) const
@@ -241,7 +241,7 @@ private:
         return roles;
     }
 
-    /// Take an end from faces that were all named as walls, if they determine one.
+    /// Make faces that were all named as walls an end, if their roles follow from the geometry.
     void take_end(Roles& roles) const
     {
         for (const RoleCandidate& candidate : role_candidates(model_, roles.walls, {}, context_)) {

@@ -57,17 +57,17 @@ double void_area(const Model& model, const Closure& closure)
     return area;
 }
 
-/// Drop the voids whose new faces have more area than a flat face in each free loop, if such flat faces close
-/// the volume. The larger faces are bent, or lead from loop to loop. Flat faces are likelier, even if the
-/// volume that they close cannot be swept.
+/// Drop the voids whose new faces have more area than one flat face in each free loop, if such flat faces
+/// close the volume. The larger faces are bent, or join two loops. Flat faces are likelier, even if the
+/// resulting volume cannot be swept.
 /// @return  whether a void was dropped
 bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& filled,
                  const RunContext& context)
 {
     if (!filled || !filled->each_alone || found.empty()) return false;
     const Model& model = filled->volume.model;
-    // Flat faces would close each connected part by itself, so only a single part is compared. A flat face in
-    // the plane of its neighbour encloses nothing, so it is not preferred.
+    // Flat faces close each connected part by itself, so this applies to a single part only. A flat face in
+    // the plane of its neighbour encloses nothing and is not preferred.
     std::vector<FaceId> given = all_faces(model);
     std::erase_if(given, [&](FaceId face) { return model[face].origin != Origin::given; });
     if (connected_parts(model, given).size() != 1) return false;
@@ -83,7 +83,7 @@ bool prefer_flat(std::vector<Void>& found, const std::optional<FlatFilling>& fil
 
 /// The void closed by flat faces; empty if each free loop is planar and gets a face of its own
 /// (`each_alone`).
-/// @param told  whether a void without ambiguous bends is known; a channel is then not closed
+/// @param told  whether a void without ambiguous bends is known; a channel is then not tried
 std::optional<Void> fill_flat(std::optional<FlatFilling> filled, const std::vector<FaceId>& faces, bool told,
                               const RunContext& context)
 {
@@ -141,7 +141,7 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     reading->roles = whole.front().roles;
     reading->others = whole.front().others;
     set_ends(reading->volume, reading->roles.roles);
-    Roles& roles = reading->roles.roles; // name faces of `skin`, then faces of the model
+    Roles& roles = reading->roles.roles; // first as faces of `skin`, then as faces of the model
     for (std::vector<FaceId>* list : {&roles.source, &roles.target, &roles.walls}) {
         std::erase_if(*list, [&](FaceId face) { return face.index() >= faces.size(); });
         for (FaceId& face : *list) face = faces[face.index()];
@@ -182,7 +182,7 @@ void prefer_told(const Model& model, const std::vector<FaceId>& faces, Reading& 
     if (reading.holed.valid() || (!untold && !reading.guess)) return;
     auto told = read_filled(model, faces, context);
     const bool is_sure = told && !told->guess && assumes_straight_faces(*told->closure);
-    // A reading without `guess` is one body, which must not be closed as several.
+    // A reading without `guess` is a single body; a filling in several parts must not replace it.
     if (is_sure &&
         (reading.guess || connected_parts(told->volume.model, all_faces(told->volume.model)).size() == 1))
         reading = std::move(*told);
@@ -236,7 +236,7 @@ std::vector<Reading> find_readings(const Model& model, const std::vector<FaceId>
         return seal(model, candidate.roles, context).has_value();
     };
     std::vector<Void> found = voids(model, role_candidates(model, faces, {}, context), kMostSealed, context);
-    if (found.empty()) // the likeliest do not seal; less likely ones may
+    if (found.empty()) // the likeliest candidates do not seal; less likely ones may
         found = voids(model, less_likely(model, faces, kMostTried, seals, context), kMostSealed, context);
     auto flat = fill_flat_loops(model, faces, context);
     const bool dropped = prefer_flat(found, flat, context);

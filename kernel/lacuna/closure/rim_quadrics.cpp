@@ -29,17 +29,17 @@ using Powers = Eigen::Vector<double, 10>;
 /// Tolerance for points on a quadric, as a share of the rim's own deviation from its plane. Mesh points on a
 /// quadric are off by rounding only; a higher value finds quadrics that the rim merely approximates.
 constexpr double kOnQuadric = 1e-4;
-/// Number of conditions beyond the nine that determine a quadric. Nine points always lie on a quadric; the
-/// spare ones show that the rim really lies on it. More would exclude rims of few points.
+/// Number of points of the rim beyond nine. Nine points always lie on a quadric; the others show that the rim
+/// really does. A higher number would exclude rims of few points.
 constexpr Eigen::Index kSpare = 4;
 /// Largest relative deviation (of principal curvatures or singular values) at which a quadric counts as a
 /// ball, a round cone, a cylinder or a pair of planes. It may be large, because the quadric passes through
 /// the rim anyway.
 constexpr double kSpecial = 0.01;
-/// A quadric is steep at a point of the rim if the cosine between its gradient and the normal of the rim's
-/// plane is below `kStandsUp`, as on the walls that end at the rim. It may be steep along a share `kStanding`
-/// of the rim: where a tube ends on a shaft of the same diameter, the shaft is steep at two points of the
-/// rim. A higher share would accept quadrics that continue the walls.
+/// A quadric stands up at a point of the rim if the cosine between its gradient and the normal of the rim's
+/// plane is below `kStandsUp`, like the walls that end there. It may do so along a share `kStanding` of the
+/// rim: where a tube ends on a shaft of the same diameter, the shaft stands up at two points of the rim. A
+/// higher share would accept quadrics that continue the walls.
 constexpr double kStandsUp = 0.05, kStanding = 0.1;
 
 Powers powers_at(const Vec3& p)
@@ -189,7 +189,8 @@ enum class RimIs {
 
 std::vector<Vec3> rim_places(const Model& model, const std::vector<Loop>& loops, RimIs rim)
 {
-    constexpr double kFar = 0.25; // share of the rim's extent; points of a circle of twelve facets are closer
+    constexpr double kFar = 0.25; // of the rim's extent: points of a circle of twelve facets are closer to
+                                  // each other
     constexpr std::size_t kPieces = 4;
     std::vector<std::vector<Vec3>> chains;
     Eigen::AlignedBox3d box;

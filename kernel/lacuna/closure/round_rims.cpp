@@ -140,9 +140,9 @@ private:
                std::ranges::count_if(volume_.model.faces, is_part) == 1;
     }
 
-    /// The height that best separates the facets of the rounds: below it they should be inclined to the end
-    /// by less than 45°, above it by more. Empty if no height has fewer exceptions than a height below all
-    /// facets.
+    /// The height that best separates the facets of the rounds: nearer to the end, facets should be inclined
+    /// to it by less than 45°, further away by more. Empty if every height leaves as many exceptions as not
+    /// dividing.
     [[nodiscard]] std::optional<double> halfway_height(const std::vector<FaceId>& rounds,
                                                        const Vec3& way) const
     {
@@ -172,7 +172,7 @@ private:
     Vec3 out_; ///< away from the opposite end
 };
 
-/// Smooth edges between walls that leave a vertex of an end's rim together.
+/// Smooth edges between walls that leave the same vertex of an end's rim.
 std::vector<EdgeId> smooth_fans(const OpenVolume& volume, const RunContext& context)
 {
     const Model& model = volume.model;
@@ -202,16 +202,16 @@ std::vector<EdgeId> smooth_fans(const OpenVolume& volume, const RunContext& cont
     return fans;
 }
 
-/// Whether two walls may become one face: neither has a mesh of its own, and no set of the input tells them
-/// apart.
+/// Whether two walls may become one face: neither has a mesh of its own, and no name or set of the input
+/// distinguishes them.
 bool may_join(const Face& a, const Face& b)
 {
     return a.given_quads.empty() && b.given_quads.empty() && a.name == b.name && a.groups == b.groups &&
            a.regions == b.regions && a.origin == b.origin;
 }
 
-/// Join the walls on both sides of such edges, and drop the edges. At most one column starts at a vertex of
-/// the rim, so the mesh could follow only one of the edges, and it would do so at a slant.
+/// Join the walls on both sides of smooth fans, and drop the edges between them. At most one column starts at
+/// a vertex of the rim, so the mesh could follow only one of the edges, and at a slant.
 void join_rounds(OpenVolume& volume, const RunContext& context)
 {
     const std::vector<EdgeId> fans = smooth_fans(volume, context);

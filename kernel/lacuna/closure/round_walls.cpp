@@ -142,7 +142,7 @@ bool may_join(const Model& model, const RoundRim& a, const RoundRim& b)
     return std::abs(a.radius - b.radius) <= kOffShape * radius && !continues(a) && !continues(b);
 }
 
-/// Pairs of rims between which walls are missing, from the rims on one axis with one radius.
+/// Choose, among rims on one axis with one radius, the pairs between which a wall is missing.
 std::vector<std::pair<RoundRim, RoundRim>> pairs_of(std::vector<RoundRim> group,
                                                     const std::vector<std::size_t>& part)
 {
@@ -174,8 +174,8 @@ std::vector<std::pair<RoundRim, RoundRim>> pairs_of(std::vector<RoundRim> group,
     return pairs;
 }
 
-/// Pairs of indices of uses that start at the same angle round the axis, one use of each loop. @pre both
-/// loops run the same way round
+/// Pairs of indices of uses, one of each loop, that start at the same angle round the axis. @pre both loops
+/// run the same way round
 std::vector<std::pair<std::size_t, std::size_t>> aligned(const Model& model, const RoundRim& axis,
                                                          const std::vector<EdgeUse>& a,
                                                          const std::vector<EdgeUse>& b)

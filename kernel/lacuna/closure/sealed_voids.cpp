@@ -23,7 +23,7 @@ using namespace topology;
 namespace {
 
 /// Two skins coincide if their distance is below this share of the cube root of their volume. The value is
-/// above the effect of different facets on one void, and below the distance of different voids.
+/// above the distance that different facets of one void make, and below that of different voids.
 constexpr double kSameSkin = 0.02;
 /// Cost of void faces bent by a half turn, added to the cost of the ends: of two closings, the one with flat
 /// faces is likelier. A higher value drops more closings by bent faces.
@@ -224,7 +224,7 @@ void take_moved(const Model& model, const std::vector<FaceId>& faces, std::vecto
         found = std::move(same);
     else if (told)
         found = std::move(ends);
-    else // the user decides whether a hole without walls goes through
+    else // the user decides whether a hole without walls extends to the other end
         found.insert(found.end(), ends.begin(), ends.end());
 }
 

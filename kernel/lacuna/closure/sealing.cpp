@@ -62,8 +62,7 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
             if (first && *first <= pair) return true;
             const Triangle& mine = made.triangles[index(a)];
             const Triangle& theirs = others.triangles[index(b)];
-            // Neighbours along a shared side can only fold onto each other, which the enclosed volume
-            // reveals.
+            // Facets that share a side can only fold onto each other, and the enclosed volume reveals that.
             if (shared_points(mine, theirs) < 2 &&
                 geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance))
                 first = pair;

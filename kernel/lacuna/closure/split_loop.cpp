@@ -112,7 +112,7 @@ std::optional<Run> half_run(const std::vector<std::size_t>& run)
     for (std::size_t i = 0; i < uses; ++i) {
         const std::size_t first = run[i], j = (i + first) % uses;
         if (first < 2 || first >= uses || uses - first < 2 || run[j] < uses - first) continue;
-        // Overlapping runs leave several places to split, none of which is preferable.
+        // If the two runs overlap, the loop could be split in several places, and none is preferred.
         if (run[j] == uses - first) return Run{i, first};
     }
     return std::nullopt;
@@ -196,8 +196,8 @@ std::optional<Vec3> way_of(const Model& model, const Rim& rim, const std::vector
     return way;
 }
 
-/// Whether all curved faces are parallel to `way`. In a bent groove they are not: its long edges are planar
-/// and were taken for ends, and the straight edges that gave `way` lie at its true ends.
+/// Whether all curved faces are parallel to `way`. In a bent groove they are not: there the long edges are
+/// planar and were taken for ends, and `way` comes from straight edges at the true ends.
 bool all_go_along(const Model& model, const Vec3& way)
 {
     return std::ranges::all_of(all_faces(model), [&](FaceId face) {

@@ -36,12 +36,12 @@ using namespace topology;
 
 namespace {
 
-/// Limits of a step [degrees]. At a step, the skin turns from the end to the walls by more than `kStep`
-/// towards the void. Or it turns by less than `kStep` either way, and the walls lead away from the opposite
-/// end at more than `kLeadsAway` to the end's plane. The walls of a divided round do so at about 45°.
+/// Limits of a step [degrees]. Either the skin turns at the end's rim towards the void by more than `kStep`;
+/// or it turns by less than `kStep`, and the walls lead away from the opposite end at more than `kLeadsAway`
+/// to the end's plane, as at a divided round, which has about 45°.
 constexpr double kStep = 45, kLeadsAway = 30;
 
-/// Each cut reduces the number of steps; more cuts in a row than this indicate an error.
+/// Each cut reduces the number of steps, so more cuts in a row than this mean an error in the cutter.
 constexpr int kRounds = 64;
 
 /// A rim of an end where the walls lead away from the opposite end.
@@ -552,7 +552,7 @@ std::vector<StepPiece> hang_all(OpenVolume volume, const RunContext& context, in
     for (const Role end : {Role::source, Role::target}) {
         const auto& [parts, closed, risers] = steps[end == Role::source ? 0 : 1];
         if (parts.size() < 2) continue;
-        // A step with walls all round may be flush with an earlier cut; its walls then end at the cut.
+        // A wall at a step may end in the plane of an earlier cut, so that walls no longer surround the step.
         if (!risers.empty() && round < kRounds) return cut_at_risers(volume, risers, context, round + 1);
         throw NotSweepable(
             Message("closure.steps",

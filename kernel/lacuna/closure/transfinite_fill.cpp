@@ -59,8 +59,8 @@ void add_halves(geometry::Triangulation& grid, const Quad& q, std::size_t turn)
     grid.triangles.push_back({q[k], q[k + 2], q[(k + 3) % 4]});
 }
 
-/// Triangulate a rectangle with equal numbers of points on opposite sides: a grid between them, so that
-/// facets resolve corners as finely as the sides.
+/// Triangulate a rectangle with equal numbers of points on opposite sides by a grid between these points, so
+/// that facets are as fine at the corners as the sides.
 geometry::Triangulation grid_between(const std::array<PatchSide, 4>& side, const Outline& outline,
                                      double width, double height)
 {

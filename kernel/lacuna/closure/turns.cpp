@@ -58,8 +58,8 @@ double faces_opposite(const OpenVolume& volume, const std::vector<FaceId>& part)
 }
 
 /// Whether a part's walls are in front of its ends, where the normals of the ends point (positive), or behind
-/// them (negative). 0 if some are in front and some behind, or if the part lacks an end. A wall that joins
-/// both ends is on the void's side of each. Only a riser of a stepped end is on the far side of the step
+/// them (negative); 0 if some are in front and some behind, or if the part lacks an end. A wall that joins
+/// both ends is on the void's side of both. Only the riser of a stepped end is on the other side of the step
 /// above it.
 /// @param folds  `folds_across()` of each edge.
 /// @return  sum over the edges that an end and a wall share: length times the cosine of the angle between the

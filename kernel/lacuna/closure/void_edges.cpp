@@ -319,8 +319,10 @@ private:
     {
         const Model& model = volume_.model;
         if (from == to)
-            throw InvalidInput("closure.void_edge_ends", "the void edge from {} to {} must join two vertices",
-                               vertex(edge.from), vertex(edge.to));
+            throw InvalidInput(Message("closure.void_edge_ends",
+                                       "the void edge from {} to {} ends where it starts", vertex(edge.from),
+                                       vertex(edge.to))
+                                   .remedy("name two vertices"));
         if (pairs_.contains(std::minmax(from, to)))
             throw InvalidInput(Message("closure.void_edge_twice",
                                        "the void edge from {} to {} is given twice", vertex(edge.from),

@@ -72,7 +72,7 @@ private:
             if (next.edge == half.edge && next.reversed != half.reversed) continue;
             (made_.contains(next.edge) ? made : given).push_back(next);
         }
-        // Turn into a void edge where possible; after one, continue along the rim.
+        // From a given edge, turn into a void edge where possible; from a void edge, into a given one.
         const bool came_by_void = made_.contains(half.edge);
         std::vector<EdgeUse>& first = came_by_void ? given : made;
         return first.empty() ? (came_by_void ? made : given) : first;

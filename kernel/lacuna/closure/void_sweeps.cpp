@@ -99,8 +99,8 @@ bool has_ends(const RoleCandidate& way, const Ends& ends)
            (t == ends.source.faces && s == ends.target.faces);
 }
 
-/// Rank of equally good sweeps: first those with one or both ends open, because a bore or pocket is
-/// accessible there, then those with given ends, then those between faces that closing made.
+/// Rank of a sweep among equally good ones: first sweeps with one or both ends open, because a bore or pocket
+/// is accessible there, then those between given ends, then those between faces that closing made.
 std::size_t openness(const Ends& ends, const std::vector<RoleCandidate>& ways)
 {
     const auto same = std::ranges::find_if(ways,

@@ -10,8 +10,8 @@ namespace lacuna {
 
 namespace {
 
-/// The number of threads is limited to this, or to the number of cores if that is larger. The limit guards
-/// against mistyped numbers.
+/// The number of threads is limited to this, or to the number of cores if that is larger: a guard against
+/// mistyped numbers.
 constexpr int kMostThreads = 64;
 
 } // namespace

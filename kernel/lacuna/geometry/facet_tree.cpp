@@ -20,8 +20,8 @@ using Corners = std::array<Vec3, 3>;
 
 /// Limit on the triangles in a leaf.
 constexpr std::uint32_t kLeaf = 4;
-/// Subtrees with fewer triangles are built without checking for cancellation. A search for overlaps checks
-/// once per this number of compared pairs of boxes. Both take a few milliseconds.
+/// Subtrees with fewer triangles are built without a check for cancellation. A search for overlaps checks
+/// once every so many compared pairs of boxes. Both take a few milliseconds.
 constexpr std::uint32_t kPolled = 16384;
 /// Subtrees with fewer triangles are built on one thread, because that takes only 1 ms.
 constexpr std::uint32_t kShared = 4096;

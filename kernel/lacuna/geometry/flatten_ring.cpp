@@ -47,12 +47,12 @@ Positions ring(const Facets& facets)
     problem.points = facets.points;
     problem.triangles = facets.triangles;
     problem.corner_turns = turns_along(facets.triangles, cut);
-    // The facets lie on the left of the loop. So the loop leaves the cut on the cut's right side, where the
-    // branch is one turn less.
+    // The facets lie on the left of the loop, so the loop leaves the cut on its right side, where the branch
+    // is one turn less.
     problem.period = Eigen::RowVector2d(-1, 0);
     const auto round_at = [&](std::size_t i) { return i == 0 ? 1 : round[i] / round.back(); };
-    // The inner loop runs in the opposite direction. Its rotation is added later, as a harmonic function. Its
-    // points are on the branch of the end of the cut.
+    // The inner loop runs in the opposite direction, on the branch of the end of the cut. Its rotation is a
+    // harmonic function that is added later.
     const auto end = static_cast<std::size_t>(std::find(inner.begin(), inner.end(), cut.back()) -
                                               inner.begin());
     const double branch = -within[end] / within.back();
@@ -79,8 +79,8 @@ Positions ring(const Facets& facets)
         energy += facets.shapes[t].area * slope.squaredNorm();
     }
     const double decay = 2 * std::numbers::pi / energy;
-    constexpr double kMostDecay = 8; // limit of log(outer / inner radius); the paver cannot mesh thinner
-                                     // rings
+    constexpr double kMostDecay = 8; // limit of log(outer / inner radius): the paver cannot mesh a ring with
+                                     // a smaller hole
     if (!(decay <= kMostDecay)) return {};
     Positions positions;
     for (Eigen::Index p = 0; p < strip.rows(); ++p) {

@@ -20,8 +20,8 @@ namespace {
 
 // Largest relative error of one rounded operation.
 constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
-// Error bounds of the floating-point evaluation, relative to the sum of
-// absolute terms: Shewchuk's "A" bounds.
+// Error bounds of the floating-point evaluation, relative to the sum of absolute terms: Shewchuk's "A"
+// bounds.
 constexpr double kOrientBound = (3 + 16 * kRounding) * kRounding;
 constexpr double kIncircleBound = (10 + 96 * kRounding) * kRounding;
 constexpr double kSplitter = 134217729.0; // 2^27 + 1 splits a double into two halves of 26 bits

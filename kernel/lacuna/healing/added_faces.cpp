@@ -64,7 +64,7 @@ topology::Model model_of(const AddedFaces& added, const RunContext& context)
                                    "connected",
                                    needed(added.count), found(model.faces.size()))
                                .remedy("add each part as a face of its own"));
-    // Faces in the order of their labels: the splitter makes those of triangles before those of quads.
+    // Restore the order of adding: the splitter makes the faces of triangles before those of quads.
     std::vector<topology::Face> faces(model.faces.size());
     std::vector<bool> met(model.faces.size(), false);
     std::size_t next = 0;

@@ -136,8 +136,8 @@ std::optional<std::vector<EdgeTrack::EdgePosition>> EdgeTrack::follow(std::span<
     double least = 0;
     Vec3 before = points_.front();
     for (std::size_t q = 0; q < points.size(); ++q) {
-        // If the curve were longer than four times its chord, it would leave the other edge by more than the
-        // tolerance.
+        // If the curve between two points were longer than four times its chord, it would leave the other
+        // edge by more than the tolerance.
         double window = 4 * ((points[q] - before).norm() + 2 * reach) +
                         (points_[from + 1] - points_[from]).norm();
         places[q].distance = kInfinity;

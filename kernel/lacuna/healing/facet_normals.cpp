@@ -66,8 +66,8 @@ Index partner(const Facets& facets, const FacetSides& sides, Index side)
 void borrow_normals(const Facets& facets, const FacetSides& sides, std::vector<Index> without,
                     std::vector<Vec3>& normal, const RunContext& context)
 {
-    // Facets without a normal may be adjacent. So repeat while some facets get a normal. At the end shorter
-    // sides are tried too, because two such facets may share their longest side.
+    // Facets without a normal may be adjacent, so repeat as long as some facet gets one. Shorter sides are
+    // tried last, because two such facets may share their longest side.
     bool across_any = false;
     for (bool learnt = true; learnt && !without.empty();) {
         check_cancelled(context);

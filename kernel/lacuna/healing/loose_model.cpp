@@ -189,8 +189,8 @@ void LooseModel::remove(FaceId f)
     for (std::vector<FaceId>& users : users_) std::erase(users, f);
 }
 
-/// Split a facet side inside a face if it joins the two ends of a single-segment edge of another face.
-/// Otherwise the side would be taken for that edge.
+/// If a facet side inside a face joins the two ends of a single-segment edge of another face, split the side:
+/// it would otherwise be taken for that edge.
 void LooseModel::part_shortcuts()
 {
     std::map<std::pair<Index, Index>, std::vector<FaceId>> single;

@@ -204,8 +204,8 @@ public:
     }
 
 private:
-    /// A segment belongs to an edge unless every face at it has two facets there. Segments with the same
-    /// faces are of one kind.
+    /// A segment belongs to an edge unless each face at it has two facets there. Segments with the same set
+    /// of faces are of one kind, and chain into one edge.
     void find_borders(const Flood& flood)
     {
         std::map<std::vector<Index>, Index> kinds;

@@ -90,8 +90,8 @@ std::vector<Index> weld(std::span<const Vec3> points, double tolerance, const Ru
     if (!(tolerance > 0) || points.empty()) return result;
     Eigen::AlignedBox3d box;
     for (const Vec3& p : points) box.extend(p);
-    // If the tolerance is below the resolution of the coordinates, cell numbers would overflow. Cells are
-    // then wider.
+    // If the tolerance is below the resolution of the coordinates, cells are wider, so that cell numbers do
+    // not overflow.
     const double width = std::max(kCellWidth * tolerance, box.sizes().maxCoeff() * std::ldexp(1.0, -52));
     const auto cell_at = [&](const Vec3& p) {
         const Eigen::Array3d cell = ((p - box.min()) / width).array().floor();

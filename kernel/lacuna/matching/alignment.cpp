@@ -13,8 +13,8 @@ namespace lacuna::matching {
 
 namespace {
 
-/// Weight of a rotation by 180° in the score, relative to a residual as large as the loop. It only decides
-/// between fits of about the same residual.
+/// Weight of a rotation by 180° in the score, relative to a residual as large as the loop. It is small enough
+/// to decide only between fits of about the same residual.
 constexpr double kTurnWeight = 0.1;
 /// Number of golden-section steps. They converge to a millionth of a sample distance.
 constexpr int kSections = 30;
@@ -34,8 +34,8 @@ bool allowed(const Hard& hard, const LoopShape& source, const LoopShape& target,
     return true;
 }
 
-/// How far the normals of two aligned loops point in opposite directions along the line between the loops,
-/// 0…1; 0 in a plain sweep.
+/// Whether the normals of two aligned loops point in opposite directions along the line between the loops: 0
+/// if they do not, as in a plain sweep, up to 1.
 double overturned(const LoopShape& source, const LoopShape& target, bool backward)
 {
     const Vec3 way = (target.centroid - source.centroid).stableNormalized();
@@ -162,9 +162,9 @@ bool goes_by_length(const Problem& problem, std::size_t s, std::size_t t)
     if (problem.hard.empty() && low == all && high == all) return false;
     const std::vector<Alignment> found = rated(problem, &problem.hard, source, target, true, problem.backward,
                                                problem.led_near(s));
-    // No alignment keeps all hard pairs. Pair by length, which splits edges, only if the pairs from the walls
-    // alone cannot be kept either. Otherwise the user's pairs contradict each other or the walls, and are
-    // refused.
+    // No alignment keeps all hard pairs. If those from the walls alone cannot be kept either, the loops are
+    // paired by length, which splits edges. If they can, the user's pairs contradict each other or the walls,
+    // and are refused later.
     if (found.empty())
         return rated(problem, &problem.walls, source, target, true, problem.backward, {}).empty();
     if (low == all && high == all) return false;

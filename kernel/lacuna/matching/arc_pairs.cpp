@@ -19,8 +19,8 @@ namespace {
 /// Corners further apart than this share of the longer adjacent side are not paired: another corner is then
 /// closer.
 constexpr double kFarCorner = 0.5;
-/// Vertices closer than this share of the adjacent side are paired instead of splitting off a short edge: a
-/// compromise between the length of the shortest edges and the twist of void edges.
+/// Vertices closer than this share of the adjacent side are paired; otherwise an edge is split. A higher
+/// value twists void edges more, a lower one makes shorter edges.
 constexpr double kNear = 0.25;
 
 double share(double x)

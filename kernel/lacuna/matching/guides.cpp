@@ -37,7 +37,7 @@ using FacetSide = std::pair<Index, Index>;
 
 FacetSide side(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// A level line on the facets of one wall part.
+/// A level line of the height on the facets of one connected part of the walls.
 struct LevelLine {
     std::vector<Vec3> points;
     std::vector<FacetSide> sides;                             ///< side that each point lies on
@@ -322,8 +322,8 @@ struct PartSections {
 /// the void is on, so that the areas of several parts add up.
 ///
 /// An open section does not fix the size of the void next to it, and a straight one not even its rotation.
-/// Two points off the wall are therefore added, and the area of a circle whose circumference is the distance
-/// between the section's ends.
+/// Therefore two points off the wall are added to the section, and to its area that of a circle whose
+/// circumference is the distance between the section's ends.
 Vec3 complete(const LevelLine& line, std::vector<Vec3>& section)
 {
     const Vec3 area = geometry::newell_vector(section);

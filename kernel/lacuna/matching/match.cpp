@@ -25,16 +25,16 @@ using namespace topology;
 
 namespace {
 
-/// Confidence below which the second best alignment is reported too: its residual is then at most a third
-/// larger than the best.
+/// Below this confidence the second best alignment is reported too. Its residual is then at most a third
+/// larger than that of the best.
 constexpr double kUnsure = 0.25;
-/// Confidence below which an alignment with equal numbers of given sides is preferred to one that fits up to
-/// 2.5 times as well but rotates as much or more. Ring sectors whose outer end is eight times as far out as
-/// the inner one need this.
+/// Below this confidence, an alignment under which the given meshes have equal numbers of sides is preferred
+/// to a better one, unless it rotates more. The better one then fits at most 2.5 times as well. Needed for
+/// ring sectors whose outer end is eight times as far out as the inner one.
 constexpr double kUnsureBesideSides = 0.6;
-/// `kTie`: confidence below which the alignment with equal numbers of sides is preferred even to one that
-/// rotates less. `kAsMuch`: difference in rotation that is ignored, as a share of half a turn. Both are
-/// small, so that a plain prism is not twisted to suit its target mesh.
+/// kTie: as above, for an alignment that rotates more than the better one. kAsMuch: difference in rotation
+/// that is ignored, as a share of half a turn. Both are small, so that a plain prism is not twisted to suit
+/// its target mesh.
 constexpr double kTie = 0.1, kAsMuch = 0.05;
 
 /// Confidence that the best score is right: 1 − best / second best.
@@ -217,9 +217,9 @@ private:
         if (sure < kUnsure) note_candidates(problem_, s, t, best, *second, match_);
     }
 
-    /// Shift a loop that is paired by length to the best common fit with the loops nearest to it, unless its
-    /// samples are given nodes. Nearest loops that can still shift take part with their centroids only, which
-    /// weigh as much as the samples of a loop.
+    /// Slide a loop that is paired by length to the best common fit with the loops nearest to it, unless its
+    /// samples are given nodes. Nearest loops that may still slide themselves take part with their centroids
+    /// only, each with the weight of a loop's samples.
     void slide(std::size_t s)
     {
         const std::size_t t = target(s);

@@ -40,8 +40,9 @@ void force(Problem& problem, int s, int t, const Argument& because)
 {
     int& now = problem.forced[static_cast<std::size_t>(s)];
     if (now >= 0 && now != t) {
-        throw NotClosed("matching.loops_contradict", "{} is paired with {} and, by {}, also with {}",
-                        source_loop(s), target_loop(now), because, target_loop(t));
+        throw NotClosed(Message("matching.loops_contradict", "{} is paired with {} and, by {}, also with {}",
+                                source_loop(s), target_loop(now), because, target_loop(t))
+                            .remedy("leave one of these pairs out"));
     }
     now = t;
 }

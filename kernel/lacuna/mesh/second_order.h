@@ -26,8 +26,8 @@ inline constexpr std::array<Quad, 6> kHexFaces{
 inline constexpr std::array<Quad, 6> kHexFaceEdges{
     {{8, 7, 11, 3}, {1, 10, 5, 9}, {0, 9, 4, 8}, {11, 6, 10, 2}, {3, 2, 1, 0}, {4, 5, 6, 7}}};
 
-/// Nodes of a cell or skin quad, corners first. A hexahedron has 8, 20 or 27, a quad 4, 8
-/// or 9, a wedge 6, a triangle 3.
+/// Nodes of a cell or skin quad, corners first. A hexahedron has 8, 20 or 27, a quad 4, 8 or 9, a wedge 6, a
+/// triangle 3.
 struct CellNodes {
     std::array<Index, 27> node{};
     std::size_t count = 0;

@@ -6,8 +6,8 @@
 namespace lacuna::mesh {
 namespace {
 
-/// Append the middle nodes of item `i`, given a list of the middle nodes of all items. The first `large`
-/// items have `of_large` middle nodes each, the others `of_small`.
+/// Append the middle nodes of item `i`, from a list of the middle nodes of all items. The first `large` items
+/// have `of_large` middle nodes each, the others `of_small`.
 void add_middles(const std::vector<Index>& middles, std::size_t i, std::size_t large, std::size_t of_large,
                  std::size_t of_small, CellNodes& nodes)
 {

@@ -65,8 +65,8 @@ std::optional<Eigen::Matrix3d> fitted_turn(const std::vector<RimPlaces>& pairs, 
         along += pair.weight * a.dot(b);
         across += pair.weight * normal.dot(a.cross(b));
     }
-    // Concentric loops do not determine a rotation. Loops count as concentric if their centres are closer to
-    // each other than a thousandth of the section's size.
+    // Concentric loops determine no rotation. Loops count as concentric if their centres are closer to each
+    // other than a thousandth of the section's size.
     const double size2 = std::min(source_area.norm(), target_area.norm());
     if (std::hypot(along, across) < 1e-6 * weight * size2) return std::nullopt;
     return Eigen::AngleAxisd(std::atan2(across, along), normal).toRotationMatrix() * upright;

@@ -41,7 +41,7 @@ std::set<FaceId> divide_given_sides(const SeedTask& task, const FaceGrids& grids
             }
         }
         if (longest == nullptr) continue;
-        const std::string found = formatted("the rim of {} came with {} sides, an odd number",
+        const std::string found = formatted("the rim of {} was given with {} sides, an odd number",
                                             entity_of(task.model, face), sides_of(task.model, seeds, face));
         if (task.wedges) {
             seeds.notes.push_back(found + ": one cell of the face is a triangle");

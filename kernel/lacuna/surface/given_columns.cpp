@@ -65,7 +65,7 @@ public:
         if (crossed_) refuse_no_rows(quads_[*crossed_]);
         const Ring low = joined(stubs, source.size());
         check_stubs(stubs, columns_at, source.size());
-        // Columns that reach the source's rim have been walked already.
+        // Only columns that end before the source's rim are left: the others were walked from the source.
         std::vector<Strip> hanging = strips_from(target);
         if (crossed_) refuse_no_rows(quads_[*crossed_]);
         check_stubs(hanging, {}, target.size());
@@ -167,8 +167,8 @@ private:
         return strip;
     }
 
-    /// The columns between strips. Two neighbouring strips must have the same nodes on their common column,
-    /// up to the end of the shorter strip.
+    /// The columns between adjacent strips. Two adjacent strips must have the same nodes on their common
+    /// column, up to the end of the shorter one.
     Ring joined(std::span<const Strip> strips, std::size_t rim) const
     {
         Ring ring;
@@ -199,8 +199,8 @@ private:
         if (points.size() > there.size()) there = points;
     }
 
-    /// Check that all strips have the same number of rows. Strips of one wall with different numbers mean
-    /// that its quads are not in rows. Walls with different numbers were meshed separately.
+    /// Check that all strips have the same number of rows. Different numbers within one wall mean that its
+    /// quads are not in rows; different numbers on two walls mean that the walls were meshed separately.
     void check_rows(std::span<const Strip> strips)
     {
         std::map<FaceId, std::size_t> rows_of;
@@ -280,7 +280,7 @@ FaceId first_wall(const GivenColumns& columns)
     return {};
 }
 
-/// Number of sides of a side line whose edges are all kept; 0 if some edge is not kept.
+/// Number of sides of a side line if all its edges keep their nodes; otherwise 0.
 int line_rows(const Model& model, const LinkingLine& line, const std::set<EdgeId>& kept)
 {
     int rows = 0;
@@ -291,7 +291,7 @@ int line_rows(const Model& model, const LinkingLine& line, const std::set<EdgeId
     return rows;
 }
 
-/// The number of sides that all kept side lines have. 0 if their numbers differ, or if no side line is kept.
+/// The number of sides that all side lines with kept nodes have. 0 if the numbers differ or there is none.
 int common_line_rows(const Model& model, std::span<const LinkingSurface> links, const std::set<EdgeId>& kept)
 {
     int rows = 0;
@@ -488,7 +488,7 @@ GivenRows given_columns(const OpenVolume& volume, std::span<const LinkingSurface
             } else {
                 result.notes.push_back(formatted(
                     "{} was given with {} sides from source to target, but there are {} "
-                    "layers: only the ends stay",
+                    "layers: only its end nodes are kept",
                     entity_of(volume.model, line.line.uses.front().edge), own, layers > 0 ? layers : rows));
             }
         }

@@ -278,7 +278,7 @@ private:
         if (!source_kept) s.clear();
         if (!target_kept) t.clear();
         if (s.empty() && t.empty()) return;
-        // No nodes can be added to rims of kept quads. To rims of kept triangles they can.
+        // Nodes can be added to rims of kept triangles, but not to rims of kept quads.
         std::vector<double>* left_out = nullptr;
         const auto of_quads = [&](EdgeId edge) { return of_quads_.contains(edge); };
         if (source_kept && meets(link_.source, from.source, to.source, of_quads)) left_out = &t;

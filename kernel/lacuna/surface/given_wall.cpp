@@ -25,7 +25,7 @@ public:
                        std::vector<char>(count_ * layers_, 0)};
     }
 
-    /// Take over the nodes of columns and stubs unchanged.
+    /// Begin the grid with the nodes of columns and stubs, which do not change.
     BegunWall run(const GivenColumns& columns)
     {
         std::vector<GivenWay> up, from_source, from_target;
@@ -38,8 +38,8 @@ public:
             const bool beside = !ways.empty() && !ways.back().faces->empty();
             const std::size_t before = ways.empty() ? 0 : ways.back().node;
             if (!add_way(stub.at, stub.from_target, stub.points, stub.faces, ways)) refuse_stub(stub);
-            // Between two adjacent given columns there may be one additional node, which was added to a rim
-            // with an odd number of sides. If there are more nodes, the opposite rim has another mesh.
+            // Two adjacent given columns may have one more node between them, which was added to a rim with
+            // an odd number of sides. More nodes mean that the opposite rim has another mesh.
             if (beside && (ways.back().node + count_ - before) % count_ > 2) refuse_stub(stub);
         }
         take_ways(up, false);

@@ -533,9 +533,10 @@ private:
 
 void refuse_imprint(const Model& model, EdgeId edge, const char* why)
 {
-    throw NotSweepable("surface.not_imprinted",
-                       "{} lies inside one end and cannot be imprinted on the other: {}",
-                       entity_of(model, edge), why);
+    throw NotSweepable(Message("surface.not_imprinted",
+                               "{} lies inside one end and cannot be imprinted on the other: {}",
+                               entity_of(model, edge), why)
+                           .remedy("choose other faces as source and target"));
 }
 
 std::vector<EdgeId> inner_edges(const OpenVolume& volume, Role role)

@@ -127,7 +127,8 @@ private:
         demands_.sides.push_back(std::move(asked));
     }
 
-    /// Assign the request to the part of the source's rim that is swept to an edge of the target's rim.
+    /// Assign the request to the part of the source's rim that is swept to the given edge of the target's
+    /// rim.
     bool on_target(EdgeId edge, SidesAsked& asked) const
     {
         for (const LinkingSurface& link : links_) {

@@ -306,9 +306,10 @@ void check_ring(const Model& model, const std::vector<FaceId>& part)
         if (model[face].loops.size() > 1) pierced.push_back(face);
     }
     if (pierced.empty())
-        throw NotSweepable("surface.wall_pierced",
-                           "the walls {} do not form a simple ring between source and target",
-                           entities_of(model, part));
+        throw NotSweepable(Message("surface.wall_pierced",
+                                   "the walls {} do not form a simple ring between source and target",
+                                   entities_of(model, part))
+                               .remedy("cut the volume through them"));
     throw NotSweepable(
         Message(
             "surface.wall_pierced",

@@ -192,7 +192,7 @@ void RimFacets::find_sides()
                 if ((!wall && !across) || (across && rim.contains(edge_key(a, b)))) continue;
                 const Vec3 own = facet_area_vector(model, t);
                 auto& known = first[index(std::min(a, b))];
-                // Latest first: the facets of a fan usually follow each other.
+                // Search from the end: the facets of a fan usually follow each other.
                 const auto other = std::find_if(known.rbegin(), known.rend(), [&](const auto& side) {
                     return side.first == std::max(a, b);
                 });
@@ -347,7 +347,7 @@ RimBreaks RimFacets::breaks(int per_turn, const SizeField& size)
         };
         if (!in_order || !std::ranges::all_of(high, is_met)) continue;
         const bool given = std::ranges::any_of(link.segments, &RimSegment::given);
-        // A wall with a given mesh has its own columns.
+        // The columns of a wall with a given mesh are those of that mesh.
         const bool meshed = std::ranges::any_of(link.walls,
                                                 [&](FaceId wall) { return volume_.model[wall].keeps_nodes; });
         const bool whole = !meshed && link.lines.empty() && !up.empty() && up.front().source_at == 0 &&

@@ -23,8 +23,8 @@ namespace {
 /// have corners of 120° or more.
 constexpr int kFewestPerTurn = 6;
 
-/// A further side is added only if the turn needs more than the current number of sides by this part of a
-/// side. This part covers the sampling error of a curve. Heuristic.
+/// A turn may exceed the number of sides by this part of a side without an additional side: it covers the
+/// sampling error of a curve. Heuristic.
 constexpr double kPartOfSide = 0.05;
 
 /// Number of points on each piece at which the size is sampled. Heuristic.
@@ -63,8 +63,8 @@ void add_rim(const Model& model, const LinkingSurface& link, Seeds& seeds)
     }
 }
 
-/// Hexahedra cannot be swept from a given mesh of quads and triangles. If the user requested that the face is
-/// remeshed, add a note. The triangles of a face without quads only define its shape and are no mesh.
+/// Hexahedra cannot be swept from a given mesh of quads and triangles. If the user requested a new mesh of
+/// the face, add a note. Triangles of a face without quads only define its shape and are no mesh.
 /// @throw NotSweepable  the face has a mesh of quads and triangles, and quads = "auto".
 void note_mixed(const SeedTask& task, FaceId face, Seeds& seeds)
 {
@@ -140,8 +140,8 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
         at.push_back(piece.from + (i + 0.5) / kSizeSamples * (piece.to - piece.from));
     const EdgeTurning turning(task.model, edge);
     const double step = (piece.to - piece.from) * turning.length() / kSizeSamples;
-    // If the opposite rim turns more than this rim, only the excess counts. On an oblique end the rim turns
-    // unevenly, but by the same total.
+    // Only the excess of the opposite rim's turn is added to the turn of this rim: on an oblique end the rim
+    // turns unevenly, but by the same total.
     const auto turn_between = [&](double from, double to) {
         return piece.follows ? 0 : turning.between(from, to);
     };
@@ -181,8 +181,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     piece.least = std::max(1, bends);
 }
 
-/// If edges have sides longer than twice the size, and only triangles gave these edges their nodes, add a
-/// note.
+/// Add a note if edges that have their nodes from triangles only have sides longer than twice the size.
 void note_coarse_edges(const SeedTask& task, Seeds& seeds)
 {
     const auto has_quads = [&](const FaceUse& use) { return !task.model[use.face].given_quads.empty(); };

@@ -29,17 +29,17 @@ constexpr double kHalves = kFullTurn / 3;
 /// sides of sectors around a common point alternate between 15 and 13.
 constexpr double kEvenCore = 1;
 
-/// If a sector should have at least this number of quads, its numbers of sides follow the rows along its
-/// round side. Measured on quarters of a disc. For 30 wanted quads, there are 80 quads with this rule and 45
-/// without it; for 12 wanted quads, 86 and 39. For 120 and more wanted quads, the rule is better in all
+/// A sector that should have at least this number of quads gets numbers of sides that suit rows along its
+/// round side. Measured on quarters of a disc: for 30 wanted quads, there are 80 with this rule and 45
+/// without; for 12 wanted quads, 86 and 39. For 120 and more wanted quads, the rule comes nearer in all
 /// cases.
 constexpr double kQuadsForRows = 20;
 
 /// When numbers are repaired: weight of edges that are to be changed last, relative to other edges.
 /// Heuristic.
 constexpr double kLastWeight = 10;
-/// Weight of the wish for half of a face's total. The wish only decides where the search starts. Its weight
-/// is too small to affect the result otherwise.
+/// Weight of the wish for half of a face's total, which only decides where the search starts: the weight is
+/// too small to affect the result otherwise.
 constexpr double kHalfWeight = 1e-6;
 
 /// A grid that fills a face or a part of it: the variables along its sides, in both directions.

@@ -156,11 +156,11 @@ private:
                 parts.pop_back();
                 const RimPoint at{a + (from + to) / 2 * along, inward,
                                   turning.between(start + from, start + to) / (to - from)};
-                // The mesh sides are at most this long anyway, because of the requested size and the edge's
+                // The mesh sides are at most this long, because of the requested size and the edge's
                 // curvature.
                 const double bend = at.curvature * sizing.curvature / kFullTurn;
                 const double most = 1 / std::max(1 / asked(at.point), bend);
-                // If the width is larger than this, the size is not reduced.
+                // At a larger width than this, the size is not reduced.
                 const double reach = std::max(sizing.gap * most,
                                               at.curvature * most * most / (8 * kSagOfWidth));
                 const auto facing = opposite(edge, start + (from + to) / 2, at, reach);

@@ -129,10 +129,12 @@ void settle(const Model& model, Askers& askers, SeedPiece& piece, const SeedPiec
                                asked.name, found(asked.count), entity_of(model, edge), rows,
                                needed(rows + 1));
         if (asked.bias != 1)
-            throw NotSweepable("surface.sides_asked",
-                               "intervals: {} asks for {} sides on {} with a bias, but boundary layers that "
-                               "end there set the lengths",
-                               asked.name, asked.count, entity_of(model, edge));
+            throw NotSweepable(
+                Message("surface.sides_asked",
+                        "intervals: {} asks for {} sides on {} with a bias, but boundary layers that "
+                        "end there set the lengths",
+                        asked.name, asked.count, entity_of(model, edge))
+                    .remedy("leave out the bias"));
         piece.count = own.count;
         const std::vector<double> at = piece.fractions();
         piece.kept.assign(at.begin() + 1, at.end());

@@ -397,7 +397,8 @@ void SkinRemesher::improve(bool moves)
 void SkinRemesher::run(const topology::Model& model)
 {
     flip_all();
-    // Counted once: where facets fold, every round adds triangles, and the area to fill grows with them.
+    // Computed once: where facets fold, each round adds triangles and area, so the limit would grow with
+    // them.
     const double most = most_sides();
     for (int round = 0; round < kRounds; ++round) {
         split_long(most);

@@ -67,8 +67,8 @@ int sides_per_turn(const Model& model, const Curvatures& curvatures, const SizeF
     return first == counts.end() ? kMostPerTurn : *first;
 }
 
-/// Add sizes along the sides of facets on curved faces. A side may be so long that the sizes at its ends do
-/// not limit the size at its middle.
+/// Add sizes along the sides of facets on curved faces. Without them, a side may be so long that the sizes at
+/// its ends do not limit the size at its middle.
 void add_curved(const Face& face, std::span<const PointCurvature> at, int per_turn, const SizeField& size,
                 std::vector<PointSize>& sizes)
 {

@@ -39,7 +39,7 @@ constexpr double kWorthIt = 0.05;
 /// The lines between two opposite sides of a grid count as straight if the other two sides are nearly
 /// straight: at both ends, the direction of such a side deviates from its chord by at most this share of the
 /// chord. Only straight lines between rims are also made square in the sections above the source, because
-/// walls define only the ends of lines there. Heuristic.
+/// there the walls define only the ends of the lines. Heuristic.
 constexpr double kStraight = 0.1;
 using Line = SectionLine;
 
@@ -264,7 +264,7 @@ private:
         return worst;
     }
 
-    /// The same maximum, including the cosines between edges and columns, which were zero at first.
+    /// As above, with the angles between the edges and the columns, which are right angles before nodes move.
     [[nodiscard]] double worst_cosine(const std::vector<std::size_t>& lines,
                                       const std::vector<std::size_t>& rungs) const
     {
@@ -316,7 +316,7 @@ private:
             const auto visit_sides = [&](const std::vector<double>& u,
                                          const std::vector<std::size_t>& variable) {
                 for (std::size_t i = 0; i + 1 < u.size(); ++i) {
-                    // A side at an end of a line is the height of a row along the edge that starts there.
+                    // The first and the last side of a line are the heights of rows along the adjacent edges.
                     const double ends = i == 0 || i + 2 == u.size() ? kEnds : 1;
                     visit(u[i + 1] - u[i] - 1, each * ends,
                           std::array<Slope, 2>{{{variable[i], -1}, {variable[i + 1], 1}}});

@@ -18,9 +18,7 @@ geometry::MotionPointer swept_motion(const OpenVolume& volume)
     const auto surface_of = [&](FaceId wall) {
         return dynamic_cast<const geometry::SweptSurface*>(model[wall].surface.get());
     };
-    if (walls.empty() || surface_of(walls.front()) == nullptr)
-        return nullptr; // most volumes have no swept
-                        // walls
+    if (walls.empty() || surface_of(walls.front()) == nullptr) return nullptr; // usual case
     std::vector<std::optional<Role>> end(model.points.size());
     for (std::size_t f = 0; f < model.faces.size(); ++f)
         if (volume.role[f] != Role::wall)

@@ -23,8 +23,7 @@ constexpr int kRounds = 3;
 /// Step of the finite differences for derivatives of a curve, as a share of a side. It balances truncation
 /// error and rounding error. Heuristic.
 constexpr double kDifference = 1e-2;
-/// Minimum number of points per thread. It is that of the search for closest facets, where a point costs as
-/// much.
+/// Minimum number of points per thread: that of the search for closest facets, where a point costs as much.
 constexpr std::size_t kGrain = 512;
 
 /// Maximum height of a convex curve over its chord, as a share of the chord, for the angles between curve and
@@ -169,8 +168,8 @@ bool Trimming::is_near(const Projected& point, Near& near) const
     near.inward = near.share <= 0 ? side.inward_at_start : near.share >= 1 ? side.inward_at_end : side.inward;
     if (std::sqrt(hit.distance2) <= side.bulge) return true;
     if ((*point.at - hit.point).dot(near.inward) >= 0) return false;
-    // The border may be near the point in space, but far from it along the face. The point cannot have
-    // crossed such a border.
+    // The border may be near the point in space, but far from it along the face. The projection cannot have
+    // moved the point across such a border.
     return std::sqrt(tree_.closest(point.from->point).distance2) <= reach;
 }
 

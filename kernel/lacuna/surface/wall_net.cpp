@@ -186,8 +186,8 @@ private:
             reach.low = std::min(reach.low, reach.at);
             reach.high = std::max(reach.high, reach.at);
         }
-        // Minimum extent of an edge of a ring in s, as a share of the edge's length in s. A closed edge that
-        // returns to its start has an extent of one half. Heuristic.
+        // Minimum extent of an edge of a ring in s, as a share of the length that the edge covers forwards
+        // and backwards. For a closed edge that returns to its start it is one half. Heuristic.
         constexpr double kStraightOn = 0.75;
         for (std::size_t i = 0; i < reaches.size(); ++i) {
             const Reach& reach = reaches[i];

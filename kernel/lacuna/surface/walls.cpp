@@ -83,7 +83,7 @@ public:
         } catch (const NotSweepable& error) {
             if (error.code() != "surface.wall_edge") throw;
         }
-        // Columns of given nodes cannot follow an edge between void faces. Such edges are therefore ignored.
+        // Columns of given nodes cannot follow an edge between void faces, so such edges are ignored.
         map_.reset();
         net_ = {};
         WallMesh result = mesh(false);

@@ -83,7 +83,8 @@ const char* idle_option(const Format& format, const WriteRequest& request)
     if (!request.without.empty() && !joins) return "without";
     if (request.first_node != 0 && !numbered) return "first_node";
     if (request.first_cell != 0 && !numbered) return "first_cell";
-    // Ghosts need parts: those asked for in an .msh, or the pieces of a format that always writes pieces.
+    // Ghost cells need parts: those requested for an .msh, or the pieces of a format that is always in
+    // pieces.
     return request.ghosts > 0 && !request.partitions && !is_pieces(format) ? "ghosts" : nullptr;
 }
 
@@ -123,7 +124,7 @@ std::vector<io::CellField> fields_of(const sweep::Swept& swept, const WriteReque
     for (const quality::Metric metric : metrics_of(request)) {
         io::CellField& field = fields.emplace_back();
         field.name = quality::metric_name(metric);
-        // The scaled Jacobian, which every file has, is computed while another thread writes, and takes no
+        // The scaled Jacobian, a field of every file, is computed while another thread writes, so it takes no
         // memory.
         if (metric == quality::Metric::scaled_jacobian && swept.mesh.order() == 1)
             field.make = [&swept](std::span<const std::uint32_t> cells, double* out) {

@@ -49,8 +49,9 @@ constexpr double kBothSteps = 0.05;
 /// Number of faces listed for each role in a message.
 constexpr std::size_t kMostFaces = 12;
 
-/// Limit on the candidates kept at once, the likeliest ones. If all of them fail, the next ones are
-/// enumerated. Sorting eight times as many took longer than finding them, and few are ever tried.
+/// Limit on the candidates that are kept and sorted at once, the likeliest ones. If all of them fail, the
+/// next ones are enumerated. Few are ever tried, and to sort eight times as many took longer than to find
+/// them.
 constexpr std::size_t kMostKept = std::size_t{1} << 15;
 
 constexpr std::size_t kGap = kNoIndex - 1; ///< in place of a target rim: the walls end at a free loop
@@ -185,8 +186,8 @@ public:
         return found;
     }
 
-    /// Whether the walls of a candidate join its ends, or lead from its end to free loops. Near linear in the
-    /// edges of patches.
+    /// Whether the walls of a candidate join its two ends, or lead from its only end to free loops. Near
+    /// linear in the edges of patches.
     [[nodiscard]] bool holds(const Reading& reading)
     {
         check_cancelled(context_);
@@ -200,8 +201,8 @@ public:
         for (const WallPart& part : parts) {
             if (part.several || (part.source_rim == kNoIndex && part.target_rim == kNoIndex)) return false;
             if (part.source_rim == kNoIndex || part.target_rim == kNoIndex) {
-                // A ring of walls that ends at a free loop: the end there is missing, or another ring of
-                // walls between this one and the end.
+                // A ring of walls that ends at a free loop: beyond the loop, the end is missing, or another
+                // ring of walls between the loop and the end.
                 if (part.rims != 2 || part.euler != 0) return false;
                 if (part.source_rim == kNoIndex) {
                     ++behind_gap;
@@ -293,7 +294,7 @@ private:
                 if (found != touched.end()) found->second |= end;
             }
         }
-        // The walls of a step run from one part of an end to another.
+        // The walls of a step join parts of the same end.
         const bool steps = reading.step != kNoIndex;
         const unsigned wanted = steps ? (stepped_[reading.step].source.size() > 1 ? 1U : 0U) |
                                             (stepped_[reading.step].target.size() > 1 ? 2U : 0U)
@@ -336,8 +337,7 @@ private:
         for (const std::size_t source : flat) {
             check_cancelled(context_);
             const Vec3 way = -map_.patches[source].normal;
-            // Faces that are inclined to the sweep and are no ends would be cut by the void faces below the
-            // steps.
+            // Inclined faces that are no ends would be cut by the void faces below the steps.
             std::vector<std::size_t> same, ahead;
             double ends = 0;
             for (const std::size_t p : flat) {

@@ -208,8 +208,8 @@ WallChoice walls_of(const Choice& choice, Sheets& sheets)
     return result;
 }
 
-/// Faces next to connected walls that run from the end to the rim of the cavity. Such walls do not enclose a
-/// step of the end, so faces next to them, such as a ledge at a side wall, are walls too.
+/// Faces next to connected walls that run from the end to the rim of the cavity. These walls do not surround
+/// a step of the end, so a face next to them, such as a ledge at a side wall, is a wall too.
 std::set<FaceId> beside_long_walls(const Model& model, const std::vector<FaceId>& walls,
                                    const std::vector<FaceId>& end, const std::vector<FaceId>& cavity)
 {

@@ -190,8 +190,9 @@ private:
         return found == move_.end() ? point : found->second;
     }
 
-    /// Remove facets that have collapsed onto an edge: their corners are three successive points of the edge.
-    /// If there is one for each use of the edge, they are removed together with the middle point.
+    /// Where facets have collapsed onto an edge, because their corners are three successive points of the
+    /// edge, remove them together with the middle point. There must be one such facet for each use of the
+    /// edge.
     void drop_folded(EdgeId id)
     {
         std::vector<Index>& points = model_[id].points;
@@ -374,7 +375,7 @@ private:
         return rim;
     }
 
-    /// Whether most nodes follow each other against the direction of the chain.
+    /// Whether most nodes follow each other against the direction of their loop.
     static bool is_turned(const std::vector<RimNode>& rim, double length)
     {
         int steps = 0;

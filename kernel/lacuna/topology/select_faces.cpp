@@ -47,7 +47,8 @@ Touched touched(const Model& model, const FaceSelector& selector)
 {
     Touched found{std::vector<bool>(model.faces.size()), std::vector<bool>(model.edges.size())};
     if (selector.touching_model != nullptr && selector.touching_model != &model)
-        throw InvalidInput("lua.other_model", "option 'touching' is a face of another model");
+        throw InvalidInput(Message("lua.other_model", "option 'touching' is a face of another model")
+                               .remedy("give a face of this model"));
     bool any = false;
     for (std::size_t f = 0; f < model.faces.size(); ++f) {
         const Face& face = model.faces[f];

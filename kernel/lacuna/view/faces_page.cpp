@@ -152,8 +152,7 @@ void write_faces(const Model& model, const closure::ModelFacts& found,
     const Grid grid = grid_over(box);
     std::vector<Vec3> points = model.points;
     for (Vec3& point : points)
-        point = point.cwiseMax(box.min()).cwiseMin(box.max()); // unused ones may lie
-                                                               // outside
+        point = point.cwiseMax(box.min()).cwiseMin(box.max()); // unused ones may lie outside
 
     Json json;
     json.begin_object().member("kind", "faces");

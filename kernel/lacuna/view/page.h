@@ -53,8 +53,8 @@ void write_page(const io::Deck& deck, const io::OutputPath& path, const PageOpti
 void write_page(const topology::Model& model, const io::OutputPath& path, const PageOptions& options = {},
                 const RunContext& context = {});
 
-/// Write a page of an open or sealed volume: its roles, void faces, free edges, and
-/// end vertices that are on no wall.
+/// Write a page of an open or sealed volume: its roles, void faces, free edges, and end vertices that are on
+/// no wall.
 void write_page(const topology::OpenVolume& volume, const io::OutputPath& path,
                 const PageOptions& options = {}, const RunContext& context = {});
 

@@ -37,7 +37,8 @@ public:
         Eigen::AlignedBox3d box;
         for (const DrawnSide& side : scene.sides)
             for (std::size_t k = 0; k < side.count; ++k) box.extend(turn_ * side.corner[k]);
-        // If title and legend leave too little height, the object is drawn behind them at full height.
+        // If title and legend leave too little height, they are drawn over the object, which gets the full
+        // height.
         const double words = legend.above + legend.below, room = options.height - words;
         const bool beside = room > options.height * kLeastShare;
         const double width = options.width * kSamples;

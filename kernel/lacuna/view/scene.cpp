@@ -164,7 +164,7 @@ void check_layers(std::span<const Region> regions, const PictureOptions& options
                            found(from), found(to), needed(most));
 }
 
-/// For each part, the number of its region. Parts of one name, such as copies, form one region.
+/// For each part, the number of its region. Parts with the same name, such as copies, form one region.
 template <class Regions>
 std::vector<std::size_t> numbers_by_name(const Regions& regions)
 {

@@ -20,8 +20,8 @@ public:
     [[nodiscard]] std::vector<topology::EdgeUse> climb(VertexId start) const;
 
     /// Whether exactly one of the two paths along a free loop joins two vertices without passing a vertex of
-    /// an end. The rim of the walls is then the side line between them. Around a hole in the walls, both
-    /// paths join the vertices.
+    /// an end. That path is then the side line between them, along the rim of the walls. Around a hole in the
+    /// walls both paths join the vertices, and neither is a side line.
     [[nodiscard]] bool joined(VertexId from, VertexId to,
                               const std::vector<const topology::Rim*>& loops) const;
 

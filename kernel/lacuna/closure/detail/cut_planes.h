@@ -15,9 +15,9 @@ namespace lacuna::closure {
 struct Bend {
     EdgeId edge; ///< invalid if the bend is a cylinder
     FaceId face; ///< the cylinder; invalid if the bend is an edge
-    /// Length of the edge. For a cylinder: its length times the number of right angles by which it turns,
-    /// times, above a quarter turn, a factor that is 0 for a quarter turn and 1 for a full turn
-    /// [model length].
+    /// Length of the edge. For a cylinder: its length times the number of right angles by which it turns. If
+    /// it turns by more than one, this is multiplied by a factor that rises from 0 at a right angle to 1 at a
+    /// full turn [model length].
     double length = 0;
     std::optional<Vec3> axis; ///< a sweep in this direction follows the bend; empty for a curved edge
 };
@@ -25,8 +25,8 @@ struct Bend {
 /// All bends of a sealed skin. O(facets).
 std::vector<Bend> bends_of(const topology::Model& model, const SkinTurns& turns);
 
-/// Measure of the cutting that a volume still needs: the total length of its bends, plus the length of the
-/// bends that a sweep in the best direction does not follow [model length].
+/// How much of a volume is left to cut: the total length of its bends, plus the length of those bends that a
+/// sweep in the best direction does not follow [model length].
 double length_to_cut(const std::vector<Bend>& bends);
 
 /// A plane that may cut a volume into pieces that are easier to sweep.

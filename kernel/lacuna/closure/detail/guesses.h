@@ -26,8 +26,8 @@ enum class RolesBy { person, finding };
 std::optional<Message> guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
 
 /// A face of `model` with a hole that was closed in the face's plane, although an end far from the face is
-/// missing too, so that the hole may extend to that end. Invalid if there is no such face, or if the faces
-/// face the void, as those of a counterbore do.
+/// missing too: the hole may extend to that end. Invalid if there is no such face, or if the facets' normals
+/// point into the void, as in a counterbore.
 /// @param given  the faces of `model` that come first in the volume
 FaceId open_hole(const topology::Model& model, const std::vector<FaceId>& given,
                  const topology::OpenVolume& sealed, const Closure& closure);
@@ -43,10 +43,10 @@ void assume(Closure& closure, Message note, double share);
 /// taken as 4 area / perimeter.
 void assume_walls(const topology::OpenVolume& sealed, const Message& note, Closure& closure);
 
-/// Note holes of given faces that void faces close in their planes, because an entirely missing pocket leaves
+/// Note holes of given faces that void faces close in their planes: a pocket that is missing entirely leaves
 /// no other trace. The note is an assumption if a pocket as deep as its mouth is wide would change the volume
-/// enough. Two more cases are noted: an end covers a hole because the given faces face into the void, and a
-/// void face is the smaller part of a ball.
+/// enough. Two more cases are noted: an end that covers a hole of given faces whose normals point into the
+/// void, and a void face that is the smaller part of a ball.
 void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& given,
                        const topology::OpenVolume& sealed, Closure& closure);
 

@@ -33,8 +33,8 @@ bool is_pair_of_planes(const Quadric& quadric);
 
 /// Shapes of a face that follow from its non-planar rim.
 struct RimShapes {
-    /// Sheets that the face lies on. If only one quadric goes through the rim, these are its sheets. If there
-    /// are many quadrics, as through the end of a circular tube, they are the sheets of the spheres, circular
+    /// Sheets that the rim determines. If only one quadric goes through the rim, these are its sheets. If
+    /// there are many, as through the end of a circular tube, they are the sheets of the spheres, circular
     /// cylinders, cones and pairs of planes among them. Planes of given faces at the rim are excluded.
     std::vector<QuadricSheet> told;
     /// If there are many quadrics, the other cylinders among them: the face may lie on any of these.

@@ -15,8 +15,8 @@ namespace lacuna::closure {
 ///
 /// A rim needs such a wall in two cases: a flat face in the rim would lie in the plane of the given faces
 /// round it; or the rim is not planar and the given faces round it do not continue the wall. Rims on one axis
-/// with equal radii are paired along the axis. A rim left over is paired with a rim that a flat face might
-/// close as well. Rims of two unconnected parts are paired too.
+/// with equal radii are paired along the axis. A rim left over is paired with a rim that a flat face could
+/// also close. Rims of two unconnected parts are paired too.
 /// @return  the free loops that are left.
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);

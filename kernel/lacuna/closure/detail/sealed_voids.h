@@ -19,11 +19,11 @@ struct Sealed : SealedVolume {
 struct Void {
     /// Cost of its likeliest candidate, plus the cost of bent void faces.
     double cost = 0;
-    topology::RoleCandidate first;             ///< the candidate it was sealed with
+    topology::RoleCandidate first;             ///< the candidate that `sealed` was sealed with
     Sealed sealed;                             ///< the result of sealing with `first`
     std::vector<topology::RoleCandidate> ways; ///< role candidates, the likeliest first
     std::vector<topology::RoleCandidate> bent; ///< other candidates, which would need an ambiguous bend
-    bool untold = false;                       ///< whether a void face has an ambiguous bend
+    bool untold = false;                       ///< whether the rims of a void face do not determine its bend
     bool fills_flat_loops = false;             ///< whether a candidate fills only flat free loops
     /// An end that was moved together with its holes without walls; invalid if there is none.
     FaceId through;
@@ -44,9 +44,9 @@ bool same_volume(double a, double b);
 std::vector<Void> voids(const topology::Model& model, const std::vector<topology::RoleCandidate>& candidates,
                         std::size_t most, const RunContext& context);
 
-/// Use the voids that are sealed by moving a given end to the missing one. If role candidates found some of
-/// these voids as well, keep only these voids. Otherwise the voids with a moved end replace all others; if a
-/// rim without walls was extended, they are added to the others instead.
+/// Use the voids that are sealed by moving a given end to the missing one (`move_ends()`). Voids that role
+/// candidates found too are kept alone. If there are none, the voids with a moved end replace all others, or
+/// are added to them if a rim without walls was extended.
 void take_moved(const topology::Model& model, const std::vector<FaceId>& faces, std::vector<Void>& found,
                 const RunContext& context);
 

@@ -17,8 +17,8 @@ bool is_ruled_between_alike(const topology::Model& model, const topology::Loop& 
 bool lies_on_round_face(const topology::Model& model, const topology::Loop& loop);
 
 /// Whether the rim of one missing face determines its shape: the face is ruled between similar sides, or the
-/// rim lies on a sphere, a circular cylinder or a cone. A rim on such a surface does not count if it is a
-/// hole in one bent face, or in parts of one cylinder or sphere.
+/// rim lies on a sphere, a circular cylinder or a cone. A rim that is a hole in one bent face, or in parts of
+/// one cylinder or sphere, determines nothing: a bore or boss may be missing there.
 bool tells_face(const topology::Model& model, const topology::Loop& loop, const RunContext& context = {});
 
 /// Split a free loop that runs around two or three adjacent missing faces into the loops of these faces.

@@ -26,8 +26,8 @@ struct SweptSource {
     /// Set if edges of the source lie on the axis of rotation. Such a volume is not sealed; it is swept with
     /// wedges (`sweep/shared/turn_at_axis.h`).
     std::optional<Along::Axis> on_axis{};
-    /// The given walls, without any other face. Each replaces the wall that the motion would make in its
-    /// place. Empty if no walls are given.
+    /// The given walls, without any other face. Each takes the place of a wall that the motion would make.
+    /// Empty if no walls are given.
     std::optional<topology::Model> walls{};
 };
 

@@ -28,8 +28,8 @@ public:
     /// False if no given wall joins source and target, so that there is no motion to follow.
     [[nodiscard]] bool leads() const { return !ways_.empty(); }
 
-    /// Index of the walls whose motion applies near a source rim point: the given walls of its loop if they
-    /// determine the rest of that loop, otherwise 0, which stands for all walls.
+    /// Index of the walls whose motion applies near a rim point of the source: those of its loop if the loop
+    /// has a motion of its own, otherwise 0, all walls.
     [[nodiscard]] std::size_t walls_at(Index rim_point) const;
     /// Position at height t in [0, 1] of the point that starts at `source` and ends at `target`. @pre leads()
     /// @param walls  `walls_at()` of the adjacent rim; 0: all walls.
@@ -44,7 +44,7 @@ public:
     /// target's. @pre leads()
     [[nodiscard]] Vec3 carried(const Vec3& source) const { return ways_[0].from_source.back()(source); }
 
-    /// True if the walls stray so far from straight lines between the rims that void walls between straight
+    /// True if the walls are so far from straight lines between the rims that void walls between straight
     /// edges would enclose a different volume. @pre leads()
     [[nodiscard]] bool leads_astray(const topology::OpenVolume& volume, const matching::Match& match) const;
 

@@ -14,9 +14,9 @@ enum class RoundsOf { walls, ends_and_walls };
 /// its flatter part becomes part of the end. Layers then meet the remaining walls at 45 degrees or more; they
 /// would be tangent to an undivided round.
 ///
-/// The dividing plane is normal to the direction of the end: facets on one side of it are flatter, on the
-/// other side steeper. A round that the plane does not cut along closed lines stays whole. If there are
-/// rounds, the skin is oriented away from the void.
+/// The dividing plane is parallel to the end: facets on one side of it are flatter, on the other side
+/// steeper. A round that the plane does not cut along closed lines stays whole. If there are rounds, the skin
+/// is oriented away from the void.
 ///
 /// Walls with the same names whose smooth common edges leave one vertex of an end's rim together, such as the
 /// rounds and the corners at the bottom of a rounded box, are joined into one wall of facets.

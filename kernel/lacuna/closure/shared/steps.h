@@ -28,6 +28,7 @@ struct StepPiece {
 /// and the shorter pieces get the higher levels. If no face can be extruded, as where one rim lies above
 /// another, the planes of all flat steps cut the volume into layers. A missing opposite end is first made by
 /// filling the only open loop.
+///
 /// The pieces keep the given faces with their tags and share the void faces between them, so that
 /// `sweep::sweep_assembly()` makes one mesh. They are open volumes; the caller classifies, closes and sweeps
 /// each of them.

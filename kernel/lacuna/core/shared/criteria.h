@@ -15,8 +15,8 @@ namespace lacuna {
 inline constexpr double kRoundoff = 1e-12;
 
 /// Points coincide if their distance, divided by the length of an edge, a boundary or the diagonal, is
-/// smaller. A bend whose sag is smaller, divided likewise, counts as straight, and directions with a smaller
-/// sine as parallel. Projections converge to ten digits, and no edge of a mesh is as short.
+/// smaller. Likewise, a bend with a smaller relative sag counts as straight, and directions with a smaller
+/// sine as parallel. Projections converge to ten digits, and no side of a mesh is that short.
 inline constexpr double kSamePlace = 1e-9;
 
 /// Relative accuracy of coordinates in files: six to seven digits in single precision. Points this close to

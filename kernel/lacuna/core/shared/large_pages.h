@@ -11,8 +11,8 @@ namespace lacuna {
 /// faults instead of 25,000. A hint only: results do not depend on it.
 void use_large_pages(void* memory, std::size_t bytes);
 
-/// Have the system clear pages that were not written yet, until all are cleared or `enough` is set. The first
-/// writer then does not wait for page faults. The contents of the memory are lost.
+/// Write a byte to each page, so that the system clears the page now and the first writer need not wait for
+/// page faults. Stops when all pages are done or `enough` is set. @pre the memory holds nothing yet
 void clear_pages(void* memory, std::size_t bytes, const std::atomic<bool>& enough);
 
 /// A vector of `count` values, in large pages if it is large.

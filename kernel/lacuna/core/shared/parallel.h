@@ -8,12 +8,12 @@
 
 namespace lacuna {
 
-/// Run `body(begin, end)` over [0, count), divided into ranges of at least `grain`,
-/// on the threads of the context.
+/// Run `body(begin, end)` over [0, count), divided into ranges of at least `grain`, on the threads of the
+/// context.
 ///
 /// The ranges depend only on `count`, `grain` and the number of threads. A body that writes only to its own
-/// indices gives the same result for any number of threads.
-/// If the system cannot create all the threads, the available ones do all the work.
+/// indices gives the same result for any number of threads. If the system cannot create all the threads, the
+/// available ones do all the work.
 /// @throw the first exception of a body, after all threads have stopped; Cancelled between ranges.
 void parallel_for(const RunContext& context, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);

@@ -28,9 +28,9 @@ inline Quad face_key(Quad face)
     return rising(face);
 }
 
-/// A cell, within a group of cells that have the same lowest corner.
+/// A cell in a group of cells that have the same lowest corner.
 struct NumberedCell {
-    std::array<Index, 3> others; ///< the other corners, rising; -1 for missing ones
+    std::array<Index, 3> others; ///< the other corners, ascending; -1 for missing ones
     std::uint64_t number;
     friend auto operator<=>(const NumberedCell&, const NumberedCell&) = default;
 };

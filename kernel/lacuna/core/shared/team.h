@@ -33,7 +33,7 @@ public:
 /// The processes that share one task.
 struct Team {
     int rank = 0, size = 1;
-    bool one_machine = false; ///< all run on one machine: each can open a file that another has open
+    bool one_machine = false; ///< all run on one machine, so that each can open a file that another has open
     /// Send a string to all and return the strings of all, by rank. Collective: waits until all have called.
     std::function<std::vector<std::string>(std::string own)> exchange;
     /// Open an existing file. Not collective: each process opens it for itself.
@@ -41,7 +41,7 @@ struct Team {
     std::function<std::unique_ptr<SharedFile>(const std::string& path, const std::string& name)> open;
 };
 
-/// Processes that wait for tasks.
+/// Idle processes, to which tasks are given.
 struct Crew {
     int size = 1; ///< including the caller
     /// Start a task on all processes, given its name and its input. Returns the team of the task, in which

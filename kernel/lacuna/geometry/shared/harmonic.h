@@ -50,8 +50,8 @@ struct HarmonicProblem {
     bool least_energy = false;
 
     /// Whether nine digits suffice. If so, multigrid is used from 2,000 free points on, where it takes a
-    /// third of the time. No system is solved if an affine function of position has the fixed values and
-    /// satisfies the means.
+    /// third of the time of a factorisation. If an affine function of position has the fixed values and
+    /// satisfies all means, it is the result, and no system is solved.
     bool nine_digits = false;
 };
 

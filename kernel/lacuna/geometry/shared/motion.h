@@ -11,10 +11,9 @@
 
 namespace lacuna::geometry {
 
-/// The motion that sweeps a source to its target. It gives the place of each source point at heights from 0
-/// (source) to 1 (target).
-///
-/// A motion is affine (`at`), or each point moves straight by a vector of its own (`reach`).
+/// The motion that sweeps a source to its target: the place of each source point at heights from 0 (source)
+/// to 1 (target). Either the motion is affine (`at`), or each point moves straight by a vector of its own
+/// (`reach`).
 struct Motion {
     /// The map from the source to a height; the identity at 0. Null with `reach`.
     std::function<Eigen::Affine3d(double height)> at;

@@ -13,8 +13,8 @@ namespace lacuna::matching {
 /// Number of sample points of a loop in a fit. Each is tried as the start, so the cost grows with the square
 /// of their number; the best start is refined between samples afterwards.
 inline constexpr std::size_t kSamples = 64;
-/// Number of nearest loops whose samples take part in the fit of a loop. With all loops, the cost of each fit
-/// would grow with the number of loops.
+/// Number of nearest loops whose samples take part in the fit of a loop. If all loops took part, each fit
+/// would cost more the more loops there are.
 inline constexpr std::size_t kNearLoops = 8;
 
 /// Geometry of a loop for matching.

@@ -30,12 +30,13 @@ struct Sections {
 ///
 /// The height is harmonic, so its level lines cut a bent tube about square to its axis. A level line is
 /// traversed with the uphill side on its left and sampled evenly between the side lines that it crosses. A
-/// closed line that crosses none starts where it best matches the level below. An open line gets two extra
-/// points off the wall, because a straight line does not fix the rotation about itself. Its area is increased
-/// by that of a circle whose circumference is the distance between its ends. If any wall part is a closed
-/// ring, open ones are ignored. Open lines of walls that end between the rims are trimmed to the side lines
-/// that they share. A wall part is ignored if a level cuts it in several lines (holes) or if it does not join
-/// both rims.
+/// closed line that crosses none starts where it best matches the level below.
+///
+/// If any wall part is a closed ring, open ones are ignored. An open line gets two extra points off the wall,
+/// because a straight line does not fix the rotation about itself. Its area is increased by that of a circle
+/// whose circumference is the distance between its ends. Open lines of walls that end between the rims are
+/// trimmed to the side lines that they share. A wall part is ignored if a level cuts it in several lines
+/// (holes) or if it does not join both rims.
 /// @param lines  side_lines() of the volume
 Sections cut_sections(const topology::OpenVolume& volume, const std::vector<SideLine>& lines, int count,
                       const RunContext& context = {});

@@ -10,12 +10,12 @@
 
 namespace lacuna::surface {
 
-/// vertices of the rims at which inner edges end, in pairs
+/// The correspondence of two ends whose faces are split in the same way.
 struct AlikeEnds {
-    std::vector<RimPair> pairs; ///< vertices of the rims at which inner edges end
+    std::vector<RimPair> pairs; ///< vertices of both rims at which inner edges end
     std::map<topology::EdgeUse, topology::EdgeUse>
-        /// For each use of an inner edge by a source face, the use of the target's edge in the same
-        /// direction.
+        /// For each use of an inner edge by a source face: the use of the corresponding target edge in the
+        /// same direction.
         edges;
     std::map<FaceId, FaceId> faces; ///< target face of each source face
 };

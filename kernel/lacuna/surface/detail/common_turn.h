@@ -36,9 +36,9 @@ double best_shift(std::vector<Vec3> source, std::vector<Vec3> target, const Eige
 ///
 /// The rotation is that of the rigid motion that best fits the loops' centres and the points paired by side
 /// lines. Whole turns are added to the rotation of each loop, so that it differs as little as possible from
-/// the rotation that the loop's own walls give. No rotation is returned if it is undetermined, that is, for a
-/// single loop, for concentric loops, for a loop with corresponding vertices, or if all linking surfaces have
-/// side lines.
+/// the rotation that the loop's own walls give. Also empty for a loop with corresponding vertices, and for
+/// all if the motion is undetermined: for a single loop, for concentric loops, or if all linking surfaces
+/// have side lines.
 std::vector<std::optional<CommonTurn>> common_turns(std::span<const LinkingSurface> links);
 
 } // namespace lacuna::surface

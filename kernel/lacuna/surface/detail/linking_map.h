@@ -22,8 +22,8 @@ struct WallPosition {
     FacetPosition at;
 };
 
-/// Points at positions, on the exact faces or on the facets. One request is made for each face, because exact
-/// surfaces are in another process.
+/// Points at positions: on the exact faces or on the facets. All points of a face are evaluated in one call,
+/// because exact surfaces are in another process.
 std::vector<Vec3> points_at(const topology::Model& model, std::span<const WallPosition> places,
                             bool exact = true);
 
@@ -45,7 +45,7 @@ public:
     LinkingMap(const topology::OpenVolume& volume, const LinkingSurface& link, bool void_edges = true,
                const RunContext& context = {});
 
-    /// Whether this is the map of a linking surface as it is now.
+    /// Whether the map was made for the linking surface as it is now.
     [[nodiscard]] bool is_of(const topology::OpenVolume& volume, const LinkingSurface& link,
                              bool void_edges) const
     {

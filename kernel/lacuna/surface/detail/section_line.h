@@ -32,7 +32,8 @@ struct SectionLine {
     std::vector<double> above; ///< positions of the nodes on the target; empty: the same as on the source
     std::vector<std::size_t> variable; ///< for each node, its variable in a solver
     std::vector<std::size_t> variable_above;
-    /// At each node, the length of a side divided by the length of the column. Set if `above` is set.
+    /// At each node, the length of a side divided by the length of the column, so that a shift along the edge
+    /// [sides] becomes a slope of the column. Set if `above` is set.
     std::vector<double> steep;
     bool on_rim = false;
 
@@ -82,7 +83,7 @@ struct SectionLine {
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<double>(i);
         return places;
     }
-    /// For evenly spaced nodes: at each node, the length of a side divided by the length of the column.
+    /// For evenly spaced nodes: the value of `steep` at each node.
     [[nodiscard]] std::vector<double> steepness() const
     {
         std::vector<double> steep_at;

@@ -33,7 +33,7 @@ struct WallNet {
         std::optional<double> source_at, target_at{};
         EdgeId edge; ///< an edge of the column, for messages
     };
-    /// Connected cross edges, or a single vertex between long edges.
+    /// Connected cross edges, or a single vertex at which only long edges meet.
     struct Level {
         double height = 0;               ///< mean t
         std::optional<std::size_t> ring; ///< index of the ring in the map

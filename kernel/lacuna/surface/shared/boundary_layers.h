@@ -14,7 +14,7 @@
 
 namespace lacuna::surface {
 
-/// Heights of the rows' upper borders over the face, increasing [model length].
+/// Heights over the face of the upper side of each row, increasing [model length].
 std::vector<double> row_heights(const BoundaryLayer& layer);
 
 /// The faces of a volume that have the given tags and names.
@@ -29,9 +29,10 @@ FaceId wall_on(const topology::OpenVolume& volume, EdgeId edge);
 bool has_face(const topology::OpenVolume& volume, int tag);
 bool has_face(const topology::OpenVolume& volume, const std::string& name);
 
-/// for each table, the heights of its rows
+/// The boundary layers of a volume as tables of row heights, and the faces to which they apply.
 struct LayerTables {
-    std::vector<std::vector<double>> heights; ///< heights of the rows of each table
+    std::vector<std::vector<double>> heights; ///< by table: heights of its rows over the face, increasing
+                                              ///< [model length]
     std::map<FaceId, int> of;                 ///< for each face with boundary layers, the index of its table
 
     [[nodiscard]] int at(FaceId face) const
@@ -54,7 +55,7 @@ struct RimRows {
         FaceId wall; ///< the wall that the table belongs to
     };
     std::map<EdgeId, std::vector<Part>> parts;
-    /// An end of an edge where rows end. These rows run along the adjacent edge of the loop.
+    /// A place where rows end: one end of an edge. The rows run along the adjacent edge of the loop.
     struct End {
         int table = -1;
         FaceId wall;
@@ -62,8 +63,8 @@ struct RimRows {
         Vec3 inward;  ///< perpendicular to `along`, in the face
         VertexId corner;
     };
-    /// The edges on which rows end. The key is the edge, with true if the rows are at the edge's end and
-    /// false if they are at its start.
+    /// The places where rows end. The key is an edge, with true if the rows meet its end and false if they
+    /// meet its start.
     std::map<std::pair<EdgeId, bool>, End> ends;
 
     [[nodiscard]] bool empty() const { return heights.empty(); }

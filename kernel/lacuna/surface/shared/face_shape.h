@@ -9,9 +9,9 @@
 
 namespace lacuna::surface {
 
-/// The shape of a face for comparisons: its facets, and the bulge of the exact face over each of their sides.
-/// A facet with its bulges is a quadratic patch. Comparisons with it neither hide a deviation nor report the
-/// chords of facets as one.
+/// The shape of a face, for comparison with a mesh: its facets, and the bulge of the exact face over each of
+/// their sides. A facet with its bulges is a quadratic patch. A comparison with plain facets would hide
+/// deviations, or would report the sag of the facets as one.
 struct FaceShape {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;

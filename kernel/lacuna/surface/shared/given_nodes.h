@@ -83,11 +83,11 @@ struct KeptNodes {
 
 /// Use the rim nodes of faces that keep their mesh as nodes of the sweep. Each node ends a segment, and the
 /// segment between two such nodes is one side of a quad.
+///
 /// Nodes of one column correspond to each other. Other nodes of the two rims are paired in order if both rims
 /// have the same number of nodes between two side lines or two corners. Otherwise the nodes of the source are
 /// kept, and a note counts the nodes of the target that are not kept. If only one rim has given nodes, the
 /// other rim gets nodes opposite to them.
-/// them.
 /// @param columns  given columns of each linking surface.
 /// @param wedges   whether triangles of both ends are kept like quads.
 KeptNodes keep_given_nodes(const topology::OpenVolume& volume, std::span<const GivenColumns> columns,

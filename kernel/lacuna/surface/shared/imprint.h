@@ -19,8 +19,8 @@ struct EdgeImage {
     double from = 0, to = 1;
 };
 
-/// Two chains of points, one inside each end, that correspond in the sweep. The part of each chain between
-/// the given shares of its length is mapped uniformly onto the part of the other.
+/// Two chains of points, one on each end, that correspond in the sweep. The part of one chain between its two
+/// given shares of length is mapped uniformly onto the part of the other.
 struct KnownLine {
     std::vector<Index> source, target;
     double source_from = 0, source_to = 1;
@@ -47,15 +47,12 @@ std::map<EdgeId, double> image_lengths(const Imprint& imprint);
 std::vector<EdgeId> inner_edges(const topology::OpenVolume& volume, topology::Role role);
 
 /// Imprint the inner edges of the target on the source.
-///
-///
 /// Source and target are mapped onto one plane: the source by `geometry::flatten()`, the target by a harmonic
 /// map, with the target's rim placed by the linking surfaces. Smooth closed edges of the two ends that
 /// enclose about the same region are merged, with their start points aligned; then the target is mapped again
 /// so that these edges coincide. Next, the edges of the target are intersected with those of the source.
 /// Edges and vertices closer to each other than a fraction of the quad size are merged. The source faces are
-/// split
-/// along the remaining edges and retriangulated.
+/// split along the remaining edges and retriangulated.
 /// @param known  corresponding lines that an earlier imprint created on both ends. They are made to coincide
 ///         in the plane.
 /// @throw NotSweepable "surface.not_imprinted"  the ends cannot be mapped onto each other one to one, an edge

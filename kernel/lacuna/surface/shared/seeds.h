@@ -110,39 +110,42 @@ struct Seeds {
     [[nodiscard]] LinkingNodes nodes(const LinkingSurface& link) const;
 };
 
-/// Assign numbers of sides to the edges of the source. They follow from the size or, where it requires more
-/// sides, from the curvature.
+/// Assign numbers of sides to the edges of the source (interval assignment), in five steps.
 ///
-/// A full turn of an edge gets `sizing.curvature` sides. If the target's rim turns more than the source's,
-/// the excess counts as well. Bends of a polyline count as those of the curve that it approximates, unless
-/// they are sharp. With `curvature` 0 only the size counts, but a side spans at most a sixth of a turn. Edges
-/// of faces that keep their own quads have the nodes of these quads. If size or curvature vary along an edge,
-/// so does the spacing of its nodes. A free face that one grid can fill gets numbers for which the grid
-/// closes (`quads::pattern_counts()`).
+/// 1. Each edge requests the number of sides that the size requires or, if that is larger, the curvature: a
+///    full turn of an edge gets `sizing.curvature` sides. If the target's rim turns more than the source's,
+///    the excess counts as well. Bends of a polyline count as those of the curve that it approximates, unless
+///    they are sharp. With `curvature` 0 only the size counts, but a side spans at most a sixth of a turn. If
+///    size or curvature vary along an edge, so does the spacing of its nodes. Edges of faces that keep their
+///    own quads have the nodes of these quads.
 ///
-/// One integer program covers all edges of mapped and submapped faces, of free faces that share an edge with
-/// these, and of sectors that share an edge with any free face:
-///   minimize Σ (n − wanted)² / n
-/// over the edges' pieces and three lines across each mapped face, with a penalty for sides outside the
-/// accepted range of lengths. Opposite sides get equal numbers, and no piece gets fewer sides than its
-/// minimum. A free face of three sides is filled by three grids around a node, and a half disc by two such
-/// patterns. Any other face of two sides is filled by a grid with two of its corners inside. All other free
-/// faces get an even total.
+/// 2. One integer program covers all edges of mapped and submapped faces, of free faces that share an edge
+///    with these, and of sectors that share an edge with any free face. It minimizes Σ (n − wanted)² / n over
+///    the edges' pieces and three lines across each mapped face, with a penalty for sides outside the
+///    accepted range of lengths. Opposite sides get equal numbers, and no piece gets fewer sides than its
+///    minimum. A free face of three sides is filled by three grids around a node, and a half disc by two such
+///    patterns. Any other face of two sides is filled by a grid with two of its corners inside. All other
+///    free faces get an even total.
 ///
-/// Two more terms concern a face with one round side. Along this side, rows should have a total depth of a
-/// third of the radius. The line behind these rows should have as many sides as its length requires. Lengths
-/// are measured in space, so a face that bulges or narrows between its sides gets the numbers that its
-/// interior needs. A face becomes free if its given sides contradict each other, or if its grid would have
-/// poor angles or lengths in space.
+///    Two more terms concern a face with one round side. Along this side, rows should have a total depth of a
+///    third of the radius. The line behind these rows should have as many sides as its length requires.
+///    Lengths are measured in space, so a face that bulges or narrows between its sides gets the numbers that
+///    its interior needs. A mapped face becomes free if its given sides contradict each other, or if its grid
+///    would have poor angles or lengths in space.
 ///
-/// Then the remaining free faces get the numbers of a grid one after the other, respecting edges that are
-/// settled. Faces with the most loops come first, because their loops must agree. A second program over all
-/// edges of the source makes the total of every free face even with the least change. Finally, where lines of
-/// a grid are oblique to the sides of a mapped face, the nodes on these sides move along them. If the
-/// sections of the volume differ, such nodes get other positions on the target.
-/// @param sizing   sides for a full turn, and the gap. With a gap, faces are submapped only on request,
-///         because the size already includes the gap. If `counts_across` is set, this does not hold: the
-///         sides of mapped faces get at least as many quads as the gap requires.
+/// 3. Of the remaining free faces, those that one grid can fill get numbers for which the grid closes
+///    (`quads::pattern_counts()`). They are treated one after the other and keep the numbers found so far.
+///    Faces with the most loops come first, because their loops must agree.
+///
+/// 4. A second program over all edges of the source makes the total of every free face even, with the least
+///    change.
+///
+/// 5. Where lines of a grid are oblique to the sides of a mapped face, the nodes on these sides move along
+///    them. If the sections of the volume differ, such nodes get other positions on the target.
+///
+/// @param sizing   sides for a full turn, and the gap. With a gap, the size already includes it, and faces
+///         are submapped only on request. With `counts_across` the size does not include it: the sides of
+///         mapped faces get at least as many quads as the gap requires, and faces may be submapped.
 /// @param lengths  lengths of the images of edges, if known [model length]. If the image is longer than the
 ///         edge, the edge gets the sides that its image needs.
 /// @param wedges   whether triangles are kept like quads, and a rim with an odd number of given sides stays

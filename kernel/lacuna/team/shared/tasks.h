@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-/// Tasks of a process group: each process works on its own layers. The size of messages does not depend on
-/// the mesh.
+/// Tasks of a process group, in which each process works on its own layers. The amount of data that the
+/// processes exchange does not depend on the number of cells.
 namespace lacuna::team {
 
 /// Options of writing a layered mesh.

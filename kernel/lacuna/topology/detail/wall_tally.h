@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-/// Sums over the walls that remain when patches become ends. Internal to this folder.
+/// Counts from which the Euler number of the remaining walls follows when patches become ends. Internal to
+/// this folder.
 namespace lacuna::topology {
 
 /// The patches of a model, indexed for role candidates.

@@ -16,7 +16,7 @@ struct LeftOutFace {
     friend bool operator==(const LeftOutFace&, const LeftOutFace&) = default;
 };
 
-/// Base of the exact curves that know which faces of the file were left out next to their edge.
+/// Base of the exact curves that also know which faces of the file next to their edge were left out.
 class BesideLeftOut {
 public:
     virtual ~BesideLeftOut() = default;
@@ -35,8 +35,8 @@ struct LeftOutBeside {
 ///         extracted from the loaded one.
 std::vector<LeftOutBeside> left_out_beside(const Model& model, const std::vector<FaceId>& faces);
 
-/// When walls or roles are detected automatically, a hole counts as part of the void. Throw if the hole is
-/// there because a face was left out.
+/// Check before an automatic search for walls or roles, in which a hole counts as part of the void: throw if
+/// the hole is there only because a face of the file was left out.
 /// @param found  what is detected, for the message, such as "walls".
 /// @throw InvalidInput "cad.face_left_out"  names the face, one of its edges, and a remedy.
 void require_none_left_out(const Model& model, const std::vector<FaceId>& faces, std::string_view found);

@@ -8,7 +8,7 @@
 
 namespace lacuna::topology {
 
-/// Faces that meet at less than `kCreaseAngle`: a candidate for an end of a sweep.
+/// A connected set of faces that meet at less than `kCreaseAngle`: a candidate for an end of a sweep.
 struct SmoothPatch {
     std::vector<FaceId> faces; ///< in the model's order
     std::vector<Rim> rims;

@@ -13,7 +13,7 @@ namespace lacuna::topology {
 /// Points to be inserted on facet sides, at which facets are then split.
 class SidePoints {
 public:
-    /// Add points between `a` and `b`, in that order. If the side already has points, it keeps them instead.
+    /// Add points between `a` and `b`, in that order. A side that has points already keeps its own instead.
     void add(Index a, Index b, std::vector<Index> between);
     [[nodiscard]] bool empty() const { return between_.empty(); }
     /// The points between `a` and `b`, in that order; empty if the side is not split.

@@ -24,8 +24,8 @@ struct ShownPatch {
 /// The patches of a swept mesh, with their numbers of quads.
 std::vector<ShownPatch> shown_patches(const mesh::HexMesh& mesh);
 
-/// Solids as a list of cells with eight corners. Other cells than hexahedra repeat corners, as
-/// `mesh::merged_corners()` says.
+/// Solids as a list of cells with eight corners. Cells other than hexahedra have repeated corners, in the
+/// form of `mesh::merged_corners()`.
 struct ListedCells {
     std::string name;
     std::vector<Vec3> nodes;
