@@ -41,7 +41,8 @@ private:
     std::shared_ptr<const ExactCurve> curve_;
 };
 
-/// A surface of the source, moved to a height of the sweep. It keeps its parameters. @pre the motion is affine
+/// A surface of the source, moved to a height of the sweep. It keeps its parameters.
+/// @pre the motion is affine
 class MovedSurface final : public ExactSurface {
 public:
     MovedSurface(MotionPointer motion, double height, std::shared_ptr<const ExactSurface> surface)
