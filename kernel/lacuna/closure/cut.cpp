@@ -61,6 +61,7 @@ public:
     /// A region of the plane by its loops, in plane coordinates.
     using Region = std::vector<std::vector<Vec2>>;
 
+    /// Cut the volume, and return the pieces.
     /// @param suits  whether to cut a region of the plane inside the volume; empty: cut all.
     /// @param least  set for a cut found by a search: the least distance between the cut and edges beside it.
     ///         Cut lines across flat faces then lose their inner points, because the sizes of the pieces are

@@ -165,7 +165,7 @@ public:
     [[nodiscard]] const std::vector<NamedEntity>& entities() const { return parts_.entities; }
     [[nodiscard]] const std::vector<MessageValue>& found() const { return parts_.found; }
     [[nodiscard]] const std::vector<MessageValue>& needed() const { return parts_.needed; }
-    /// All of it except the failed attempts.
+    /// The message without the failed attempts.
     [[nodiscard]] const MessageParts& parts() const { return parts_; }
     [[nodiscard]] const std::vector<Message>& attempts() const { return attempts_; }
 

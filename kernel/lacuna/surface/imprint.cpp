@@ -269,7 +269,7 @@ private:
         return found->second = box.sizes();
     }
 
-    /// The mean length of a facet of a face.
+    /// Mean side length of the facets of a face.
     double facet_side(FaceId face) const
     {
         return std::sqrt(face_area(base_.model, face) /

@@ -181,7 +181,7 @@ void ask_size(const SeedTask& task, EdgeId edge, SeedPiece& piece)
     piece.least = std::max(1, bends);
 }
 
-/// Add a note if edges that have their nodes from triangles only have sides longer than twice the size.
+/// Add a note if edges whose nodes come only from triangles have sides longer than twice the size.
 void note_coarse_edges(const SeedTask& task, Seeds& seeds)
 {
     const auto has_quads = [&](const FaceUse& use) { return !task.model[use.face].given_quads.empty(); };

@@ -31,7 +31,7 @@ constexpr double kEvenCore = 1;
 
 /// A sector that should have at least this number of quads gets numbers of sides that suit rows along its
 /// round side. Measured on quarters of a disc: for 30 wanted quads, there are 80 with this rule and 45
-/// without; for 12 wanted quads, 86 and 39. For 120 and more wanted quads, the rule comes nearer in all
+/// without; for 12 wanted quads, 86 and 39. For 120 and more wanted quads, the rule comes closer in all
 /// cases.
 constexpr double kQuadsForRows = 20;
 

@@ -45,8 +45,8 @@ std::optional<FlatFilling> fill_all_loops(const topology::Model& model, const st
                                           const RunContext& context);
 
 /// Fill the free loops of a volume without a target as `fill_flat_loops()` does. New faces that are inclined
-/// to the source by at most 60° form the target; if there are none, the least inclined do. The other new
-/// faces are walls, such as the risers of a target at several heights.
+/// to the source by at most 60° form the target; if there are none, the least inclined ones form it. The
+/// other new faces are walls, such as the risers of a target at several heights.
 /// @return  empty in any of these cases:
 /// - every loop is planar and gets a face of its own;
 /// - a loop lies on a sphere, a circular cylinder or a cone, or belongs to a channel

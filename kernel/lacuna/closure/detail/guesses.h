@@ -21,8 +21,8 @@ enum class RolesBy { person, finding };
 ///   membrane differs from the thin plate over the same rim; or straight sides suggest several flat faces.
 /// - A bent void face whose rim also lies on other quadrics that are far from the face.
 ///
-/// A rough rim is never ambiguous: its points are off a plane by at most a twentieth of its diameter, and
-/// smooth faces over it enclose the same volume to 2 %.
+/// A membrane over a rough rim is not ambiguous: the rim's points are off a plane by at most a twentieth of
+/// the rim's diameter, and smooth faces over it enclose the same volume to 2 %.
 std::optional<Message> guess_of_bent(const topology::OpenVolume& sealed, const Closure& closure, RolesBy by);
 
 /// A face of `model` with a hole that was closed in the face's plane, although an end far from the face is

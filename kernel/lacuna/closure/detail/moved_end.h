@@ -20,13 +20,14 @@ struct MovedEnd : Closed {
 
 /// Seal faces that lack an end and adjacent walls, with the shape of the given end.
 ///
-/// Where walls are given, their tops lie on the rim of the missing end. A rotation, scale and translation are
-/// fitted from the given end's rim to those tops, or an affine map if there are four corners or more. If the
-/// map takes the foot of every wall to its top, it is applied to the rest of the rim too, including round
-/// holes without walls. Otherwise, missing straight sides become straight lines between tops in one plane.
-/// The missing end then has the given end's shape, and the missing walls are closed between the two ends. The
-/// scale is fitted only if walls cover a third of the outline, because the taper of a bore is not that of the
-/// outline. The map must move every part of the rim.
+/// Where walls are given, their tops lie on the rim of the missing end. Maps from the given end's rim to
+/// those tops are fitted in this order: a translation, a rigid motion, a rigid motion with a scale, and an
+/// affine map if there are four corners or more. The first map that takes the foot of every wall to its top
+/// is applied to the rest of the rim too, including round holes without walls. If no map does, missing
+/// straight sides become straight lines between tops in one plane. The missing end then has the given end's
+/// shape, and the missing walls are closed between the two ends. Scales, affine maps and straight sides are
+/// tried only if walls cover a third of the outline, because the taper of a bore is not that of the outline.
+/// The map must move every part of the rim.
 /// @param known  tells whether some points all lie on existing faces. If this holds for the points on the rim
 ///         of a missing end and at mid-height of the missing walls, nothing is sealed.
 /// @return  one result for each flat face that can be the given end: all other faces are walls connected to

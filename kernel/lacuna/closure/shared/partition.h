@@ -40,8 +40,8 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// - divided at its middle (`midpoint_blocks()`);
 /// - divided at a centre, if no cut was made and no length is left to cut;
 /// - the pieces of the best cuts, if some have no ends. Those that still have a length to cut are divided at
-///   their middles where that is possible. If no cut helps, this is the volume itself, with other ends than
-///   its roles give if there are any;
+///   their middles where that is possible. If no cut helps, this is the volume itself, with ends other
+///   than its roles give, if there are any;
 /// - the pieces of up to five other cuts of the volume, each cut on in the same way.
 /// @param least  the least distance between a cut and an edge beside it, unless the volume itself is that
 ///               thin there [model length].

@@ -25,7 +25,7 @@ private:
     Vec3 point_;
 };
 
-/// A curve moved to a height, with its own parameter.
+/// A curve of the source, moved to a height of the sweep. It keeps its parameter.
 class MovedCurve final : public ExactCurve {
 public:
     MovedCurve(MotionPointer motion, double height, std::shared_ptr<const ExactCurve> curve)
@@ -41,7 +41,8 @@ private:
     std::shared_ptr<const ExactCurve> curve_;
 };
 
-/// A surface moved to a height, with its own parameters. @pre the motion is affine
+/// A surface of the source, moved to a height of the sweep. It keeps its parameters.
+/// @pre the motion is affine
 class MovedSurface final : public ExactSurface {
 public:
     MovedSurface(MotionPointer motion, double height, std::shared_ptr<const ExactSurface> surface)
@@ -74,7 +75,7 @@ public:
     }
     /// Projects along the surface's normals, by the Gauss-Newton method.
     void project(std::span<Vec3> points, std::span<Vec2> uv, const RunContext& context) const override;
-    /// The places at parameters.
+    /// The points of the surface at the given parameters.
     [[nodiscard]] std::vector<Vec3> at(std::span<const Vec2> uv, const RunContext& context = {}) const;
 
     [[nodiscard]] const MotionPointer& motion() const { return motion_; }

@@ -11,7 +11,7 @@ namespace lacuna::healing {
 /// Remove sliver faces: faces whose border folds onto itself everywhere, so that they have almost no area.
 void leave_out_thin_faces(LooseModel& loose, double tolerance, StitchReport& report);
 
-/// Remove all but one of coincident faces. Keep two if other faces are connected to both.
+/// Of each set of coincident faces, remove all but one. Keep two if other faces are connected to both.
 void leave_out_repeated_faces(LooseModel& loose, double tolerance, StitchReport& report,
                               const RunContext& context);
 

@@ -14,7 +14,7 @@
 
 namespace lacuna::surface {
 
-/// Heights over the face of the upper side of each row, increasing [model length].
+/// For each row, the height of its upper side over the face; increasing [model length].
 std::vector<double> row_heights(const BoundaryLayer& layer);
 
 /// The faces of a volume that have the given tags and names.
