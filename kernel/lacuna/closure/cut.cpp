@@ -18,6 +18,7 @@
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/point_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/signed_area.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/shared/face_facts.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -43,14 +44,6 @@ namespace {
 
 /// Up to this many open walks are joined by trying all orders.
 constexpr std::size_t kAllOrders = 7;
-
-double signed_area(std::span<const Vec2> loop)
-{
-    double twice = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        twice += geometry::cross(loop[i], loop[(i + 1) % loop.size()]);
-    return twice / 2;
-}
 
 class PlaneCutter {
 public:
@@ -102,7 +95,7 @@ private:
     {
         double most = 0;
         for (const SectionWalk& walk : walks_) {
-            const double area = signed_area(outline(walk));
+            const double area = geometry::signed_area(outline(walk));
             if (std::abs(area) > std::abs(most)) most = area;
         }
         // The outer walk is clockwise if the skin faces outward. If it is not, flip the skin: facets in the
@@ -281,7 +274,7 @@ private:
             double length = 0;
             for (std::size_t k = 0; k < loop.size(); ++k)
                 length += (loop[(k + 1) % loop.size()] - loop[k]).norm();
-            if (loop.size() < 3 || std::abs(signed_area(loop)) < kFileAccuracy * length * length)
+            if (loop.size() < 3 || std::abs(geometry::signed_area(loop)) < kFileAccuracy * length * length)
                 return false;
             outline.add_loop(loop);
         }

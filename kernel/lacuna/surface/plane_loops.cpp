@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/plane_loops.h>
 
-#include <lacuna/geometry/shared/plane.h>
+#include <lacuna/geometry/shared/signed_area.h>
 
 #include <algorithm>
 
@@ -11,15 +11,7 @@ double signed_area(std::span<const Vec2> points, std::span<const Index> loop)
 {
     std::vector<Vec2> outline;
     for (const Index p : loop) outline.push_back(points[index(p)]);
-    return signed_area(outline);
-}
-
-double signed_area(std::span<const Vec2> outline)
-{
-    double sum = 0;
-    for (std::size_t i = 0; i < outline.size(); ++i)
-        sum += geometry::cross(outline[i], outline[(i + 1) % outline.size()]);
-    return sum / 2;
+    return geometry::signed_area(outline);
 }
 
 void sort_outer_first(std::span<const Vec2> points, std::vector<std::vector<Index>>& loops)

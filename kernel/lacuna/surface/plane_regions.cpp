@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/signed_area.h>
 #include <lacuna/surface/detail/plane_loops.h>
 
 #include <algorithm>
@@ -88,7 +89,7 @@ std::vector<PlaneRegion> plane_regions(std::span<const PlaneChain> chains)
     std::vector<Walk> holes;
     for (Walk& loop : traced_loops(chains)) {
         std::vector<Vec2> outline = points_of(chains, loop);
-        const double area = signed_area(outline);
+        const double area = geometry::signed_area(outline);
         if (!(area > 0)) {
             holes.push_back(std::move(loop));
             continue;

@@ -11,7 +11,6 @@ namespace lacuna::surface {
 
 /// Signed area of a loop of points; > 0 if it runs counter-clockwise.
 double signed_area(std::span<const Vec2> points, std::span<const Index> loop);
-double signed_area(std::span<const Vec2> outline);
 
 /// Sort the outer loop first, as the planar meshers require.
 void sort_outer_first(std::span<const Vec2> points, std::vector<std::vector<Index>>& loops);

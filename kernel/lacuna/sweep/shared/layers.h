@@ -12,13 +12,11 @@
 namespace lacuna::sweep {
 
 /// The method by which the inside of the layers was placed.
-enum class Placement { straight, affine, fitted, normals };
+enum class Placement { straight, affine, fitted };
 
 struct PlacementOptions {
     bool straight_lines = false; ///< Class I of the paper: nodes lie on straight lines from source to target
     std::vector<double> heights; ///< layers + 1 numbers from 0 to 1; empty: from the columns' lengths [-]
-    /// Whether the residual of the rims is spread; false: the affine fit alone, for comparison.
-    bool spread_residual = true;
 };
 
 /// Node coordinates of all layers.
