@@ -2,9 +2,8 @@
 //
 // bench_stress [--members N] [--seed S] [--only NUMBER] [--list] [--json FILE]
 //
-// The stress family, method by method: the affine fit alone, with the rim's residual spread, with cells
-// untangled and improved (what a sweep does), and the paper's advance along normals. Prints a table; --list
-// adds a line a member and method, --only one member's report.
+// The stress family with the layers as they are placed, and with cells untangled and improved (what a sweep
+// does). Prints a table; --list adds a line a member and method, --only one member's report.
 #include "support/stress.h"
 
 #include <lacuna/core/error.h>
@@ -24,15 +23,12 @@ namespace {
 
 struct Method {
     const char* name;
-    sweep::Interior interior;
     bool improve;
 };
 
 constexpr Method kMethods[] = {
-    {"affine fit alone", sweep::Interior::affine, false},
-    {"with the residual spread", sweep::Interior::residual, false},
-    {"untangled and improved", sweep::Interior::automatic, true},
-    {"along normals (the paper's)", sweep::Interior::normals, false},
+    {"as placed", false},
+    {"untangled and improved", true},
 };
 
 struct Result {
@@ -54,7 +50,6 @@ Result run(const test::StressMember& member, const topology::OpenVolume& sealed,
 {
     Result result;
     sweep::SweepOptions options = test::stress_options(member);
-    options.interior = method.interior;
     options.improve = method.improve;
     const auto start = std::chrono::steady_clock::now();
     try {

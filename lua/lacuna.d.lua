@@ -191,7 +191,6 @@
 ---@field serendipity? boolean with order 2: hex20 instead of hex27; default false
 ---@field min_scaled_jacobian? number a mesh with a smaller value is an error; default 0
 ---@field improve? boolean|{ iterations?: integer, seconds?: number } optimise the positions of nodes; `iterations` of each optimisation, 60; default true
----@field interior? "auto"|"affine"|"residual"|"normals" how interior nodes are placed; values other than "auto" are for comparison
 ---@field threads? integer default: all cores
 
 ---@class lacuna.SweepToOptions: lacuna.SweepOptions

@@ -271,13 +271,6 @@ void read_curvature(lua_State* L, int index, const Where& where, Arguments& argu
     arguments.volume_share = 0; // a given number of sides for a turn replaces the default
 }
 
-const Word<sweep::Interior> kInteriors[] = {
-    {"auto", sweep::Interior::automatic},
-    {"affine", sweep::Interior::affine},
-    {"residual", sweep::Interior::residual},
-    {"normals", sweep::Interior::normals},
-};
-
 const Option<sweep::ImproveOptions> kImproveOptions[] = {
     {"iterations", count<&sweep::ImproveOptions::iterations>},
     {"seconds", positive<&sweep::ImproveOptions::seconds>},
@@ -312,7 +305,6 @@ const Option<SweepArguments> kSweepOptions[] = {
     {"serendipity", boolean<&SweepArguments::second_order, &sweep::SecondOrderOptions::serendipity>},
     {"min_scaled_jacobian", number<&SweepArguments::min_scaled_jacobian>},
     {"improve", read_improve},
-    {"interior", word<&SweepArguments::interior, kInteriors>},
     {"threads", count<&SweepArguments::threads>},
 };
 

@@ -594,8 +594,6 @@ class Volume(Shown):
         min_scaled_jacobian: float; a mesh with a smaller value is an error; default 0
         improve: bool | dict; optimise the positions of nodes; `iterations` of each optimisation, 60; default
             True
-        interior: "auto" | "affine" | "residual" | "normals"; how interior nodes are placed; values other than
-            "auto" are for comparison
         threads: int; default: all cores
 
         A dict for `layers` has:
@@ -658,8 +656,6 @@ class Volume(Shown):
         min_scaled_jacobian: float; a mesh with a smaller value is an error; default 0
         improve: bool | dict; optimise the positions of nodes; `iterations` of each optimisation, 60; default
             True
-        interior: "auto" | "affine" | "residual" | "normals"; how interior nodes are placed; values other than
-            "auto" are for comparison
         threads: int; default: all cores
         write: dict; options of the file, as of mesh.write
 
@@ -927,8 +923,6 @@ class Assembly(Object):
         min_scaled_jacobian: float; a mesh with a smaller value is an error; default 0
         improve: bool | dict; optimise the positions of nodes; `iterations` of each optimisation, 60; default
             True
-        interior: "auto" | "affine" | "residual" | "normals"; how interior nodes are placed; values other than
-            "auto" are for comparison
         threads: int; default: all cores
         contacts: dict; ties and contacts of faces without common nodes
 
@@ -994,8 +988,6 @@ class Assembly(Object):
         min_scaled_jacobian: float; a mesh with a smaller value is an error; default 0
         improve: bool | dict; optimise the positions of nodes; `iterations` of each optimisation, 60; default
             True
-        interior: "auto" | "affine" | "residual" | "normals"; how interior nodes are placed; values other than
-            "auto" are for comparison
         threads: int; default: all cores
         write: dict; options of the file, as of mesh.write
 

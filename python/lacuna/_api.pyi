@@ -267,7 +267,6 @@ class Volume(Shown):
             intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
             order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
             min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
-            interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ...,
     ) -> Mesh | AssemblyMesh: ...
     def sweep_to(
@@ -282,7 +281,6 @@ class Volume(Shown):
             intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
             order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
             min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
-            interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ..., write: Mapping[str, Any] | None = ...,
     ) -> Report: ...
     def write_facets(
@@ -372,7 +370,6 @@ class Assembly(Object):
             intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
             order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
             min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
-            interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ..., contacts: Mapping[str, Any] | None = ...,
     ) -> AssemblyMesh: ...
     def sweep_to(
@@ -387,7 +384,6 @@ class Assembly(Object):
             intervals: Iterable[Sequence[Any]] | None = ..., periodic: Iterable[Sequence[Any]] | None = ...,
             order: Literal[1, 2] | None = ..., serendipity: bool | None = ...,
             min_scaled_jacobian: float | None = ..., improve: bool | Mapping[str, Any] | None = ...,
-            interior: Literal["auto", "affine", "residual", "normals"] | None = ...,
             threads: int | None = ..., write: Mapping[str, Any] | None = ...,
     ) -> Report: ...
 class AssemblyMesh(AnyMesh):

@@ -245,7 +245,6 @@ local keys = {
     order = function() return random(1, 2) end, serendipity = flag,
     min_scaled_jacobian = function() return pick { -1, 0, 0.5, 2 } end,
     improve = function() return pick { true, false, { iterations = 3 }, { seconds = 0.01 } } end,
-    interior = function() return pick { "auto", "affine", "residual", "normals" } end,
     threads = function() return pick { 1, 2, 4, 100000 } end },
   write = { version = function() return pick { 4.1, 2.2 } end, binary = flag,
     quality = function() return pick { true, false, metric(), list_of(metric) } end, renumber = flag,

@@ -175,7 +175,7 @@ const std::vector<Rule>& grammar()
           "min_scaled_jacobian = <number>", "improve = { iterations = <count>, seconds = <number> }",
           "threads = <count>", "curvature = <count>", "gap = <count>", "max_deviation = <number>",
           "wedges = <truth>", "boundary_layers = { first = <length>, growth = 1.2, count = 2 }",
-          "interior = 'residual'", "<word2> = <value>"}},
+          "<word2> = <value>"}},
         {"path",
          {"'out.msh'",
           "'a.vtu'",

@@ -18,6 +18,7 @@
 #include <lacuna/geometry/shared/plane.h>
 #include <lacuna/geometry/shared/point_tree.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/signed_area.h>
 #include <lacuna/matching/match.h>
 #include <lacuna/topology/shared/face_facts.h>
 #include <lacuna/topology/shared/face_parts.h>

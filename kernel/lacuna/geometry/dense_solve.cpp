@@ -13,16 +13,6 @@ Eigen::VectorXd solve_lu(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& r
     return matrix.partialPivLu().solve(right);
 }
 
-Eigen::MatrixXd solve_lu(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right)
-{
-    return matrix.partialPivLu().solve(right);
-}
-
-Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right)
-{
-    return matrix.ldlt().solve(right);
-}
-
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right)
 {
     return matrix.ldlt().solve(right);

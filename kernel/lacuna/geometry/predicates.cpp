@@ -6,7 +6,7 @@
 // must neither contract a·b + c nor reorder sums; common compilers do neither in ISO mode.
 #include <lacuna/geometry/shared/predicates.h>
 
-#include <lacuna/geometry/shared/plane.h>
+#include <lacuna/geometry/shared/signed_area.h>
 
 #include <algorithm>
 #include <array>
@@ -205,14 +205,6 @@ bool lies_inside(std::span<const Vec2> polygon, const Vec2& p)
         if (above == (b.y() > a.y())) inside = !inside;
     }
     return inside;
-}
-
-double signed_area(std::span<const Vec2> polygon)
-{
-    double twice = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-        twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
-    return twice / 2;
 }
 
 bool encloses(std::span<const Vec2> outer, std::span<const Vec2> inner)

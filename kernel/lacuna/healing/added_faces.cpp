@@ -2,30 +2,11 @@
 #include <lacuna/healing/shared/added_faces.h>
 
 #include <lacuna/core/error.h>
+#include <lacuna/healing/detail/soup_facets.h>
 
 #include <utility>
 
 namespace lacuna::healing {
-
-namespace {
-
-/// Divide a quad into two triangles along the diagonal on which they do not fold; if both or neither fold,
-/// along the shorter diagonal.
-std::array<Triangle, 2> halves(const Quad& q, const std::vector<Vec3>& points)
-{
-    const auto at = [&](int i) { return points[static_cast<std::size_t>(q[static_cast<std::size_t>(i)])]; };
-    const auto fold = [&](int a, int b, int c, int d) { // whether the halves on the diagonal a-c fold
-        const Vec3 one = (at(b) - at(a)).cross(at(c) - at(a)), two = (at(c) - at(a)).cross(at(d) - at(a));
-        return one.dot(two) <= 0;
-    };
-    const bool first_folds = fold(0, 1, 2, 3), second_folds = fold(1, 2, 3, 0);
-    const bool first = first_folds == second_folds ? (at(2) - at(0)).norm() <= (at(3) - at(1)).norm()
-                                                   : !first_folds;
-    if (first) return {Triangle{q[0], q[1], q[2]}, Triangle{q[0], q[2], q[3]}};
-    return {Triangle{q[0], q[1], q[3]}, Triangle{q[1], q[2], q[3]}};
-}
-
-} // namespace
 
 void add(AddedFaces& faces, const AddedFace& face)
 {
@@ -47,7 +28,7 @@ void add(AddedFaces& faces, const AddedFace& face)
             soup.quads.push_back(q);
             soup.quad_label.push_back(label);
         } else {
-            for (const Triangle& triangle : halves(q, soup.points)) add_triangle(triangle);
+            for (const Triangle& triangle : halves_of(soup.points, q)) add_triangle(triangle);
         }
     }
 }

@@ -60,14 +60,4 @@ std::optional<double> other_metric(Metric metric, const OtherValues& values)
     return std::nullopt;
 }
 
-double pyramid_scaled_jacobian(std::span<const Vec3, 5> c)
-{
-    return evaluate_other(CellKind::pyramid, {c[0], c[1], c[2], c[3], c[4], c[4], c[4], c[4]}).scaled;
-}
-
-double tet_scaled_jacobian(std::span<const Vec3, 4> c)
-{
-    return evaluate_other(CellKind::tet, {c[0], c[1], c[2], c[2], c[3], c[3], c[3], c[3]}).scaled;
-}
-
 } // namespace lacuna::quality

@@ -34,16 +34,6 @@ double wedge_scaled_jacobian(std::span<const Vec3, 6> corners);
 /// is linear over the triangle and quadratic along the height; it has nine Bernstein coefficients.
 bool wedge_certified_positive(std::span<const Vec3, 6> corners, int max_depth = 6);
 
-/// The scaled Jacobian of a pyramid with the base 0-1-2-3 and the apex 4. At each corner of the base, the
-/// determinant of the three edges is divided by the product of their lengths and multiplied by √2; the result
-/// is the smallest of the four values, at most 1. It is 1 for a pyramid whose edges are equally long. Verdict
-/// instead takes the scaled Jacobian of the tetrahedra at these corners, and 0 for a folded pyramid.
-double pyramid_scaled_jacobian(std::span<const Vec3, 5> corners);
-
-/// The scaled Jacobian of a tetrahedron, as in Verdict: √2 times the determinant of three edges at a corner,
-/// divided by the largest product of the lengths of the edges at a corner. It is 1 for a regular tetrahedron.
-double tet_scaled_jacobian(std::span<const Vec3, 4> corners);
-
 /// One of the worst cells of a mesh.
 struct WorstCell {
     std::size_t cell = 0; ///< from 0

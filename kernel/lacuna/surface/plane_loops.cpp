@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/surface/detail/plane_loops.h>
 
-#include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/signed_area.h>
 
 #include <algorithm>
 

@@ -3,6 +3,7 @@
 
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/signed_area.h>
 
 #include <algorithm>
 #include <cmath>

@@ -77,7 +77,7 @@ LayerPlacer::LayerPlacer(const mesh::QuadMesh& source, std::span<const Vec3> tar
         placement_ = Placement::straight;
         fit_straight(heights);
     } else {
-        fit_rims(heights, options, context, room);
+        fit_rims(heights, context, room);
     }
 }
 
@@ -90,8 +90,7 @@ void LayerPlacer::fit_straight(std::span<const double> heights)
     }
 }
 
-void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptions& options,
-                           const RunContext& context, std::span<Vec3> room)
+void LayerPlacer::fit_rims(std::span<const double> heights, const RunContext& context, std::span<Vec3> room)
 {
     const std::vector<Segment> sides = rim_sides(source_, columns_);
     const std::span<const Vec3> low = columns_.row(0);
@@ -137,7 +136,7 @@ void LayerPlacer::fit_rims(std::span<const double> heights, const PlacementOptio
         size_ = 2 * layer.size;
     }
     if (!exact) placement_ = Placement::fitted;
-    if (exact || !options.spread_residual) {
+    if (exact) {
         residuals_.clear();
         return;
     }
@@ -213,8 +212,9 @@ std::string LayerPlacer::report() const
     const double residual = size_ > 0 ? residual_ / size_ : 0;
     if (placement_ == Placement::affine)
         return formatted("layers: affine motion of the rims, exact to {:.2g} of their size", residual);
-    return formatted("layers: affine fit from both ends, rim residual of {:.2g} of its size {}", residual,
-                     spread_ ? "spread harmonically" : "left at the rim");
+    return formatted(
+        "layers: affine fit from both ends, rim residual of {:.2g} of its size spread harmonically",
+        residual);
 }
 
 LayerNodes place_layers(const mesh::QuadMesh& source, std::span<const Vec3> target, const RimColumns& columns,

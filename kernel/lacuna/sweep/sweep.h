@@ -57,14 +57,6 @@ std::vector<double> layer_heights(const LayerSpec& spec);
 /// How source faces are meshed.
 enum class Quads { automatic, paved, mapped, gmsh, keep };
 
-/// Placement of the inner nodes of layers.
-enum class Interior {
-    automatic, ///< the best known method
-    affine,    ///< for comparison: the affine fit alone
-    residual,  ///< for comparison: the fit with the rim's residual spread over it
-    normals,   ///< for comparison: the advance along local normals of Roca and Sarrate (2010)
-};
-
 /// Nodes of periodic faces, and the positions that make them exact images of each other.
 struct SettledNodes {
     std::set<FaceId> faces; ///< the periodic faces; all nodes of these faces are then fixed
@@ -128,13 +120,12 @@ struct SweepOptions {
     std::vector<surface::PeriodicPair> periodic;
     quads::PlanarQuadMesher quad_mesher; ///< the mesher of `Quads::gmsh`
     mesh::TetMesher tet_mesher;          ///< the mesher of `Fallback::mixed`
-    Interior interior = Interior::automatic;
-    int order = 1;                   ///< order of the cells: 1 or 2
-    SecondOrderOptions second_order; ///< options of order 2
-    double min_scaled_jacobian = 0;  ///< lower bound for accepted meshes [0, 1]
-    bool improve = true;             ///< move nodes of folded or poor cells
-    ImproveOptions improving;        ///< limits of that improvement
-    Beside beside;                   ///< constraints in an assembly, set by `sweep_assembly()`
+    int order = 1;                       ///< order of the cells: 1 or 2
+    SecondOrderOptions second_order;     ///< options of order 2
+    double min_scaled_jacobian = 0;      ///< lower bound for accepted meshes [0, 1]
+    bool improve = true;                 ///< move nodes of folded or poor cells
+    ImproveOptions improving;            ///< limits of that improvement
+    Beside beside;                       ///< constraints in an assembly, set by `sweep_assembly()`
     /// Whether nodes of layers may be generated only when they are written; see `Swept::layers`.
     bool layered = false;
     const Crew* crew = nullptr; ///< processes that help with generated layers; null: none

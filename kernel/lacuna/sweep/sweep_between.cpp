@@ -17,7 +17,6 @@
 #include <lacuna/sweep/detail/keep_thickness.h>
 #include <lacuna/sweep/detail/morph.h>
 #include <lacuna/sweep/detail/morph_ends.h>
-#include <lacuna/sweep/detail/normals.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/prove_or_improve.h>
 #include <lacuna/sweep/detail/shares.h>
@@ -143,7 +142,7 @@ std::optional<GoodLayers> good_layers(const surface::SourceMesh& source, const M
 bool may_be_layered(const SweepOptions& options)
 {
     return options.layered && (options.order == 1 || !options.beside.settle) &&
-           options.boundary_layers.empty() && options.interior != Interior::normals;
+           options.boundary_layers.empty();
 }
 
 /// Whether all faces of an end have given meshes that can be kept.
@@ -295,9 +294,8 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
     result.report.push_back("target: " + morphed.report);
     report_progress(context, "layers", share::layers);
     PlacementOptions placement;
-    placement.straight_lines = options.interior == Interior::automatic && ruled(volume, links);
+    placement.straight_lines = ruled(volume, links);
     placement.heights = heights;
-    placement.spread_residual = options.interior != Interior::affine;
     std::optional<GoodLayers> good;
     if (may_be_layered(options)) good = good_layers(source, morphed, columns, placement, options, context);
     LayerNodes layers;
@@ -306,9 +304,7 @@ ProvedSweep sweep_between(const OpenVolume& volume, std::vector<surface::Linking
         result.layers = std::move(good->layers.nodes);
         result.plan = std::move(good->layers.plan);
     } else {
-        layers = options.interior == Interior::normals
-                     ? place_along_normals(source.quads, morphed.nodes, columns, context)
-                     : place_layers(source.quads, morphed.nodes, columns, placement, context);
+        layers = place_layers(source.quads, morphed.nodes, columns, placement, context);
     }
     result.report.push_back(layers.report);
     SweptParts parts{split,       links, source, walls, ends, columns.layers, {}, !seeds.kept.empty(),

@@ -299,8 +299,7 @@ std::vector<std::string> write_swept(fill::Filled& filled, const WriteRequest& r
         if (!whole->swept.layers)
             whole->swept.report.emplace_back(
                 "sweep_to: the whole mesh was held in memory, because its nodes are not those of plain "
-                "layers: they were moved to improve cells, offset along normals, or belong to boundary "
-                "layers");
+                "layers: they were moved to improve cells, or belong to boundary layers");
         write(*whole, request, path, crew, context);
         return whole->swept.report;
     }

@@ -10,12 +10,8 @@ namespace lacuna::geometry {
 
 /// x of A x = b by LU with partial pivoting. @pre `matrix` is regular.
 Eigen::VectorXd solve_lu(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
-/// The same for each column of `right`.
-Eigen::MatrixXd solve_lu(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
 
-/// x of A x = b for a symmetric positive semidefinite matrix, of which the lower triangle is read.
-Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
-/// The same for each column of `right`.
+/// X of A X = B for a symmetric positive semidefinite matrix, of which the lower triangle is read.
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
 
 /// x with the least |A x - b|, by QR with column pivoting.

@@ -26,9 +26,6 @@ double incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 /// Exact in the same sense as `orient2d()`. A point on a side may count as inside or outside.
 bool lies_inside(std::span<const Vec2> polygon, const Vec2& p);
 
-/// Signed area of a closed polygon; > 0 if it runs counter-clockwise.
-double signed_area(std::span<const Vec2> polygon);
-
 /// Whether one closed polygon lies inside another. The two may share vertices or sides, but must not cross.
 /// O(n log n).
 bool encloses(std::span<const Vec2> outer, std::span<const Vec2> inner);

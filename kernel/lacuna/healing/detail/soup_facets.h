@@ -4,6 +4,7 @@
 #include <lacuna/healing/split_facets.h>
 #include <lacuna/topology/model.h>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Facets {
 
 /// Area times unit normal of a facet.
 Vec3 area_vector(const std::vector<Vec3>& points, const Triangle& facet);
+
+/// Split a quad along the diagonal for which the worse of the two halves is better shaped.
+std::array<Triangle, 2> halves_of(const std::vector<Vec3>& points, const Quad& q);
 
 /// Weld the points of a soup, drop collapsed facets and duplicates within a label, and cut facets where a
 /// point of one free side lies on another (T-junction). Halves of quads are not cut.

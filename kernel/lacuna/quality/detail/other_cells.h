@@ -43,7 +43,7 @@ inline std::span<const std::uint8_t> corners_of(CellKind kind)
 using CellCorners = std::array<Vec3, 8>;
 
 struct OtherValues {
-    double scaled = 0;     ///< `wedge_scaled_jacobian()`, `pyramid_…` or `tet_scaled_jacobian()`
+    double scaled = 0;     ///< see `scaled_determinant()`
     double jacobian = 0;   ///< smallest Jacobian at the corners, except at a pyramid's apex
     double volume = 0;     ///< exact
     bool positive = false; ///< the Jacobian is positive everywhere, except at a pyramid's apex
@@ -64,7 +64,8 @@ struct CornerNeighbours {
 std::span<const CornerNeighbours> neighbours_in(CellKind kind);
 
 /// The determinant of three edges divided by the product of their lengths, scaled to be 1 at the corners of a
-/// cell with equal edges; at most 1.
+/// cell with equal edges; at most 1. The scaled Jacobian of a cell is the smallest of its corners, as in
+/// Verdict; of a pyramid, of the corners of its base, where Verdict takes those of the tetrahedra there.
 inline double scaled_determinant(CellKind kind, double determinant, const std::array<Vec3, 3>& edges)
 {
     const double lengths = edges[0].norm() * edges[1].norm() * edges[2].norm();

@@ -34,8 +34,7 @@ public:
 
 private:
     void fit_straight(std::span<const double> heights);
-    void fit_rims(std::span<const double> heights, const PlacementOptions& options, const RunContext& context,
-                  std::span<Vec3> room);
+    void fit_rims(std::span<const double> heights, const RunContext& context, std::span<Vec3> room);
 
     const mesh::QuadMesh& source_;
     std::span<const Vec3> target_;

@@ -12,14 +12,12 @@
 namespace lacuna::sweep {
 
 /// The method by which the inside of the layers was placed.
-enum class Placement { straight, affine, fitted, normals };
+enum class Placement { straight, affine, fitted };
 
 struct PlacementOptions {
     bool straight_lines = false; ///< nodes lie on straight lines from source to target: class I of Roca and
                                  ///< Sarrate (2010)
     std::vector<double> heights; ///< layers + 1 numbers from 0 to 1; empty: from the columns' lengths [-]
-    /// Whether the residual of the rims is spread; false: the affine fit alone, for comparison.
-    bool spread_residual = true;
 };
 
 /// Node coordinates of all layers.
