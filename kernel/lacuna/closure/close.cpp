@@ -133,35 +133,6 @@ bool asks_for_shape(const CloseOptions& options)
            options.cap != Cap::automatic;
 }
 
-/// Note an assumption about missing walls next to a missing end. The uncertain share of the volume is
-/// estimated as the volume of a bulge of these walls by a quarter of their width. The width of a wall is
-/// taken as 4 area / perimeter.
-void assume_walls(const OpenVolume& sealed, const Message& note, Closure& closure)
-{
-    const double taken = enclosed_volume(sealed);
-    double open = 0;
-    for (const FaceId face : closure.void_faces) {
-        double perimeter = 0;
-        for (const EdgeUse& use : uses_of(sealed.model[face]))
-            perimeter += edge_length(sealed.model, use.edge);
-        if (sealed.role[face.index()] == Role::wall)
-            open += std::pow(face_area(sealed.model, face), 2) / perimeter;
-    }
-    assume(closure, {note.code(), "{}; this encloses {:.4g}", note.parts(), taken}, open / taken);
-}
-
-/// For each rim of the source, the share of its edges without a wall.
-std::vector<double> shares_without_walls(const OpenVolume& volume)
-{
-    std::vector<double> shares;
-    for (const Rim& rim : rims(volume.model, volume.faces(Role::source))) {
-        const auto bare = std::ranges::count_if(
-            rim.uses, [&](const EdgeUse& use) { return volume.model.uses_of_edge(use.edge).size() == 1; });
-        shares.push_back(static_cast<double>(bare) / static_cast<double>(rim.uses.size()));
-    }
-    return shares;
-}
-
 /// The options of close(); a trial does not compare alternative shapes.
 struct Asked : CloseOptions {
     bool trial = false;
@@ -401,14 +372,6 @@ std::optional<Closed> seal_as_source_tells(const OpenVolume& volume, const Close
     Closure& closure = moved->closure;
     closure.value = VolumeClass::IV;
     closure.algorithms.insert(closure.algorithms.begin(), "Algorithm 10");
-    const auto without = std::ranges::count_if(shares_without_walls(volume), [](double s) { return s > 0; });
-    if (without > std::ssize(holes_without_walls(volume)))
-        assume_walls(moved->volume,
-                     {"closure.end_moved",
-                      "the target and walls next to it are missing; the target is assumed to have the shape "
-                      "of the source {}, moved onto the tops of the given walls",
-                      entity_of(volume.model, moved->from)},
-                     closure);
     return std::move(*moved);
 }
 

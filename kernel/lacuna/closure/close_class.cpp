@@ -17,7 +17,9 @@
 #include <algorithm>
 #include <iterator>
 #include <numbers>
+#include <ranges>
 #include <set>
+#include <utility>
 
 namespace lacuna::closure {
 
@@ -88,11 +90,18 @@ void turn_target_to_source(OpenVolume& volume, const matching::Match& match)
     }
 }
 
-/// Add a void wall for each free loop: eq. (2) of the paper, V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi.
+/// Add a void wall for each free loop: eq. (2) of the paper, V = ∪(Fs, Ft) + ∪ Fi + ∪ Fvi. Departure: a flat
+/// loop within another in its plane, such as the mouth of a bore, is a hole of that loop's wall.
 void add_void_walls(OpenVolume& volume, const Tools& tools, Closure& closure)
 {
+    const std::vector<Loop> loops = void_loops(volume, closure.void_edges);
     std::vector<std::vector<Loop>> walls;
-    for (const Loop& loop : void_loops(volume, closure.void_edges)) walls.push_back({loop});
+    for (const Loop& loop : loops) walls.push_back({loop});
+    for (const FlatRegion& region : flat_regions(volume.model, loops))
+        for (const std::size_t hole : region.loops | std::views::drop(1))
+            std::ranges::move(std::exchange(walls[hole], {}),
+                              std::back_inserter(walls[region.loops.front()]));
+    std::erase_if(walls, [](const std::vector<Loop>& wall) { return wall.empty(); });
     add_faces(volume, closure, walls, Role::wall, tools);
     note(closure, "Algorithm 3");
 }

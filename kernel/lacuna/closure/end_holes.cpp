@@ -38,6 +38,17 @@ std::vector<EndHole> holes_without_walls(const OpenVolume& volume)
     return holes;
 }
 
+std::vector<double> shares_without_walls(const OpenVolume& volume)
+{
+    std::vector<double> shares;
+    for (const Rim& rim : rims(volume.model, volume.faces(Role::source))) {
+        const auto bare = std::ranges::count_if(
+            rim.uses, [&](const EdgeUse& use) { return volume.model.uses_of_edge(use.edge).size() == 1; });
+        shares.push_back(static_cast<double>(bare) / static_cast<double>(rim.uses.size()));
+    }
+    return shares;
+}
+
 std::vector<FaceId> cover_holes(OpenVolume& volume, const std::vector<EndHole>& holes,
                                 const RunContext& context)
 {

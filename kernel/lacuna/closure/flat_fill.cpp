@@ -27,30 +27,6 @@ using namespace topology;
 
 namespace {
 
-/// Coplanar loops.
-struct Coplanar {
-    geometry::Plane plane;
-    std::vector<std::size_t> loops;
-};
-
-std::vector<Coplanar> by_plane(const Model& model, const std::vector<Loop>& loops)
-{
-    std::vector<Coplanar> planes;
-    for (std::size_t i = 0; i < loops.size(); ++i) {
-        const std::vector<Vec3> points = loop_places(model, loops[i].uses);
-        const auto own = std::ranges::find_if(planes, [&](const Coplanar& other) {
-            return std::ranges::all_of(points, [&](const Vec3& p) {
-                return std::abs(geometry::height(other.plane, p)) <= model.tolerance;
-            });
-        });
-        if (own != planes.end())
-            own->loops.push_back(i);
-        else
-            planes.push_back({geometry::newell_plane({&points, 1}), {i}});
-    }
-    return planes;
-}
-
 /// Divide loops so that none passes a vertex twice: where two missing faces touch in a vertex, one free loop
 /// runs round both.
 std::vector<Rim> simple_loops(const Model& model, const std::vector<Rim>& loops)
@@ -119,7 +95,7 @@ std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const
         if (split->is_assumed)
             assume(filling.closure,
                    Message("closure.edge_assumed",
-                           "two flat faces that meet in a straight edge are assumed to be missing beside {}",
+                           "flat faces that meet in straight edges are assumed to be missing beside {}",
                            entities_of(model, faces_at(model, rim)))
                        .remedy("if more faces are missing there, give them"),
                    1);
@@ -130,19 +106,14 @@ std::optional<ToFill> loops_to_fill(FlatFilling& filling, Missing missing, const
 void fill_flat(FlatFilling& filling, const std::vector<Loop>& loops, const RunContext& context)
 {
     Model& model = filling.volume.model;
-    for (const Coplanar& one : by_plane(model, loops)) {
+    for (const FlatRegion& region : flat_regions(model, loops)) {
         check_cancelled(context);
-        std::vector<std::vector<Vec2>> flat;
-        for (const std::size_t loop : one.loops)
-            flat.push_back(flat_places(one.plane, loop_places(model, loops[loop].uses)));
-        for (const std::vector<std::size_t>& region : regions_of(flat)) {
-            std::vector<std::vector<EdgeUse>> bounds;
-            for (const std::size_t loop : region) bounds.push_back(loops[one.loops[loop]].uses);
-            filling.each_alone = filling.each_alone && region.size() == 1;
-            const FaceId face = add_partition(model, bounds, one.plane, "", context);
-            filling.volume.role.push_back(Role::wall);
-            filling.closure.void_faces.push_back(face);
-        }
+        std::vector<std::vector<EdgeUse>> bounds;
+        for (const std::size_t loop : region.loops) bounds.push_back(loops[loop].uses);
+        filling.each_alone = filling.each_alone && region.loops.size() == 1;
+        const FaceId face = add_partition(model, bounds, region.plane, "", context);
+        filling.volume.role.push_back(Role::wall);
+        filling.closure.void_faces.push_back(face);
     }
 }
 
@@ -183,6 +154,17 @@ bool prove(FlatFilling& filling, const RunContext& context)
     orient_consistently(volume.model);
     filling.closure.watertight = is_watertight(volume) && !first_crossing(volume, context);
     return filling.closure.watertight;
+}
+
+/// Fill the free loops of some faces, prove the result and note what is assumed.
+std::optional<FlatFilling> fill_and_note(const Model& model, const std::vector<FaceId>& faces,
+                                         Missing missing, const RunContext& context)
+{
+    auto filled = fill_loops(model, faces, missing, context);
+    if (!filled || !prove(*filled, context)) return std::nullopt;
+    note_closed_holes(model, faces, filled->volume, filled->closure);
+    note_open_rims(filled->volume, RolesBy::finding, filled->closure);
+    return filled;
 }
 
 /// Largest angle between the source's plane and a new face of the missing end [degrees]; chamfers and roof
@@ -237,23 +219,45 @@ bool has_flat_loops(const Model& model, FaceId face)
                                [&](const Loop& loop) { return is_flat(model, {loop.uses}); });
 }
 
+std::vector<FlatRegion> flat_regions(const Model& model, const std::vector<Loop>& loops)
+{
+    std::vector<FlatRegion> planes; // the loops of each plane
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+        if (!is_flat(model, {loops[i].uses})) continue;
+        const std::vector<Vec3> points = loop_places(model, loops[i].uses);
+        const auto own = std::ranges::find_if(planes, [&](const FlatRegion& other) {
+            return std::ranges::all_of(points, [&](const Vec3& p) {
+                return std::abs(geometry::height(other.plane, p)) <= model.tolerance;
+            });
+        });
+        if (own != planes.end())
+            own->loops.push_back(i);
+        else
+            planes.push_back({geometry::newell_plane({&points, 1}), {i}});
+    }
+    std::vector<FlatRegion> regions;
+    for (const FlatRegion& one : planes) {
+        std::vector<std::vector<Vec2>> flat;
+        for (const std::size_t loop : one.loops)
+            flat.push_back(flat_places(one.plane, loop_places(model, loops[loop].uses)));
+        for (const std::vector<std::size_t>& region : regions_of(flat)) {
+            FlatRegion& added = regions.emplace_back(one.plane);
+            for (const std::size_t loop : region) added.loops.push_back(one.loops[loop]);
+        }
+    }
+    return regions;
+}
+
 std::optional<FlatFilling> fill_flat_loops(const Model& model, const std::vector<FaceId>& faces,
                                            const RunContext& context)
 {
-    auto filled = fill_loops(model, faces, Missing::flat, context);
-    if (!filled || !prove(*filled, context)) return std::nullopt;
-    note_closed_holes(model, faces, filled->volume, filled->closure);
-    return filled;
+    return fill_and_note(model, faces, Missing::flat, context);
 }
 
 std::optional<FlatFilling> fill_all_loops(const Model& model, const std::vector<FaceId>& faces,
                                           const RunContext& context)
 {
-    auto filled = fill_loops(model, faces, Missing::any, context);
-    if (!filled || !prove(*filled, context)) return std::nullopt;
-    note_closed_holes(model, faces, filled->volume, filled->closure);
-    note_open_rims(filled->volume, RolesBy::finding, filled->closure);
-    return filled;
+    return fill_and_note(model, faces, Missing::any, context);
 }
 
 std::optional<FlatFilling> fill_missing_end(const OpenVolume& volume, const RunContext& context)

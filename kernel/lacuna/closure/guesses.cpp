@@ -5,6 +5,7 @@
 #include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/membranes.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
+#include <lacuna/closure/detail/round_walls.h>
 #include <lacuna/closure/detail/thin_plate.h>
 #include <lacuna/closure/detail/touching_faces.h>
 #include <lacuna/core/shared/criteria.h>
@@ -14,11 +15,13 @@
 #include <lacuna/topology/shared/face_parts.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
+#include <lacuna/topology/shared/names_of.h>
 #include <lacuna/topology/shared/use_places.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -273,6 +276,33 @@ std::vector<NamedEntity> given_beside(const Model& model, FaceId face)
     return beside;
 }
 
+/// Note flat void faces in circles: balls, cones and rings go through a circle as well, and no edge shows
+/// which of these is missing.
+void note_flat_in_circles(const Model& model, double enclosed, Closure& closure)
+{
+    std::vector<FaceId> flat;
+    std::set<FaceId> beside;
+    double largest = 0;
+    for (const FaceId face : closure.void_faces) {
+        const std::optional<double> radius = radius_of_disc(model, face);
+        std::set<FaceId> given = faces_beside(model, face);
+        std::erase_if(given, [&](FaceId other) { return model[other].origin != Origin::given; });
+        if (!radius || given.empty() || face_round_hole(model, face)) continue;
+        flat.push_back(face);
+        beside.merge(given);
+        largest = std::max(largest, *radius);
+    }
+    if (flat.empty()) return;
+    const double half_ball = 2 * std::numbers::pi / 3 * std::pow(largest, 3);
+    assume(closure,
+           Message("closure.flat_assumed",
+                   "flat faces are assumed in the circles beside {}: {}; balls, cones and rings go through a "
+                   "circle as well, and half a ball changes the volume by {:.2g} %",
+                   entities_of(model, beside), entities_of(model, flat), 100 * half_ball / enclosed)
+               .remedy("if a true face is not flat or has a hole, give it"),
+           1);
+}
+
 /// Largest distance of the other void faces from the mean plane of one void face [model length].
 double reach_of_others(const Model& model, const std::vector<FaceId>& void_faces, FaceId face)
 {
@@ -319,6 +349,20 @@ void assume(Closure& closure, Message note, double share)
 {
     if (share > kVolumeNoted) closure.assumptions.push_back(closure.notes.size());
     closure.notes.push_back(std::move(note));
+}
+
+void assume_walls(const OpenVolume& sealed, const Message& note, Closure& closure)
+{
+    const double taken = enclosed_volume(sealed);
+    double open = 0;
+    for (const FaceId face : closure.void_faces) {
+        double perimeter = 0;
+        for (const EdgeUse& use : uses_of(sealed.model[face]))
+            perimeter += edge_length(sealed.model, use.edge);
+        if (sealed.role[face.index()] == Role::wall)
+            open += std::pow(face_area(sealed.model, face), 2) / perimeter;
+    }
+    assume(closure, {note.code(), "{}; this encloses {:.4g}", note.parts(), taken}, open / taken);
 }
 
 void note_closed_holes(const Model& model, const std::vector<FaceId>& given, const OpenVolume& sealed,
@@ -369,6 +413,7 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
                        entity_of(model, face))
                    .remedy("if the true face bulges otherwise, give it"),
                std::abs(beside_thin_plate(model, face).above) / enclosed);
+    if (by == RolesBy::finding) note_flat_in_circles(model, enclosed, closure);
     for (const FaceId face : closure.void_faces) {
         // If the user named the roles, exactly one wall is missing there. Otherwise the void face may stand
         // for several faces.

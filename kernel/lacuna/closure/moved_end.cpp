@@ -4,6 +4,7 @@
 #include <lacuna/closure/detail/climber.h>
 #include <lacuna/closure/detail/close_trial.h>
 #include <lacuna/closure/detail/end_holes.h>
+#include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/unless_refused.h>
 #include <lacuna/closure/detail/void_entities.h>
 #include <lacuna/core/shared/constants.h>
@@ -438,7 +439,17 @@ std::optional<MovedEnd> move_end(const OpenVolume& open, const Known& known, boo
                                          mover.made_edges().end());
         result.enclosed = enclosed_volume(result.volume);
         result.through = mover.has_bare_rim();
-        result.holes = !holes_without_walls(open).empty();
+        const std::vector<EndHole> holes = holes_without_walls(open);
+        result.holes = !holes.empty();
+        const auto without = std::ranges::count_if(shares_without_walls(open),
+                                                   [](double share) { return share > 0; });
+        if (without > std::ssize(holes))
+            assume_walls(result.volume,
+                         {"closure.end_moved",
+                          "the target and walls next to it are missing; the target is assumed to have the "
+                          "shape of the source {}, moved onto the tops of the given walls",
+                          entity_of(open.model, end)},
+                         result.closure);
         return result;
     });
 }

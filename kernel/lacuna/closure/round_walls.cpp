@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/round_walls.h>
 
+#include <lacuna/closure/detail/four_corners.h>
 #include <lacuna/closure/detail/guesses.h>
 #include <lacuna/closure/detail/outline.h>
 #include <lacuna/closure/detail/touching_faces.h>
@@ -306,7 +307,7 @@ std::optional<RoundWall> wall_through(const Model& model, const Loop& loop)
     const std::vector<Vec3> places = loop_places(model, loop.uses);
     for (const EdgeUse& use : loop.uses) {
         const std::vector<Vec3> arc = use_places(model, use);
-        if (arc.size() < 4) continue; // any three points lie on a circle
+        if (arc.size() < 4 || is_straight(model, {use})) continue; // any three points lie on a circle
         const std::optional<Circle> circle = circle_through(arc);
         const auto is_flat_arc = [&](const Vec3& p) {
             return std::abs(geometry::height(circle->base, p)) <= kVisible * circle->radius;
@@ -332,6 +333,16 @@ std::optional<RoundWall> wall_through(const Model& model, const Loop& loop)
 }
 
 } // namespace
+
+std::optional<double> radius_of_disc(const Model& model, FaceId face)
+{
+    const std::vector<Loop>& loops = model[face].loops;
+    if (loops.size() != 1 || !is_flat(model, {loops.front().uses}) ||
+        !sharp_corners(model, loops.front()).empty())
+        return std::nullopt;
+    const auto rim = round_rim(model, {loops.front().uses}, 0);
+    return rim ? std::optional(rim->radius) : std::nullopt;
+}
 
 bool continues_given_planes(const Model& model, const Rim& rim)
 {
@@ -399,7 +410,7 @@ std::vector<Rim> add_straight_walls(FlatFilling& filling, std::vector<Rim> loops
                 "the missing walls at the rim of {} are assumed to be straight, up to the plane of the "
                 "missing face beside {}",
                 entities_of(model, at), entities_of(model, beyond)},
-               0);
+               1);
     }
     return loops;
 }

@@ -247,9 +247,10 @@ bool ends_straight_groove(const Model& model, const Rim& rim, const std::vector<
 }
 
 /// Separate the ends of a straight groove from its loop. Runs in the plane of its mouth are part of the
-/// mouth, not ends.
+/// mouth, not ends. The mouth is assumed to be flat if its given edges are two straight lines, which are
+/// parallel and thus always coplanar.
 /// @return  empty if it is no such groove; the model is then unchanged
-std::optional<std::vector<Loop>> part_groove(Model& model, const Rim& rim, std::vector<Run> ends)
+std::optional<SplitLoop> part_groove(Model& model, const Rim& rim, std::vector<Run> ends)
 {
     if (!ends_straight_groove(model, rim, ends)) return std::nullopt;
     Model tried = model;
@@ -263,8 +264,13 @@ std::optional<std::vector<Loop>> part_groove(Model& model, const Rim& rim, std::
         });
     };
     if (std::erase_if(ends, in_mouth) > 0) return part_groove(model, rim, std::move(ends));
+    std::size_t lines = 0;
+    for (std::size_t r = 0; r < ends.size(); ++r) {
+        const Run side = between(rim, ends, r);
+        if (side.count > 0) lines += 1 + turns(use_places(model, uses_of(rim, side)));
+    }
     model = std::move(tried);
-    return parts;
+    return SplitLoop{.parts = std::move(parts), .is_assumed = lines <= 2};
 }
 
 } // namespace
@@ -280,7 +286,7 @@ std::optional<SplitLoop> split_loop(Model& model, const Rim& rim)
             return SplitLoop{.parts = cut_off(model, rim, {*half}), .is_assumed = !one || !other};
     }
     const std::vector<Run> ends = groove_ends(model, rim, run);
-    if (auto parts = part_groove(model, rim, ends)) return SplitLoop{std::move(*parts)};
+    if (auto groove = part_groove(model, rim, ends)) return groove;
     const std::vector<Run> alike = channel_ends(model, rim, ends);
     if (alike.empty()) return std::nullopt;
     return SplitLoop{cut_off(model, rim, alike), true};

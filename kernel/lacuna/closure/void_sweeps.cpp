@@ -195,7 +195,9 @@ std::optional<Reading> leave_holes_open(const Model& model, const std::vector<Re
                   entity_of(model, holed->holed)));
     Reading reading;
     reading.holed = holed->holed;
-    take_open(model, std::move(roles), reading, context);
+    // Faces that are connected to the others by missing faces alone cannot be walls.
+    if (!unless_refused([&] { return take_open(model, std::move(roles), reading, context), true; }))
+        return std::nullopt;
     if (reading.classification.value != VolumeClass::IV || holes_without_walls(reading.volume).empty())
         return std::nullopt;
     const HoleVolumes volumes = hole_volumes(reading.volume, {}, context);

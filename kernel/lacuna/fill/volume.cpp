@@ -209,16 +209,15 @@ Volume with_rims_divided(const Volume& volume, const RunContext& context)
     const bool as_found = volume.roles_found && !volume.told;
     if (volume.along || volume.no_roles || (!as_found && (volume.match || volume.closure))) return volume;
     Volume divided = volume;
-    if (divided.closure) {
-        // Walls that touch no given end cannot be opened, so the volume stays sealed if it has no rounds.
-        closure::split_round_rims(divided.volume, closure::RoundsOf::walls, context);
-        if (divided.volume.model.faces.size() == volume.volume.model.faces.size()) return volume;
-        divided.volume = volume.volume;
-        reopen(divided, context);
-    }
     const std::size_t faces = divided.volume.model.faces.size();
     closure::split_round_rims(divided.volume, closure::RoundsOf::walls, context);
     if (divided.volume.model.faces.size() == faces) return volume;
+    if (divided.closure) {
+        closure::Closed sealed{std::move(divided.volume), std::move(*divided.closure)};
+        closure::list_void(sealed);
+        divided.volume = std::move(sealed.volume);
+        divided.closure = std::move(sealed.closure);
+    }
     if (divided.volume.model.faces.size() > faces) log_line(context, kRimsDivided);
     note_joined(volume.volume.model, {{divided.volume, 0}}, context);
     divided.match.reset();

@@ -21,6 +21,9 @@ struct EndHole {
 /// largest area is its outline, and the others are holes.
 std::vector<EndHole> holes_without_walls(const topology::OpenVolume& volume);
 
+/// For each rim of the source, the share of its edges without a wall.
+std::vector<double> shares_without_walls(const topology::OpenVolume& volume);
+
 /// Close each hole by a void face in the end's surface, which becomes part of that end.
 /// @throw NotClosed  no face fits a hole's rim.
 std::vector<FaceId> cover_holes(topology::OpenVolume& volume, const std::vector<EndHole>& holes,

@@ -3,7 +3,9 @@
 
 #include <lacuna/closure/close.h>
 #include <lacuna/core/run_context.h>
+#include <lacuna/geometry/newell.h>
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -15,6 +17,15 @@ struct FlatFilling : Closed {
     bool each_alone = true; ///< whether each loop is planar and has its own face
     bool channel = false;   ///< whether a loop was split at two congruent ends
 };
+
+/// Loops that bound one flat face: indices of the outer loop, then of its holes.
+struct FlatRegion {
+    geometry::Plane plane;
+    std::vector<std::size_t> loops{};
+};
+
+/// Sort the flat ones of some loops into the flat faces that they bound.
+std::vector<FlatRegion> flat_regions(const topology::Model& model, const std::vector<topology::Loop>& loops);
 
 /// Fill the free loops of some faces with flat faces. Coplanar nested loops bound one face with holes. A loop
 /// in two planes, as where an end and an adjacent wall are missing, is filled with two faces that meet in a

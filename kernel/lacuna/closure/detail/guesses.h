@@ -38,6 +38,11 @@ Message guess_of_hole(const topology::Model& model, FaceId face);
 /// @param share  relative change of the volume under the alternative
 void assume(Closure& closure, Message note, double share);
 
+/// Note an assumption about missing walls next to a missing end. The uncertain share of the volume is
+/// estimated as the volume of a bulge of these walls by a quarter of their width. The width of a wall is
+/// taken as 4 area / perimeter.
+void assume_walls(const topology::OpenVolume& sealed, const Message& note, Closure& closure);
+
 /// Note holes of given faces that void faces close in their planes, because an entirely missing pocket leaves
 /// no other trace. The note is an assumption if a pocket as deep as its mouth is wide would change the volume
 /// enough. Two more cases are noted: an end covers a hole because the given faces face into the void, and a
@@ -45,7 +50,8 @@ void assume(Closure& closure, Message note, double share);
 void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& given,
                        const topology::OpenVolume& sealed, Closure& closure);
 
-/// Note void faces over rims that do not determine their inside, and those over rough rims.
+/// Note void faces over rims that do not determine their inside, those over rough rims and, if the roles were
+/// found, flat ones in a circle.
 void note_open_rims(const topology::OpenVolume& sealed, RolesBy by, Closure& closure);
 
 } // namespace lacuna::closure

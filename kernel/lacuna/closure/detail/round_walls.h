@@ -21,6 +21,9 @@ namespace lacuna::closure {
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);
 
+/// Radius of a flat face whose only loop is a circle; empty for any other face.
+std::optional<double> radius_of_disc(const topology::Model& model, FaceId face);
+
 /// Whether a flat face in a rim would lie in the plane of all given faces round it. If so, a wall is missing
 /// there.
 bool continues_given_planes(const topology::Model& model, const topology::Rim& rim);

@@ -12,8 +12,8 @@ namespace lacuna::closure {
 struct SplitLoop {
     std::vector<topology::Loop> parts; ///< all but the last are planar
     bool channel = false;              ///< whether the first two parts are congruent ends
-    /// Whether one of two planar parts has only two straight given edges. These are always coplanar, so they
-    /// do not show that a flat face is missing.
+    /// Whether a planar part has only two straight given edges, which meet or are parallel. These are always
+    /// coplanar, so they do not show that a flat face is missing.
     bool is_assumed = false;
 };
 
