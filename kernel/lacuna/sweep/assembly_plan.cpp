@@ -16,6 +16,7 @@
 #include <lacuna/sweep/detail/member_edge.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
+#include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
 #include <lacuna/topology/shared/give_mesh.h>
 #include <lacuna/topology/shared/use_places.h>
@@ -42,6 +43,8 @@ namespace {
 constexpr double kMostNodes = 2e7;
 /// A request for a rim segment ignores an edge if it covers less than this share of the edge.
 constexpr double kInset = 1e-3;
+/// Number of places along an edge at which the size is sampled. Heuristic.
+constexpr std::size_t kSizeSamples = 128;
 /// Maximum number of rounds that make the number of sides of ends even. Each round adds a side to one class;
 /// families of blocks need far fewer.
 constexpr int kRounds = 64;
@@ -131,6 +134,7 @@ public:
             return std::max<double>(layers_[m], height / size(m, middle));
         });
         join_opposite();
+        find_directions();
         for (std::size_t e = 0; e < edges_.size(); ++e)
             if (stacked_.contains(same_.find(e))) common_[e] = false;
         find_across();
@@ -344,10 +348,47 @@ private:
         }
     }
 
+    /// Two edges with the same number of sides, and whether their sides correspond in opposite directions.
+    struct JoinedEdges {
+        std::size_t a = 0, b = 0;
+        bool reversed = false;
+    };
+    void join(std::size_t a, std::size_t b, bool reversed)
+    {
+        classes_.unite(a, b);
+        joined_.push_back({a, b, reversed});
+    }
+    /// Find the direction of each edge relative to the other edges of its class.
+    void find_directions()
+    {
+        std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>> beside; // of sets of same edges
+        for (const JoinedEdges& pair : joined_) {
+            const std::size_t a = same_.find(pair.a), b = same_.find(pair.b);
+            const bool reversed = pair.reversed != (runs_along(pair.a) != runs_along(pair.b));
+            beside[a].emplace_back(b, reversed);
+            beside[b].emplace_back(a, reversed);
+        }
+        std::map<std::size_t, bool> against; // of sets of same edges
+        for (const auto& [first, ignored] : beside) {
+            if (!against.emplace(first, false).second) continue;
+            for (std::vector<std::size_t> left{first}; !left.empty();) {
+                const std::size_t at = left.back();
+                left.pop_back();
+                for (const auto& [next, reversed] : beside.at(at))
+                    if (against.emplace(next, against.at(at) != reversed).second) left.push_back(next);
+            }
+        }
+        for (std::size_t e = 0; e < edges_.size(); ++e) {
+            const auto found = against.find(same_.find(e));
+            reversed_.push_back((found != against.end() && found->second) == runs_along(e));
+        }
+    }
+
     /// Join edges that must have the same number of sides for the sweep of a member.
     void join_by_sweep(std::size_t m)
     {
         std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
+        std::map<EdgeId, bool> reversed; // on the source: the side corresponds to one of the other direction
         const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(*members_[m].volume);
         find_demands(m, links);
         plan_sides(m, links);
@@ -368,6 +409,8 @@ private:
                     const EdgeId to = link.target.uses()[use].edge;
                     target_of[from].insert(to);
                     source_of[to].insert(from);
+                    reversed[from] = link.source.uses()[segment.use].reversed !=
+                                     link.target.uses()[use].reversed;
                     if (use == last) break;
                 }
             }
@@ -387,7 +430,7 @@ private:
         }
         for (const auto& [from, to] : target_of) {
             if (to.size() == 1 && source_of.at(*to.begin()).size() == 1)
-                classes_.unite(number(m, from), number(m, *to.begin()));
+                join(number(m, from), number(m, *to.begin()), reversed.at(from));
         }
     }
 
@@ -527,8 +570,10 @@ private:
         if (rows && loops.size() == 2 && loops[0].uses.size() == 1 && loops[1].uses.size() == 1)
             classes_.unite(number(m, loops[0].uses[0].edge), number(m, loops[1].uses[0].edge));
         if (loops.size() != 1 || loops[0].uses.size() != 4) return;
-        for (std::size_t k = 0; k < 2; ++k)
-            classes_.unite(number(m, loops[0].uses[k].edge), number(m, loops[0].uses[k + 2].edge));
+        for (std::size_t k = 0; k < 2; ++k) {
+            const EdgeUse &use = loops[0].uses[k], &opposite = loops[0].uses[k + 2];
+            join(number(m, use.edge), number(m, opposite.edge), use.reversed == opposite.reversed);
+        }
     }
 
     /// An edge that follows facets. `ends` are the positions of those of its vertices that become nodes, as
@@ -585,6 +630,62 @@ private:
                                  lines->second.end();
         if (is_side) sides = std::max(sides, static_cast<double>(layers_[edge.member]));
         return std::max(sides, turn * per_turn_[edge.member] / (2 * std::numbers::pi));
+    }
+
+    /// Numbers of sides for the whole length at places along each class that has an edge on the rim of a
+    /// source beside a narrow place. The classes of side lines are left out: layers do not follow narrow
+    /// places.
+    void find_dense()
+    {
+        std::set<std::size_t> layered;
+        for (const auto& [m, sides] : sides_)
+            for (const EdgeUse& side : sides) layered.insert(classes_.find(number(m, side.edge)));
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            const OpenVolume& volume = *members_[m].volume;
+            if (members_[m].fixed != nullptr) continue;
+            SourceSize sizes;
+            sizes.asked = [this, m](const Vec3& p) { return size(m, p); };
+            if (!members_[m].options.size) sizes.by_default.emplace();
+            reduce_by_shape(volume, members_[m].options, sizes);
+            if (!sizes.shape.width) continue;
+            for (const FaceId face : volume.faces(Role::source))
+                for (const Loop& loop : border_loops(model(m), face))
+                    for (const EdgeUse& use : loop.uses) {
+                        const std::size_t e = number(m, use.edge), of = classes_.find(e);
+                        if (layered.contains(of) || kept_[e] != Kept::no) continue;
+                        std::vector<double>& dense = dense_[of];
+                        dense.resize(kSizeSamples, 0);
+                        std::vector<double> at;
+                        for (std::size_t i = 0; i < kSizeSamples; ++i)
+                            at.push_back((static_cast<double>(i) + 0.5) / kSizeSamples);
+                        std::vector<Vec3> points = surface::edge_points(model(m), use.edge, at);
+                        if (reversed_[e]) std::ranges::reverse(points);
+                        for (std::size_t i = 0; i < kSizeSamples; ++i)
+                            dense[i] = std::max(dense[i], edges_[e].length / sizes.shape.at(points[i]));
+                    }
+        }
+    }
+    /// Node positions as shares of an edge's length: even, or by the sizes along its class.
+    [[nodiscard]] std::vector<double> spread(std::size_t e, int count) const
+    {
+        std::vector<double> at;
+        const auto found = dense_.find(classes_.find(e));
+        if (found == dense_.end() || edges_[e].closed) {
+            for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
+            return at;
+        }
+        const std::vector<double>& dense = found->second;
+        std::vector<double> sums{0};
+        for (const double sides : dense) sums.push_back(sums.back() + sides);
+        std::size_t k = 0;
+        for (int i = 0; i < count; ++i) {
+            const double sum = sums.back() * i / count;
+            while (sums[k + 1] < sum) ++k;
+            at.push_back((static_cast<double>(k) + (sum - sums[k]) / dense[k]) / kSizeSamples);
+        }
+        at.push_back(1);
+        if (reversed_[e]) reverse_heights(at);
+        return at;
     }
 
     [[nodiscard]] double size(std::size_t m, const Vec3& p) const
@@ -743,7 +844,10 @@ private:
             Kept& of = kept_of_class_[classes_.find(e)];
             of = std::max(of, kept_[e]);
         }
+        find_dense();
         std::map<std::size_t, double> most;
+        for (const auto& [of, dense] : dense_)
+            most[of] = std::accumulate(dense.begin(), dense.end(), 0.0) / kSizeSamples;
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             const std::size_t of = classes_.find(e);
             double& sides = most[of];
@@ -843,8 +947,7 @@ private:
                 return surface::edge_points(model(edges_[own].member), edges_[own].edge,
                                             spread_between(ends, static_cast<std::size_t>(count)));
         }
-        std::vector<double> at;
-        for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
+        std::vector<double> at = spread(e, count);
         // If one of the members requires a spacing of layers, use it.
         if (const auto lines = side_lines_.find(same_.find(e)); lines != side_lines_.end())
             for (const auto& [m, side] : lines->second) {
@@ -1136,10 +1239,13 @@ private:
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
     /// Sets of same edges that, in some member, form only a part of a side line.
     std::set<std::size_t> stacked_;
-    std::set<std::size_t> asked_;         ///< classes with a number requested by the user
-    std::map<std::size_t, int> bumps_;    ///< number of sides added to each class
-    PointsByPlace corners_{cell_width()}; ///< stored positions of vertices; see `corner_at()`
-    mutable std::vector<double> spacing_; ///< for each member's rim
+    std::vector<JoinedEdges> joined_;
+    std::vector<bool> reversed_;                       ///< for each edge, whether it runs against its class
+    std::map<std::size_t, std::vector<double>> dense_; ///< see `find_dense()`
+    std::set<std::size_t> asked_;                      ///< classes with a number requested by the user
+    std::map<std::size_t, int> bumps_;                 ///< number of sides added to each class
+    PointsByPlace corners_{cell_width()};              ///< stored positions of vertices; see `corner_at()`
+    mutable std::vector<double> spacing_;              ///< for each member's rim
 };
 
 } // namespace
