@@ -53,12 +53,13 @@ struct Command {
     const char* files;  ///< names of the files, in capitals
     std::size_t count;  ///< number of files
     const char* option; ///< the command's own option; null: none
+    bool words;         ///< whether key=value words may follow
     const char* summary;
     const char* help;
 };
 
 const Command kCommands[] = {
-    {"info", "FILE", 1, "--json", "list the faces of a file, their likely roles and the class",
+    {"info", "FILE", 1, "--json", false, "list the faces of a file, their likely roles and the class",
      R"(
 Reads CAD, facets or a finite element mesh, and prints one line for each face: its tag (the same as in
 Gmsh), type, dimensions, area, centre, normal, box, edges, neighbours and likely role. Then it lists free
@@ -68,7 +69,7 @@ part:open_volume { source = 12, target = 31 }.
 
   --json   print the result of model:info(), with file =, class =, roles = or roles_refused =, for scripts
 )"},
-    {"view", "FILE", 1, "--faces", "write an HTML page of a file's cells or faces",
+    {"view", "FILE", 1, "--faces", false, "write an HTML page of a file's cells or faces",
      R"(
 Writes FILE.view.html into the current folder, for any file that can be read. The page is self-contained:
 open it in a browser. A mesh or deck with solid elements is shown as cells, which can be cut and coloured; any
@@ -76,7 +77,7 @@ other file as faces, which can be selected and copied as roles.
 
   --faces  show the faces of a mesh or deck, to fill its voids
 )"},
-    {"check", "FILE", 1, "--json", "check a mesh; exit code 1 if a cell is invalid",
+    {"check", "FILE", 1, "--json", false, "check a mesh; exit code 1 if a cell is invalid",
      R"(
 Reads the solids of a mesh: %MESHES.
 Prints counts, a histogram of the scaled Jacobian and one line for each metric. A cell is valid if its
@@ -84,11 +85,25 @@ Jacobian is proven positive everywhere in it. The exit code is 1 if a cell is in
 
   --json   print all numbers and the worst cells as JSON, for scripts
 )"},
-    {"convert", "IN OUT", 2, nullptr, "convert a mesh or deck to another format",
+    {"convert", "IN OUT", 2, nullptr, false, "convert a mesh or deck to another format",
      R"(
 Reads a mesh, %READ, and writes it in the
 format given by the extension of OUT: %WRITTEN. Nodes, elements, their numbers,
 regions and sets are kept. Data that the format cannot store is listed on standard error.
+)"},
+    {"fill", "IN OUT", 2, nullptr, true, "fill the void of a file and write the mesh",
+     R"(
+Reads CAD, facets or a finite element mesh, finds the void, fills it with hexahedra and writes the mesh in the
+format given by the extension of OUT: %WRITTEN. Then it prints the
+quality of the mesh. The words are the options of lacuna.load, open_volume, sweep and mesh:write:
+
+  lacuna fill housing.step resin.inp source=16 walls=auto size=2 name=resin
+  lacuna fill pipe.stl case/constant/polyMesh size=2
+  lacuna fill old.inp new.inp source=FLOOR walls=auto with=true
+
+Without source, target, walls and faces all faces bound the void. `lacuna info IN` and `lacuna view IN` show
+the tags of faces. A list is written with commas, walls=4,5,6, a table as in Lua, 'layers={count=8,bias=2}'.
+with=true joins the new cells to the deck that was read.
 )"},
 };
 
@@ -228,6 +243,7 @@ void read_command(const Command& command, Words& words, CommandLine& line)
     line.action = Action::command;
     line.command = command.name;
     bool limits = false;
+    std::size_t parameters = 0;
     while (!words.empty()) {
         const std::string& word = words.take();
         if (word == "--help" || word == "-h") {
@@ -239,6 +255,8 @@ void read_command(const Command& command, Words& words, CommandLine& line)
         else if (word.size() > 1 && word[0] == '-' && !read_flag(word, words, line, limits))
             throw BadUsage(formatted("{0} has no option {1}; `lacuna {0} --help` lists its options",
                                      command.name, word));
+        else if (command.words && line.words.size() >= command.count && is_parameter(word))
+            line.words.push_back(word), ++parameters;
         else if (word[0] != '-' || word == "-")
             line.words.push_back(word);
     }
@@ -247,8 +265,8 @@ void read_command(const Command& command, Words& words, CommandLine& line)
     const std::string wants = formatted("{} needs {}, {}", command.name,
                                         command.count == 1 ? "a file" : "two files", command.files);
     if (line.words.size() < command.count) throw BadUsage(wants);
-    if (line.words.size() > command.count)
-        throw BadUsage(formatted("{}; found {} too", wants, line.words[command.count]));
+    if (line.words.size() > command.count + parameters)
+        throw BadUsage(formatted("{}; found {} too", wants, line.words.back()));
 }
 
 /// Read recipes, each followed by its parameters.
@@ -342,8 +360,8 @@ std::string help_text(const std::string& name)
 {
     if (const Command* command = find_command(name))
         return std::string("usage: lacuna ") + command->name +
-               (command->option ? std::string(" [") + command->option + "] " : " ") + command->files + "\n" +
-               with_endings(command->help);
+               (command->option ? std::string(" [") + command->option + "] " : " ") + command->files +
+               (command->words ? " [key=value ...]\n" : "\n") + with_endings(command->help);
     std::string text = kHelp;
     for (const Command& command : kCommands) {
         std::string left = std::string("  ") + command.name + " " + command.files;

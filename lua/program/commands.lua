@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: MIT
--- The commands of the program. Arguments: command, whether its own option is set, files.
+-- The commands of the program. Arguments: command, whether its own option is set, files, key=value words.
 local command, option, first, second = ...
 local lacuna = require "lacuna"
 
@@ -104,6 +104,56 @@ function commands.convert()
   print(("%s: %d nodes, %d elements"):format(second, found.nodes, found.elements))
 end
 
+-- --- fill --------------------------------------------------------------------------------------------------
+
+local function words(text)
+  local set = {}
+  for word in text:gmatch "%S+" do set[word] = true end
+  return set
+end
+
+-- The calls that take a key; all others are of volume:sweep.
+local calls = {
+  load = words "tolerance feature_angle keep_mesh keep_noise scale unit cad_seconds cad_megabytes",
+  open_volume = words "source target walls faces reading full_turn along fill_to class name material",
+  write = words "with version binary groups quality element orientation renumber first_node first_cell",
+}
+
+local function call_of(key)
+  for call, keys in pairs(calls) do
+    if keys[key] then return call end
+  end
+  return "sweep"
+end
+
+-- A value as it is typed: a number, true, false, a table of Lua, a list with commas, or else a string.
+local function value_of(key, text)
+  if tonumber(text) then return tonumber(text) end
+  if text == "true" or text == "false" then return text == "true" end
+  if text:find "^{" then
+    local read, why = load("return " .. text, "=" .. key, "t", {})
+    return read and read() or error(("%s=%s is no table: %s"):format(key, text, why), 0)
+  end
+  if not text:find "," then return text end
+  local list = {}
+  for each in text:gmatch "[^,]+" do list[#list + 1] = tonumber(each) or each end
+  return list
+end
+
+function commands.fill(...)
+  local options = { load = {}, open_volume = {}, sweep = {}, write = {} }
+  for _, word in ipairs { ... } do
+    local key, text = word:match "^([^=]*)=(.*)$"
+    options[call_of(key)][key] = value_of(key, text)
+  end
+  local model = lacuna.load(first, options.load)
+  if options.write.with == true then options.write.with = model end
+  local volume = model:open_volume(next(options.open_volume) and options.open_volume or nil)
+  local mesh = volume:sweep(options.sweep)
+  mesh:write(second, options.write)
+  print(mesh:quality())
+end
+
 -- List the parameters of the recipe `first`. The first function of lacuna that the recipe calls must be
 -- lacuna.params. That call ends the run, by calling `second`.
 function commands.parameters()
@@ -144,4 +194,4 @@ function commands.parameters()
   end
 end
 
-commands[command]()
+commands[command](select(5, ...))

@@ -115,4 +115,15 @@ local mantle = half:face { kind = "cylinder" }
 local coat = half:open_volume { source = mantle, along = { normals = 0.5 } }:sweep { size = 0.4, layers = 2 }
 check.near(coat:quality().volume / (pi / 2 * (2.5 ^ 2 - 4) * 5), 1, 0.01)
 
+
+-- A pin through a shorter bore: the rims of a tube coincide in its section, so nothing is laid out between
+-- the outlines of both ends, and the other plans fill the room.
+local pin = load("pin", [[
+Cylinder(1) = {0, 0, -5, 0, 0, 20, 5};
+Box(2) = {-15, -15, 0, 30, 30, 10};
+Cylinder(3) = {0, 0, -1, 0, 0, 12, 5.5};
+BooleanDifference(4) = { Volume{2}; Delete; }{ Volume{3}; Delete; };
+]])
+local around = pin:open_volume { source = { radius = { 4.9, 5.1 } }, target = { radius = { 5.4, 5.6 } } }
+check.that(around:sweep({ size = 1, layers = 3 }):quality().certified)
 check.done()

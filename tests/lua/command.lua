@@ -24,7 +24,7 @@ end
 
 expect({ "--version" }, 0, { "lacuna " .. lacuna.version, "Lua 5.4", lacuna.gmsh_version }, {})
 expect({ "--help" }, 0, { "usage: lacuna", "exit codes" }, {})
-for _, command in ipairs { "info", "view", "check", "convert" } do
+for _, command in ipairs { "info", "view", "check", "convert", "fill" } do
   for _, words in ipairs { { command, "--help" }, { "help", command }, { command, "x", "--help" } } do
     expect(words, 0, { "usage: lacuna " .. command }, {})
   end
@@ -38,7 +38,7 @@ for wrong, meant in pairs { inf = "info", inof = "info", infos = "info", infp = 
     expect(words, 2, {}, { "did you mean " .. meant .. "?" })
   end
 end
-expect({ "remesh", "x.step" }, 2, {}, { "remesh", "the commands are info, view, check, convert, help" })
+expect({ "remesh", "x.step" }, 2, {}, { "remesh", "the commands are info, view, check, convert, fill, help" })
 check.write(folder .. "/inf", "print 'a recipe'")
 expect({ "inf" }, 0, { "a recipe" }, {}) -- a file of that name is a recipe
 os.remove(folder .. "/inf")
@@ -283,6 +283,14 @@ end
 expect({ "convert", "good.msh", "x.xyz" }, 1, {}, { "x.xyz", ".vtu" })
 expect({ "convert", "nowhere.msh", "x.vtu" }, 1, {}, { "nowhere.msh" })
 check.that(not check.exists(folder .. "/x.vtu"))
+-- A void is filled without a recipe, with numbers, tables and names as values; folders are made for OpenFOAM.
+expect({ "fill", "good.msh", "again.vtu", "size=0.5", "keep_mesh=false", "layers={count=3,bias=2}",
+  "name=water" }, 0, { "hexahedra" }, nil)
+expect({ "fill", "good.msh", "case/constant/polyMesh", "size=0.5", "keep_mesh=false" }, 0, { "hexa" }, nil)
+check.that(check.exists(folder .. "/case/constant/polyMesh/owner"))
+expect({ "fill", "good.msh", "again.vtu", "siez=0.5" }, 1, {}, { "siez", "size" })
+expect({ "fill", "good.msh", "again.vtu", "layers={3" }, 1, {}, { "layers={3" })
+expect({ "fill", "good.msh" }, 2, {}, { "IN OUT" })
 local faces = json_of { "info", "--json", "good.msh" }
 check.that(faces:find('"faces": [{', 1, true) and faces:find('"area": ', 1, true), faces)
 

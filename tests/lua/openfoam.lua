@@ -289,7 +289,13 @@ do
   check.equal(checked(case, "the one before stays").zones, nil)
   local mesh = lacuna.synthetic.prism(drop()):open_volume {}:sweep { layers = 2, size = 0.5 }
   check.fails(function() mesh:write(case, { quality = true }) end, "quality", "lua.idle_option")
-  check.fails(function() mesh:write(params.scratch .. "/none/polyMesh") end, "there is no folder")
+  -- The folders of a case are made.
+  local deep = params.scratch .. "/case_made/constant/polyMesh"
+  os.execute(("rm -rf '%s/case_made'"):format(params.scratch))
+  mesh:write(deep)
+  check.that(exists(deep .. "/owner"))
+  check.write(params.scratch .. "/plain", "a file")
+  check.fails(function() mesh:write(params.scratch .. "/plain/polyMesh") end, "there is no folder")
   check.fails(function() lacuna.synthetic.prism(drop()):open_volume {}:sweep_to(case, { layers = 2 }) end,
     "lua.not_layered")
   -- A folder that holds anything else is not replaced.

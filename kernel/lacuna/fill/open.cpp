@@ -37,8 +37,11 @@ std::vector<std::string> find_walls(const Model& model, Roles& roles, const RunC
                 .remedy("name the source or the target"));
     const topology::WallChoice found = topology::find_walls(model, roles.source, roles.target, context);
     roles.walls = found.walls;
-    std::vector<FaceId>& end = roles.source.empty() ? roles.target : roles.source;
+    const bool by_target = roles.source.empty();
+    std::vector<FaceId>& end = by_target ? roles.target : roles.source;
+    std::vector<FaceId>& other = by_target ? roles.source : roles.target;
     end.insert(end.end(), found.more_of_end.begin(), found.more_of_end.end());
+    other.insert(other.end(), found.more_of_other.begin(), found.more_of_other.end());
     std::vector<std::string> reasons;
     if (found.of_cavity)
         reasons.emplace_back("the given end lies in a cavity of a solid, whose other faces are the walls");

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <system_error>
 #include <tuple>
 
@@ -30,9 +31,22 @@ std::vector<std::string> names_in(int folder, const std::string& name)
     return names;
 }
 
+namespace {
+
+/// Make the folders above a path that do not exist, as "case" and "constant" above "case/constant/polyMesh".
+void make_parents(const std::string& path)
+{
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    std::error_code ignored; // place() names the folder that is missing then
+    if (!path.ends_with("/") && !parent.empty()) std::filesystem::create_directories(parent, ignored);
+}
+
+} // namespace
+
 WholeFolder::WholeFolder(const OutputPath& path, const std::function<bool(std::string_view name)>& is_own)
     : path_(path.text())
 {
+    if (!path.folder_) make_parents(path_);
     std::tie(folder_, name_) = path.place();
     if (name_.empty())
         throw InvalidInput(Message("io.not_replaced",

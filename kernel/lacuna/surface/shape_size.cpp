@@ -160,15 +160,21 @@ private:
                 // curvature.
                 const double bend = at.curvature * sizing.curvature / kFullTurn;
                 const double most = 1 / std::max(1 / asked(at.point), bend);
-                // At a larger width than this, the size is not reduced.
-                const double reach = std::max(sizing.gap * most,
-                                              at.curvature * most * most / (8 * kSagOfWidth));
+                // At a larger width than this, the size is not reduced. Where the rim's curvature asks
+                // for shorter sides, a straight edge opposite within the requested size gets similar ones.
+                const double reach = std::max({sizing.gap * most,
+                                               at.curvature * most * most / (8 * kSagOfWidth),
+                                               most < asked(at.point) ? asked(at.point) : 0});
                 const auto facing = opposite(edge, start + (from + to) / 2, at, reach);
                 if (!facing) continue;
                 const double width = facing->width;
                 const auto because = [&](double size) {
                     take_least(cause, {size, face_, edge, facing->edge, width});
                 };
+                if (most < asked(at.point) && width < asked(at.point) && is_straight(facing->edge)) {
+                    sizes.push_back({at.point, most});
+                    because(most);
+                }
                 if (at.curvature > 0) {
                     const double size = std::sqrt(8 * kSagOfWidth * width / at.curvature);
                     if (size < most) sizes.push_back({at.point, size});
@@ -191,6 +197,12 @@ private:
             }
             start += length;
         }
+    }
+
+    [[nodiscard]] bool is_straight(EdgeId edge) const
+    {
+        const std::vector<Vec3> line = edge_line(model_, edge);
+        return geometry::arc_lengths(line).back() <= (line.back() - line.front()).norm() + model_.tolerance;
     }
 
     /// The boundary point opposite to this position, if it is within `reach`.

@@ -140,8 +140,7 @@ private:
                 return surface::edge_points(edges_.model(edges_[own].member), edges_[own].edge,
                                             spread_between(ends, static_cast<std::size_t>(count)));
         }
-        std::vector<double> at;
-        for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
+        std::vector<double> at = counts_.spread(e, count);
         // If one of the members requires a spacing of layers, use it.
         if (const auto lines = side_lines_.find(set); lines != side_lines_.end())
             for (const auto& [m, side] : lines->second) {

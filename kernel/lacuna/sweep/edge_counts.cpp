@@ -13,6 +13,7 @@
 #include <lacuna/sweep/detail/keep_thickness.h>
 #include <lacuna/sweep/detail/plan_heights.h>
 #include <lacuna/sweep/detail/shared_faces.h>
+#include <lacuna/sweep/detail/source_quads.h>
 #include <lacuna/sweep/detail/volume_share.h>
 
 #include <algorithm>
@@ -30,6 +31,8 @@ namespace {
 
 /// An interval request for part of a rim does not apply to an edge of which it covers less than this share.
 constexpr double kInset = 1e-3;
+/// Number of places along an edge at which the size is sampled. Heuristic.
+constexpr std::size_t kSizeSamples = 128;
 /// Maximum number of rounds that make the number of sides of ends even. Each round adds a side to one class;
 /// families of blocks need far fewer.
 constexpr int kRounds = 64;
@@ -92,6 +95,7 @@ EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
         class_.push_back(classes_.find(e));
         if (stacked_.contains(edges.set_of(e))) planned_[e] = false;
     }
+    find_directions();
     find_frame();
     find_across();
     find_rows();
@@ -99,9 +103,41 @@ EdgeCounts::EdgeCounts(const SameEdges& edges, const RunContext& context)
     make_even();
 }
 
+void EdgeCounts::join(std::size_t a, std::size_t b, bool reversed)
+{
+    classes_.unite(a, b);
+    joined_.push_back({a, b, reversed});
+}
+
+void EdgeCounts::find_directions()
+{
+    std::map<std::size_t, std::vector<std::pair<std::size_t, bool>>> beside; // of sets of same edges
+    for (const JoinedEdges& pair : joined_) {
+        const std::size_t a = edges_.set_of(pair.a), b = edges_.set_of(pair.b);
+        const bool reversed = pair.reversed != (edges_.runs_along(pair.a) != edges_.runs_along(pair.b));
+        beside[a].emplace_back(b, reversed);
+        beside[b].emplace_back(a, reversed);
+    }
+    std::map<std::size_t, bool> against; // of sets of same edges
+    for (const auto& [first, ignored] : beside) {
+        if (!against.emplace(first, false).second) continue;
+        for (std::vector<std::size_t> left{first}; !left.empty();) {
+            const std::size_t at = left.back();
+            left.pop_back();
+            for (const auto& [next, reversed] : beside.at(at))
+                if (against.emplace(next, against.at(at) != reversed).second) left.push_back(next);
+        }
+    }
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+        const auto found = against.find(edges_.set_of(e));
+        reversed_.push_back((found != against.end() && found->second) == edges_.runs_along(e));
+    }
+}
+
 void EdgeCounts::join_by_sweep(std::size_t m)
 {
     std::map<EdgeId, std::set<EdgeId>> target_of, source_of;
+    std::map<EdgeId, bool> reversed; // on the source: the side corresponds to one of the other direction
     const std::vector<surface::LinkingSurface> links = surface::linking_surfaces(*edges_.members()[m].volume);
     find_demands(m, links);
     plan_sides(m, links);
@@ -122,6 +158,7 @@ void EdgeCounts::join_by_sweep(std::size_t m)
                 const EdgeId to = link.target.uses()[use].edge;
                 target_of[from].insert(to);
                 source_of[to].insert(from);
+                reversed[from] = link.source.uses()[segment.use].reversed != link.target.uses()[use].reversed;
                 if (use == last) break;
             }
         }
@@ -141,7 +178,7 @@ void EdgeCounts::join_by_sweep(std::size_t m)
     }
     for (const auto& [from, to] : target_of) {
         if (to.size() == 1 && source_of.at(*to.begin()).size() == 1)
-            classes_.unite(edges_.number(m, from), edges_.number(m, *to.begin()));
+            join(edges_.number(m, from), edges_.number(m, *to.begin()), reversed.at(from));
     }
 }
 
@@ -196,8 +233,10 @@ void EdgeCounts::join_opposite(std::size_t m, FaceId face, bool rows)
     if (rows && loops.size() == 2 && loops[0].uses.size() == 1 && loops[1].uses.size() == 1)
         classes_.unite(edges_.number(m, loops[0].uses[0].edge), edges_.number(m, loops[1].uses[0].edge));
     if (loops.size() != 1 || loops[0].uses.size() != 4) return;
-    for (std::size_t k = 0; k < 2; ++k)
-        classes_.unite(edges_.number(m, loops[0].uses[k].edge), edges_.number(m, loops[0].uses[k + 2].edge));
+    for (std::size_t k = 0; k < 2; ++k) {
+        const EdgeUse &use = loops[0].uses[k], &opposite = loops[0].uses[k + 2];
+        join(edges_.number(m, use.edge), edges_.number(m, opposite.edge), use.reversed == opposite.reversed);
+    }
 }
 
 void EdgeCounts::find_across()
@@ -382,7 +421,10 @@ void EdgeCounts::count()
         SameEdges::Kept& of = kept_of_class_[class_of(e)];
         of = std::max(of, edges_.kept(e));
     }
+    find_dense();
     std::map<std::size_t, double> most;
+    for (const auto& [of, dense] : dense_)
+        most[of] = std::accumulate(dense.begin(), dense.end(), 0.0) / kSizeSamples;
     for (std::size_t e = 0; e < edges_.size(); ++e) {
         const std::size_t of = class_of(e);
         double& sides = most[of];
@@ -467,6 +509,58 @@ bool EdgeCounts::make_even(std::size_t m, FaceId face, int round)
     ++bumps_[best];
     count_[best] += round < kRounds / 2 ? 1 : count_[best] % 2;
     return true;
+}
+
+void EdgeCounts::find_dense()
+{
+    std::set<std::size_t> layered;
+    for (const auto& [m, sides] : sides_)
+        for (const EdgeUse& side : sides) layered.insert(class_of(edges_.number(m, side.edge)));
+    std::vector<double> at;
+    for (std::size_t i = 0; i < kSizeSamples; ++i)
+        at.push_back((static_cast<double>(i) + 0.5) / kSizeSamples);
+    for (std::size_t m = 0; m < edges_.members().size(); ++m) {
+        const AssemblyMember& member = edges_.members()[m];
+        if (member.fixed != nullptr) continue;
+        SourceSize sizes;
+        sizes.asked = [this, m](const Vec3& p) { return size(m, p); };
+        if (!member.options.size) sizes.by_default.emplace();
+        reduce_by_shape(*member.volume, member.options, sizes);
+        if (!sizes.shape.width) continue;
+        for (const FaceId face : member.volume->faces(Role::source))
+            for (const Loop& loop : border_loops(edges_.model(m), face))
+                for (const EdgeUse& use : loop.uses) {
+                    const std::size_t e = edges_.number(m, use.edge);
+                    if (layered.contains(class_of(e)) || edges_.kept(e) != SameEdges::Kept::no) continue;
+                    std::vector<double>& dense = dense_[class_of(e)];
+                    dense.resize(kSizeSamples, 0);
+                    std::vector<Vec3> points = surface::edge_points(edges_.model(m), use.edge, at);
+                    if (reversed_[e]) std::ranges::reverse(points);
+                    for (std::size_t i = 0; i < kSizeSamples; ++i)
+                        dense[i] = std::max(dense[i], edges_[e].length / sizes.shape.at(points[i]));
+                }
+    }
+}
+
+std::vector<double> EdgeCounts::spread(std::size_t e, int count) const
+{
+    std::vector<double> at;
+    const std::vector<double>* dense = entry(dense_, class_of(e));
+    if (dense == nullptr || edges_[e].closed) {
+        for (int i = 0; i <= count; ++i) at.push_back(static_cast<double>(i) / count);
+        return at;
+    }
+    std::vector<double> sums{0};
+    for (const double sides : *dense) sums.push_back(sums.back() + sides);
+    std::size_t k = 0;
+    for (int i = 0; i < count; ++i) {
+        const double sum = sums.back() * i / count;
+        while (sums[k + 1] < sum) ++k;
+        at.push_back((static_cast<double>(k) + (sum - sums[k]) / (*dense)[k]) / kSizeSamples);
+    }
+    at.push_back(1);
+    if (reversed_[e]) reverse_heights(at);
+    return at;
 }
 
 double EdgeCounts::size(std::size_t m, const Vec3& p) const

@@ -5,6 +5,7 @@
 #include <lacuna/core/shared/constants.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
+#include <lacuna/geometry/shared/predicates.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/morph.h>
@@ -80,6 +81,16 @@ void draw_in(const std::vector<Index>& loop, FlatRims& rims)
     }
 }
 
+double area_within(const std::vector<Vec2>& points, const std::vector<Index>& loop)
+{
+    double area = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Vec2 &a = points[index(loop[i])], &b = points[index(loop[(i + 1) % loop.size()])];
+        area += (a.x() * b.y() - a.y() * b.x()) / 2;
+    }
+    return area;
+}
+
 } // namespace
 
 surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh source,
@@ -93,11 +104,7 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     double largest = 0;
     for (const std::vector<Index>& loop : source.quads.loops) {
         draw_in(loop, rims);
-        double area = 0;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2 &a = rims.low[index(loop[i])], &b = rims.low[index(loop[(i + 1) % loop.size()])];
-            area += (a.x() * b.y() - a.y() * b.x()) / 2;
-        }
+        const double area = area_within(rims.low, loop);
         region.loops.push_back(loop);
         if (area <= largest) continue;
         largest = area;
@@ -105,7 +112,15 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     }
     region.points = rims.mean;
     region.size = [&](const Vec2& p) { return size(rims.lifted(p)); };
-    if (geometry::find_crossing(region.points, region.loops))
+    std::vector<Vec2> outline;
+    for (const Index p : region.loops.front()) outline.push_back(region.points[index(p)]);
+    const auto is_hole = [&](const std::vector<Index>& loop) {
+        return area_within(region.points, loop) < 0 &&
+               geometry::lies_inside(outline, region.points[index(loop.front())]);
+    };
+    // The rims of a tube coincide in its section.
+    if (geometry::find_crossing(region.points, region.loops) ||
+        !std::all_of(region.loops.begin() + 1, region.loops.end(), is_hole))
         throw NotSweepable("sweep.mean_outline",
                            "the source cannot be laid out between both outlines: their mean crosses itself");
     const quads::PlanarQuads filling = mesher(region, context);

@@ -153,6 +153,20 @@ quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow)
     };
 }
 
+void reduce_by_shape(const OpenVolume& volume, const SweepOptions& options, SourceSize& size)
+{
+    const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;
+    const bool gap_by_default = size.by_default && options.gap == 0;
+    size.sizing = gap_by_default ? surface::ShapeSizing{options.curvature, kDefaultGap, maps}
+                                 : surface::ShapeSizing{options.curvature, options.gap};
+    size.shape = surface::shape_size(volume, size.asked, size.sizing);
+    if (gap_by_default && size.shape.width && surface::asks_for_more(volume, size.shape.at, kMostForWidth)) {
+        size.too_narrow = size.shape.width;
+        size.sizing = {options.curvature, 0};
+        size.shape = surface::shape_size(volume, size.asked, size.sizing);
+    }
+}
+
 SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, KnownLinks& links,
                        const RunContext& context)
 {
@@ -168,17 +182,8 @@ SourceSize source_size(const OpenVolume& volume, const SweepOptions& options, Kn
         if (part < 1) size.by_default->why += formatted(", times {:.2g} because the ends bend", part);
         size.asked = surface::even_size(size.by_default->length *= part);
     }
-    const bool maps = options.quads == Quads::automatic || options.quads == Quads::mapped;
-    const bool gap_by_default = size.by_default && options.gap == 0;
     check_cancelled(context);
-    size.sizing = gap_by_default ? surface::ShapeSizing{options.curvature, kDefaultGap, maps}
-                                 : surface::ShapeSizing{options.curvature, options.gap};
-    size.shape = surface::shape_size(volume, size.asked, size.sizing);
-    if (gap_by_default && size.shape.width && surface::asks_for_more(volume, size.shape.at, kMostForWidth)) {
-        size.too_narrow = size.shape.width;
-        size.sizing = {options.curvature, 0};
-        size.shape = surface::shape_size(volume, size.asked, size.sizing);
-    }
+    reduce_by_shape(volume, options, size);
     const bool narrow_by_default = size.shape.width && options.gap == 0 && size.sizing.gap > 0;
     size.narrow = narrow_by_default || options.gap > 0;
     size.along = size.shape.at;

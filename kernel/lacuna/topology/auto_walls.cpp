@@ -234,7 +234,7 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
                                           const std::vector<FaceId>& target, const RunContext& context)
 {
     const std::vector<FaceId>& end = source.empty() ? target : source;
-    WallChoice result{cavity_round(model, end, context), {}, {}, true, {}};
+    WallChoice result{cavity_round(model, end, context), {}, {}, true, {}, {}};
     for (const FaceId face : end)
         if (!std::ranges::binary_search(result.walls, face)) return std::nullopt;
     const std::vector<FaceId> skin = reachable_from(model, result.walls, {}); // with faces outside the cavity
@@ -248,22 +248,33 @@ std::optional<WallChoice> walls_of_cavity(const Model& model, const std::vector<
     Model oriented = model;
     orient_consistently(oriented);
     const Vec3 way = face_area_vector(oriented, end.front()).stableNormalized();
-    const auto faces_as_end = [&](FaceId face) { // a flat face with the end's normal
-        return face_area_vector(oriented, face).dot(way) > (1 - kFlatShare) * face_area(oriented, face);
+    const auto is_flat = [&](FaceId face, const Vec3& normal) {
+        return face_area_vector(oriented, face).dot(normal) > (1 - kFlatShare) * face_area(oriented, face);
     };
+    const auto faces_as_end = [&](FaceId face) { return is_flat(face, way); };
     if (!std::ranges::all_of(end, faces_as_end)) return result;
     std::vector<FaceId> across = result.walls;
-    std::erase_if(across, faces_as_end);
+    std::erase_if(across, [&](FaceId face) { return is_flat(face, way) || is_flat(face, -way); });
     const std::set<FaceId> walls = beside_long_walls(oriented, across, end, result.walls);
-    const auto is_more = [&](FaceId face) { return faces_as_end(face) && !walls.contains(face); };
-    std::ranges::copy_if(result.walls, std::back_inserter(result.more_of_end), is_more);
-    std::erase_if(result.walls, is_more);
+    const auto take_flat = [&](const Vec3& normal, std::vector<FaceId>& into) {
+        const auto is_more = [&](FaceId face) { return is_flat(face, normal) && !walls.contains(face); };
+        std::ranges::copy_if(result.walls, std::back_inserter(into), is_more);
+        std::erase_if(result.walls, is_more);
+    };
+    take_flat(way, result.more_of_end);
+    take_flat(-way, result.more_of_other);
+    const NamedEntity first = entity_of(model, end.front());
     for (const FaceId face : result.more_of_end)
         log_line(
             context,
             formatted(
                 "note: {} of the same cavity becomes part of the end with {}, because both face the same way",
-                entity_of(model, face), entity_of(model, end.front())));
+                entity_of(model, face), first));
+    for (const FaceId face : result.more_of_other)
+        log_line(context,
+                 formatted("note: {} of the same cavity becomes part of the end opposite to {}, because "
+                           "it faces the other way",
+                           entity_of(model, face), first));
     return result;
 }
 
@@ -282,7 +293,7 @@ WallChoice find_walls(const Model& model, const std::vector<FaceId>& source,
     if (sheets.crowded()) choices = sheets.choices();
     if (choices && (source.empty() || target.empty()))
         std::erase_if(*choices, [](const Choice& choice) { return choice.free_length == 0; });
-    if (!choices || choices->empty()) return {reached, {}, {}, false, {}};
+    if (!choices || choices->empty()) return {reached, {}, {}, false, {}, {}};
     const double same = kFileAccuracy * model.diagonal;
     const double least = std::ranges::min_element(*choices, {}, &Choice::free_length)->free_length;
     std::erase_if(*choices, [&](const Choice& choice) { return choice.free_length > least + same; });

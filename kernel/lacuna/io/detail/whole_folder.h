@@ -18,13 +18,14 @@ std::vector<std::string> names_in(int folder, const std::string& name);
 /// A folder that appears completely or not at all. Its files are written to a hidden folder next to the final
 /// path. Committing renames the hidden folder; without a commit, the destructor removes it. If a folder
 /// exists at the path, it is exchanged with the hidden one in one system call, if the file system supports
-/// that, and then removed. A killed process leaves the hidden folder.
+/// that, and then removed. A killed process leaves the hidden folder. Folders above it that do not exist are
+/// made, except below a folder that is held open.
 class WholeFolder {
 public:
     /// @param is_own  returns whether a file of this name may be deleted together with an existing folder.
     /// @throw InvalidInput "io.not_replaced"  the path is not a folder, or the folder holds other files;
     ///        names one.
-    ///                     "io.no_folder"     the parent folder does not exist.
+    ///                     "io.no_folder"     the parent folder does not exist and cannot be made.
     /// @throw BackendError  the folder cannot be written to.
     WholeFolder(const OutputPath& path, const std::function<bool(std::string_view name)>& is_own);
     ~WholeFolder();

@@ -45,9 +45,11 @@ struct ShapeSize {
 ///   own numbers of sides.
 /// - Width: a ball that touches a rim from inside is shrunk until it contains no rim (@cite ma_2012_ball). If
 ///   the opposite point faces back at a distance w, the size is w / gap. Where the rim has the curvature k,
-///   sides have a sag of at most a quarter of w, so their length is at most √(2 w / k). Edges that share one
-///   corner form a wedge, which has no minimum width. For two edges that share both corners, as on a lens,
-///   the distance w is at least the mean width of the face: twice its area divided by the length of its rim.
+///   sides have a sag of at most a quarter of w, so their length is at most √(2 w / k). If w is less than the
+///   requested size, the sides that the curvature of one rim asks for limit those of a straight edge
+///   opposite, too; otherwise quads between the two would be slivers. Edges that share one corner form a
+///   wedge, which has no minimum width. For two edges that share both corners, as on a lens, the distance w
+///   is at least the mean width of the face: twice its area divided by the length of its rim.
 ///
 /// The influence of a place decreases with the distance from it. The field does not contain the curvature of
 /// edges, because `seed_source()` counts it along each edge.

@@ -57,6 +57,9 @@ public:
     /// follow from these.
     [[nodiscard]] bool is_on_frame(std::size_t e) const { return frame_[e]; }
 
+    /// Node positions as shares of an edge's length: even, or by the sizes along its class.
+    [[nodiscard]] std::vector<double> spread(std::size_t e, int count) const;
+
     /// For each member: its side lines that consist of one edge.
     [[nodiscard]] const std::map<std::size_t, Line>& side_lines() const { return sides_; }
     /// For each member: its side lines of several edges, of which some are beside other volumes.
@@ -97,6 +100,17 @@ private:
         return at == of.end() ? nullptr : &at->second;
     }
 
+    /// Two edges with the same number of sides, and whether their sides correspond in opposite directions.
+    struct JoinedEdges {
+        std::size_t a = 0, b = 0;
+        bool reversed = false;
+    };
+    void join(std::size_t a, std::size_t b, bool reversed);
+    /// Find the direction of each edge relative to the other edges of its class.
+    void find_directions();
+    /// Find the densities of sides along classes with an edge on the rim of a source beside a narrow place.
+    /// The classes of side lines are left out: layers do not follow narrow places.
+    void find_dense();
     [[nodiscard]] std::size_t class_of(std::size_t e) const { return class_[e]; }
     [[nodiscard]] double size(std::size_t m, const Vec3& p) const;
     /// Join edges that must have the same number of sides for the sweep of a member.
@@ -162,6 +176,11 @@ private:
     std::map<std::size_t, surface::IntervalDemands> demands_; ///< for each member that has any
     std::map<std::size_t, SidesOfClass> intervals_; ///< for each class: sides requested by 'intervals'
     std::map<std::size_t, std::pair<std::size_t, double>> bias_;
+    std::vector<JoinedEdges> joined_;
+    std::vector<bool> reversed_; ///< for each edge, whether it runs against its class
+    /// For each class beside narrow places: at even steps along it, the number of sides that the size there
+    /// would give its whole length.
+    std::map<std::size_t, std::vector<double>> dense_;
     std::set<std::size_t> asked_; ///< classes with a number requested by the user
     /// For each class, the largest `Kept` of its edges.
     std::map<std::size_t, SameEdges::Kept> kept_of_class_;

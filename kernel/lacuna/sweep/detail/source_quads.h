@@ -21,6 +21,11 @@ quads::PlanarQuadMesher mesher_of(const SweepOptions& options, bool narrow);
 /// As `mesher_of()`, for regions that may have an odd number of sides.
 quads::PlanarQuadMesher mesher_for_all(const SweepOptions& options, bool narrow);
 
+/// Reduce the requested or default size of a source where its faces are curved or narrow. Narrow places count
+/// only where they do not ask for too many quads by default.
+/// @param size  `asked` and `by_default` are read, the sizes by shape are set.
+void reduce_by_shape(const topology::OpenVolume& volume, const SweepOptions& options, SourceSize& size);
+
 /// The requested or default size, reduced by the shape of the volume. It is reduced everywhere if the volume
 /// plan requires that.
 /// @throw InvalidInput  a size is not a positive length, or there are too many cells to number.

@@ -16,7 +16,8 @@ struct WallChoice {
     std::vector<EdgeId> taken;
     bool of_cavity = false; ///< the end is inside a cavity of a solid, and the walls are the cavity's other
                             ///< faces
-    std::vector<FaceId> more_of_end; ///< flat faces of that cavity with the same normal as the end
+    std::vector<FaceId> more_of_end;   ///< flat faces of that cavity with the same normal as the end
+    std::vector<FaceId> more_of_other; ///< flat faces of that cavity with the opposite normal
 };
 
 /// Find the walls of a void from its ends: the faces connected to the rim of `source`, or of `target` if
@@ -24,7 +25,8 @@ struct WallChoice {
 ///
 /// For an end inside a cavity of a closed skin, see cavity_round(), the walls are the other faces of that
 /// cavity. Flat faces with the end's normal, such as a ledge or the top of a post, become part of the end,
-/// with a note.
+/// and those with the opposite normal, such as the underside of a board on posts, part of the other end, with
+/// a note.
 ///
 /// A void has at most two faces at each edge. Where more than two connected faces share an edge, each sheet
 /// (faces connected by other edges) is taken or left as a whole. Of all maximal choices, the one with the
