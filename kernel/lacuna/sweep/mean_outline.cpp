@@ -6,6 +6,7 @@
 #include <lacuna/geometry/newell.h>
 #include <lacuna/geometry/shared/affine.h>
 #include <lacuna/geometry/shared/predicates.h>
+#include <lacuna/geometry/shared/signed_area.h>
 #include <lacuna/geometry/shared/triangulate.h>
 #include <lacuna/surface/shared/projector.h>
 #include <lacuna/sweep/detail/morph.h>
@@ -81,14 +82,11 @@ void draw_in(const std::vector<Index>& loop, FlatRims& rims)
     }
 }
 
-double area_within(const std::vector<Vec2>& points, const std::vector<Index>& loop)
+std::vector<Vec2> outline_of(const std::vector<Vec2>& points, const std::vector<Index>& loop)
 {
-    double area = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Vec2 &a = points[index(loop[i])], &b = points[index(loop[(i + 1) % loop.size()])];
-        area += (a.x() * b.y() - a.y() * b.x()) / 2;
-    }
-    return area;
+    std::vector<Vec2> outline;
+    for (const Index p : loop) outline.push_back(points[index(p)]);
+    return outline;
 }
 
 } // namespace
@@ -104,7 +102,7 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     double largest = 0;
     for (const std::vector<Index>& loop : source.quads.loops) {
         draw_in(loop, rims);
-        const double area = area_within(rims.low, loop);
+        const double area = geometry::signed_area(outline_of(rims.low, loop));
         region.loops.push_back(loop);
         if (area <= largest) continue;
         largest = area;
@@ -112,11 +110,10 @@ surface::SourceMesh laid_between(const OpenVolume& volume, surface::SourceMesh s
     }
     region.points = rims.mean;
     region.size = [&](const Vec2& p) { return size(rims.lifted(p)); };
-    std::vector<Vec2> outline;
-    for (const Index p : region.loops.front()) outline.push_back(region.points[index(p)]);
+    const std::vector<Vec2> outer = outline_of(region.points, region.loops.front());
     const auto is_hole = [&](const std::vector<Index>& loop) {
-        return area_within(region.points, loop) < 0 &&
-               geometry::lies_inside(outline, region.points[index(loop.front())]);
+        const std::vector<Vec2> outline = outline_of(region.points, loop);
+        return geometry::signed_area(outline) < 0 && geometry::encloses(outer, outline);
     };
     // The rims of a tube coincide in its section.
     if (geometry::find_crossing(region.points, region.loops) ||
