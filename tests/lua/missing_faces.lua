@@ -124,6 +124,29 @@ for what, case in pairs {
   check.that(code ~= 0 or err:find "note: [^\n]*%[closure%.", what .. ": " .. err)
 end
 
+-- A mouth whose flat face would pass through the walls along the edges of their facets is refused.
+do
+  local model, points, cells = lacuna.model(), {}, {}
+  local sections = { { 1, 0 }, { 1, 1 }, { 1.5, 2 }, { 2, 1 } } -- half the width, height
+  for _, section in ipairs(sections) do
+    for _, corner in ipairs { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } } do
+      points[#points + 1] = { section[1] * corner[1], section[1] * corner[2], section[2] }
+    end
+  end
+  for ring = 0, #sections - 2 do
+    for side = 1, 4 do
+      local a, b = 4 * ring + side, 4 * ring + side % 4 + 1
+      cells[#cells + 1] = { a, b, b + 4, a + 4 }
+    end
+  end
+  model:add_face { name = "wall", points = points, cells = cells }
+  model:add_face { name = "floor", points = table.move(points, 1, 4, 1, {}), cells = { { 4, 3, 2, 1 } } }
+  local ok, failed = pcall(function()
+    model:open_volume { source = "floor", walls = { "wall" } }:close()
+  end)
+  check.that(not ok and failed.code == "closure.faces_cross", tostring(failed))
+end
+
 -- A missing wall with the mouth of a bore is one face with a hole.
 do
   local model = load("Box(1)={0,0,0,4,4,4}; Cylinder(2)={-1,2,2,9,0,0,0.5};"

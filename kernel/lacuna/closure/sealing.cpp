@@ -6,6 +6,8 @@
 #include <lacuna/topology/shared/face_parts.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -15,11 +17,75 @@ using namespace topology;
 
 namespace {
 
+using Corners = std::array<Vec3, 3>;
+
 int shared_points(const Triangle& a, const Triangle& b)
 {
     int count = 0;
     for (const Index p : a) count += std::count(b.begin(), b.end(), p) > 0 ? 1 : 0;
     return count;
+}
+
+bool touch(const Corners& a, const Corners& b, double tolerance)
+{
+    const auto holds_corner = [&](const Corners& face, const Corners& other) {
+        return std::ranges::any_of(other, [&](const Vec3& p) {
+            return geometry::closest_on_triangle(p, face).distance2 <= tolerance * tolerance;
+        });
+    };
+    return holds_corner(a, b) || holds_corner(b, a);
+}
+
+bool is_closed(const Model& model)
+{
+    for (std::size_t e = 0; e < model.edges.size(); ++e) {
+        const std::span<const FaceUse> uses = model.uses_of_edge(EdgeId(e));
+        if (uses.size() != 2 || uses[0].reversed == uses[1].reversed) return false;
+    }
+    return true;
+}
+
+/// A void face, a face that it touches, and the facets that touch.
+struct Contact {
+    std::pair<std::size_t, std::size_t> faces;
+    std::array<Triangle, 2> facets;
+};
+
+/// The first contact at which two faces cross: there, a facet has the inside of the skin on its outer side.
+/// Faces that cross along edges of their facets are found by this test alone, as their facets only touch.
+/// @pre a closed skin, oriented consistently inward or outward
+std::optional<std::pair<std::size_t, std::size_t>> first_crossed(const Model& model,
+                                                                 const std::vector<Contact>& contacts,
+                                                                 const RunContext& context)
+{
+    const std::vector<Triangle> skin = facets_of(model, all_faces(model));
+    const geometry::FacetTree tree(model.points, skin, context);
+    const int sense = volume_integral(model, all_faces(model)) > 0 ? 1 : -1;
+    const auto outward = [&](const Triangle& t) -> Vec3 {
+        return sense * (model.at(t[1]) - model.at(t[0])).cross(model.at(t[2]) - model.at(t[0]));
+    };
+    const auto has_inside_beyond = [&](const Triangle& facet) {
+        check_cancelled(context);
+        const Vec3 out = outward(facet).stableNormalized();
+        const Vec3 middle = (model.at(facet[0]) + model.at(facet[1]) + model.at(facet[2])) / 3;
+        int winding = 0;
+        tree.all_along(middle, out, [&](const geometry::FacetTree::RayHit& hit) {
+            const Triangle& other = skin[index(hit.triangle)];
+            if (other != facet) winding += outward(other).dot(out) > 0 ? 1 : -1;
+            return true;
+        });
+        if (winding == 0) return false;
+        // A ray through an edge meets both facets, and facets of a folded face lie in one place: neither is a
+        // crossing.
+        const Vec3 near = model.tolerance * out;
+        const auto beyond = std::lround(tree.winding_number(middle + near));
+        return beyond != 0 && std::lround(tree.winding_number(middle - near)) == beyond + 1;
+    };
+    std::optional<std::pair<std::size_t, std::size_t>> first;
+    for (const Contact& contact : contacts)
+        if ((!first || contact.faces < *first) && std::ranges::any_of(contact.facets, has_inside_beyond))
+            first = contact.faces;
+    return first;
 }
 
 } // namespace
@@ -50,9 +116,10 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
         return made_tree.may_meet(box);
     });
     const auto corners = [&](const Triangle& t) {
-        return std::array<Vec3, 3>{model.at(t[0]), model.at(t[1]), model.at(t[2])};
+        return Corners{model.at(t[0]), model.at(t[1]), model.at(t[2])};
     };
     std::optional<std::pair<std::size_t, std::size_t>> first; // a void face, and another face
+    std::vector<Contact> contacts;
     const auto visit_with = [&](const Facets& others) {
         return [&](Index a, Index b) {
             check_cancelled(context);
@@ -63,14 +130,17 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
             const Triangle& mine = made.triangles[index(a)];
             const Triangle& theirs = others.triangles[index(b)];
             // Facets that share a side can only fold onto each other, and the enclosed volume reveals that.
-            if (shared_points(mine, theirs) < 2 &&
-                geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance))
+            const int shared = shared_points(mine, theirs);
+            if (shared == 0 && touch(corners(mine), corners(theirs), model.tolerance))
+                contacts.push_back({pair, {mine, theirs}});
+            if (shared < 2 && geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance))
                 first = pair;
             return true;
         };
     };
     made_tree.overlaps(made_tree, visit_with(made));
     made_tree.overlaps(geometry::FacetTree(model.points, given.triangles, context), visit_with(given));
+    if (!first && !contacts.empty() && is_closed(model)) first = first_crossed(model, contacts, context);
     if (!first) return std::nullopt;
     return FaceCrossing{FaceId(first->first), FaceId(first->second)};
 }
@@ -82,11 +152,7 @@ double enclosed_volume(const OpenVolume& volume)
 
 bool is_watertight(const OpenVolume& volume)
 {
-    for (std::size_t e = 0; e < volume.model.edges.size(); ++e) {
-        const std::span<const FaceUse> uses = volume.model.uses_of_edge(EdgeId(e));
-        if (uses.size() != 2 || uses[0].reversed == uses[1].reversed) return false;
-    }
-    return enclosed_volume(volume) > 0;
+    return is_closed(volume.model) && enclosed_volume(volume) > 0;
 }
 
 } // namespace lacuna::closure
