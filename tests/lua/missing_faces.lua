@@ -76,7 +76,18 @@ for _ = 1, whole and 6 or 1 do
       .. "BooleanDifference{Volume{1};Delete;}{Volume{4};Delete;}"
   local corner = ("Box(1)={0,0,0,4,4,4}; Sphere(2)={4,4,4,%g}; "):format(r2)
       .. "BooleanDifference{Volume{1};Delete;}{Volume{2};Delete;}"
+  local tee = ("Cylinder(1)={0,0,-3,0,0,6,%g}; Cylinder(2)={0,0,0,4,0,0,%g};"):format(r3, r1)
+      .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}"
+  local lever = ("Cylinder(1)={0,0,0,0,0,%g,%g};"):format(h, r2)
+      .. ("Box(2)={0,%g,0,6,%g,%g};"):format(-r1, 2 * r1, 0.6 * h)
+      .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}"
+  local link = ("Box(1)={-6,%g,0,6,%g,%g}; Cylinder(2)={0,0,0,0,0,%g,%g};"):format(-r2, 2 * r2, h, h, r2)
+      .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}"
   for _, case in ipairs {
+    { "wall of a branch", tee, { { 3, r1, 0 } }, },
+    { "wall that a branch leaves", tee, { { -r3, 0, 1 } }, },
+    { "wall that an arm leaves", lever, { { -r2, 0, h / 2 } }, },
+    { "round end and top of a link", link, { { r2, 0, h / 2 }, { -3, 0, h } }, },
     { "wall and shoulder of a shaft", shaft, { { r2, 0, 3 + h / 2 }, { (r2 + r3) / 2, 0, top } }, true },
     { "other shoulder and wall", shaft, { { r2, 0, 3 + h / 2 }, { (r2 + r1) / 2, 0, 3 } }, true },
     { "blind bore and the face round its mouth", blind, { { r3, 0, top - 0.5 }, { 2.8, 2.8, top } }, true },

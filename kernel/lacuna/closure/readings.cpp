@@ -133,7 +133,8 @@ std::optional<Reading> read_filled(const Model& model, const std::vector<FaceId>
     auto reading = without_ends(std::move(*filled), context);
     if (!reading) return std::nullopt;
     reading->guess = guess_of_bent(reading->volume, *reading->closure, RolesBy::finding);
-    if (!reading->guess) reading->guess = untold_face(reading->volume, *reading->closure);
+    if (!reading->guess)
+        reading->guess = untold_face(reading->volume, *reading->closure, kVolumeNoted * reading->enclosed);
     if (whole.empty() || whole.front().closure) { // `closure` is set by read_bowl(), which splits faces
         reading->no_roles = why_no_roles(model, faces, context);
         return reading;

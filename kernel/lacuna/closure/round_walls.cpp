@@ -109,22 +109,31 @@ std::optional<Circle> circle_through(const std::vector<Vec3>& places)
     return circle;
 }
 
-std::optional<RoundRim> round_rim(const Model& model, const Rim& rim, std::size_t loop)
+/// A rim that runs once round the axis of a circle at its radius; empty for any other rim.
+std::optional<RoundRim> round_rim(const Model& model, const Rim& rim, std::size_t loop, const Circle& circle)
 {
     const std::vector<Vec3> places = loop_places(model, rim.uses);
-    const std::optional<Circle> circle = circle_through(places);
-    if (!circle || std::abs(std::abs(turn_round(circle->base, places)) - 2 * std::numbers::pi) > kParallel)
+    if (!is_round(circle.base, circle.radius, places) ||
+        std::abs(std::abs(turn_round(circle.base, places)) - 2 * std::numbers::pi) > kParallel)
         return std::nullopt;
     RoundRim round;
     round.loop = loop;
-    round.base = circle->base;
-    round.radius = circle->radius;
+    round.base = circle.base;
+    round.base.origin = geometry::from_plane(circle.base, Vec2::Zero(),
+                                             geometry::height(circle.base, geometry::mean_point(places)));
+    round.radius = circle.radius;
     for (const EdgeUse& use : rim.uses) round.beside.insert(model.uses_of_edge(use.edge).front().face);
     round.flat = is_flat(model, rim);
     round.needs_wall = std::ranges::all_of(round.beside, [&](FaceId face) {
         return round.flat ? lies_in_plane(model, face, round.base) : !is_of_wall(model, round, face);
     });
     return round;
+}
+
+std::optional<RoundRim> round_rim(const Model& model, const Rim& rim, std::size_t loop)
+{
+    const std::optional<Circle> circle = circle_through(loop_places(model, rim.uses));
+    return circle ? round_rim(model, rim, loop, *circle) : std::nullopt;
 }
 
 /// Whether a wall between two rims may be missing: they have one axis, and no given face at them continues
@@ -140,6 +149,18 @@ bool may_join(const Model& model, const RoundRim& a, const RoundRim& b)
         return std::ranges::any_of(rim.beside, [&](FaceId face) { return is_of_wall(model, rim, face); });
     };
     return std::abs(a.radius - b.radius) <= kOffShape * radius && !continues(a) && !continues(b);
+}
+
+/// Whether a loop is the rim of a hole in the round wall between two rims.
+bool is_hole_between(const Model& model, const Rim& loop, const RoundRim& from, const RoundRim& to)
+{
+    const std::vector<Vec3> places = loop_places(model, loop.uses);
+    const double end = geometry::height(from.base, to.base.origin);
+    return is_round(from.base, from.radius, places) && std::abs(turn_round(from.base, places)) <= kParallel &&
+           std::ranges::all_of(places, [&](const Vec3& p) {
+               const double height = geometry::height(from.base, p);
+               return height > std::min(0.0, end) && height < std::max(0.0, end);
+           });
 }
 
 /// Choose, among rims on one axis with one radius, the pairs between which a wall is missing.
@@ -211,9 +232,125 @@ void add_wall(FlatFilling& filling, const std::vector<std::vector<EdgeUse>>& sid
     filling.closure.void_faces.push_back(add_void_face(filling.volume, std::move(wall), Role::wall));
 }
 
-/// Add the wall between two rims. @return  false if no vertices of the rims are at the same angle.
+/// Shift an unrolled hole by whole turns into an unrolled outline. @return  false if it lies outside
+bool shift_inside(std::vector<Vec2>& hole, const std::vector<Vec2>& outer, double turn)
+{
+    for (const int turns : {0, 1, -1, 2, -2}) {
+        const Vec2 shift(turns * turn, 0);
+        if (!geometry::lies_inside(outer, hole.front() + shift)) continue;
+        for (Vec2& place : hole) place += shift;
+        return true;
+    }
+    return false;
+}
+
+/// The triangulation of a part of a round wall that is unrolled: angle times radius, and height.
+geometry::Triangulation triangulate_unrolled(const Outline& outline, double step, const RunContext& context)
+{
+    constexpr double kFacets = 64; // largest number of facets along the diagonal of the outline
+    Eigen::AlignedBox2d box;
+    for (const Vec2& place : outline.flat) box.extend(place);
+    geometry::TriangulateOptions fine;
+    fine.size = [size = std::max(step, box.diagonal().norm() / kFacets)](const Vec2&) { return size; };
+    return geometry::triangulate(outline.flat, outline.loops, fine, context);
+}
+
+/// The wall between two rims with holes, as one face without void edges. The outline is cut open between two
+/// points of the rims, as far from the holes as possible. @return  empty if the outline crosses itself
+std::optional<VoidFilling> fill_round_wall(const Model& model, const RoundRim& from,
+                                           const std::vector<EdgeUse>& a, const std::vector<EdgeUse>& b,
+                                           const std::vector<Loop>& holes, const RunContext& context)
+{
+    const auto angle = [&](const Vec3& p) { return angle_at(from.base, p); };
+    const auto height = [&](const Vec3& p) { return geometry::height(from.base, p); };
+    struct Chain {
+        std::vector<Vec3> places;
+        std::vector<Index> points;
+    };
+    Chain foot{loop_places(model, a), loop_points(model, a)};
+    Chain top{loop_places(model, b), loop_points(model, b)};
+    const auto begin_at = [](Chain& chain, const auto& distance) {
+        const auto first = std::ranges::min_element(chain.places, {}, distance) - chain.places.begin();
+        std::ranges::rotate(chain.places, chain.places.begin() + first);
+        std::ranges::rotate(chain.points, chain.points.begin() + first);
+        chain.places.push_back(chain.places.front());
+        chain.points.push_back(chain.points.front());
+    };
+    begin_at(foot, [&](const Vec3& p) {
+        double least = std::numbers::pi;
+        for (const Loop& hole : holes)
+            for (const Vec3& q : loop_places(model, hole.uses))
+                least = std::min(least, std::abs(turn_between(angle(p), angle(q))));
+        return -least;
+    });
+    begin_at(top,
+             [&](const Vec3& p) { return std::abs(turn_between(angle(foot.places.front()), angle(p))); });
+    std::ranges::reverse(top.places);
+    std::ranges::reverse(top.points);
+
+    std::vector<Vec2> flat;
+    double turn = angle(foot.places.front());
+    const auto unroll = [&](const Vec3& p) {
+        turn += turn_between(turn, angle(p));
+        flat.emplace_back(turn * from.radius, height(p));
+    };
+    for (const Vec3& p : foot.places) unroll(p);
+    const double step = 2 * std::numbers::pi * from.radius / static_cast<double>(foot.places.size() - 1);
+    std::vector<Index> points = foot.points;
+    const Vec3 seam = top.places.front() - foot.places.front();
+    const auto cuts = static_cast<std::size_t>(seam.norm() / step);
+    std::vector<Vec2> up;
+    const double lean = turn_between(turn, angle(top.places.front())) * from.radius;
+    for (std::size_t k = 1; k <= cuts; ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(cuts + 1);
+        up.push_back(flat.back() + share * Vec2(lean, height(top.places.front()) - flat.back().y()));
+    }
+    const Vec2 round = flat.front() - flat.back();
+    flat.insert(flat.end(), up.begin(), up.end());
+    for (const Vec3& p : top.places) unroll(p);
+    for (std::size_t k = cuts; k > 0; --k) flat.push_back(up[k - 1] + round);
+    points.resize(points.size() + cuts);
+    points.insert(points.end(), top.points.begin(), top.points.end());
+    points.resize(points.size() + cuts);
+
+    Outline outline;
+    outline.add_loop(flat, points);
+    for (const Loop& hole : holes) {
+        std::vector<Vec2> places;
+        turn = 0;
+        for (const Vec3& p : loop_places(model, hole.uses)) {
+            turn += turn_between(turn, angle(p));
+            places.emplace_back(turn * from.radius, height(p));
+        }
+        if (!shift_inside(places, flat, 2 * std::numbers::pi * from.radius)) return std::nullopt;
+        outline.add_loop(places, loop_points(model, hole.uses));
+    }
+    if (geometry::find_crossing(outline.flat, outline.loops)) return std::nullopt;
+    const geometry::Triangulation net = triangulate_unrolled(outline, step, context);
+    const auto lift = [&](const Vec2& p) -> Vec3 {
+        const double at = p.x() / from.radius;
+        return geometry::from_plane(from.base, from.radius * Vec2(std::cos(at), std::sin(at)), p.y());
+    };
+    // The points of the cut follow those inside. Each is listed twice in the outline.
+    const std::size_t first = foot.points.size(), last = flat.size() - 1;
+    for (std::size_t k = 0; k < cuts; ++k) {
+        const auto point = static_cast<Index>(model.points.size() + net.points.size() - outline.flat.size() +
+                                              k);
+        outline.model_point[first + k] = outline.model_point[last - k] = point;
+    }
+    VoidFilling result = filling_of(model, outline, net, [&](std::size_t i) { return lift(net.points[i]); });
+    for (const Vec2& p : up) result.points.push_back(lift(p));
+    result.loops = {{a}, {closure::reversed({b})}};
+    result.loops.insert(result.loops.end(), holes.begin(), holes.end());
+    result.geometry = Geometry::transfinite;
+    result.algorithm = "Algorithm 6";
+    return result;
+}
+
+/// Add the wall between two rims. Vertices at equal angles are joined by straight edges.
+/// @return  false if the unrolled wall crosses itself or a hole
 bool add_tube(FlatFilling& filling, const RoundRim& from, const std::vector<EdgeUse>& a,
-              std::vector<EdgeUse> b, const RunContext& context)
+              std::vector<EdgeUse> b, const std::vector<Loop>& holes, const RunContext& context)
 {
     Model& model = filling.volume.model;
     const auto sense = [&](const std::vector<EdgeUse>& uses) {
@@ -221,7 +358,12 @@ bool add_tube(FlatFilling& filling, const RoundRim& from, const std::vector<Edge
     };
     if (sense(a) != sense(b)) b = closure::reversed({b}).uses;
     const auto pairs = aligned(model, from, a, b);
-    if (pairs.empty()) return false;
+    if (pairs.empty() || !holes.empty()) {
+        auto wall = fill_round_wall(model, from, a, b, holes, context);
+        if (!wall) return false;
+        filling.closure.void_faces.push_back(add_void_face(filling.volume, std::move(*wall), Role::wall));
+        return true;
+    }
     std::vector<EdgeId> rungs;
     for (const auto& [i, j] : pairs)
         rungs.push_back(add_void_edge_through(model, use_from(model, a[i]), use_from(model, b[j])));
@@ -304,7 +446,10 @@ struct RoundWall {
 /// wall; empty if there is none.
 std::optional<RoundWall> wall_through(const Model& model, const Loop& loop)
 {
-    const std::vector<Vec3> places = loop_places(model, loop.uses);
+    std::vector<Vec3> places = loop_places(model, loop.uses);
+    for (const EdgeUse& use : loop.uses) // a chord has its ends on the wall, but not its middle
+        if (is_straight(model, {use}))
+            places.push_back((use_places(model, use).front() + use_places(model, use).back()) / 2);
     for (const EdgeUse& use : loop.uses) {
         const std::vector<Vec3> arc = use_places(model, use);
         if (arc.size() < 4 || is_straight(model, {use})) continue; // any three points lie on a circle
@@ -357,7 +502,7 @@ bool continues_given_planes(const Model& model, const Rim& rim)
 bool is_ring_at_step(const Model& model, FaceId face)
 {
     const std::vector<Rim> both = rims(model, {face});
-    if (both.size() != 2 || plane_of(model, face)) return false;
+    if (both.size() != 2 || plane_of(model, face) || round_shape(model, face)) return false;
     const double a = geometry::length(use_places(model, both[0].uses)),
                  b = geometry::length(use_places(model, both[1].uses));
     return std::abs(a - b) > kOffShape * std::max(a, b) &&
@@ -429,12 +574,7 @@ std::optional<VoidFilling> fill_round_patch(const Model& model, const Loop& loop
     Outline outline;
     outline.add_loop(unrolled, loop_points(model, loop.uses));
     if (geometry::find_crossing(outline.flat, outline.loops)) return std::nullopt;
-    constexpr double kFacets = 64; // largest number of facets along the diagonal of the outline
-    Eigen::AlignedBox2d box;
-    for (const Vec2& place : outline.flat) box.extend(place);
-    geometry::TriangulateOptions fine;
-    fine.size = [size = std::max(wall->step, box.diagonal().norm() / kFacets)](const Vec2&) { return size; };
-    const geometry::Triangulation flat = geometry::triangulate(outline.flat, outline.loops, fine, context);
+    const geometry::Triangulation flat = triangulate_unrolled(outline, wall->step, context);
     VoidFilling result = filling_of(model, outline, flat, [&](std::size_t i) -> Vec3 {
         const double angle = flat.points[i].x() / wall->radius, height = flat.points[i].y();
         const double radius = wall->radius_at(height);
@@ -450,16 +590,28 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
 {
     const Model model = filling.volume.model;
     std::vector<std::vector<RoundRim>> groups;
+    std::vector<std::size_t> other; // loops that are round no axis of their own
+    const auto join = [&](const auto& rim_at) {
+        return std::ranges::any_of(groups, [&](std::vector<RoundRim>& group) {
+            const std::optional<RoundRim> rim = rim_at(group.front());
+            if (!rim || !may_join(model, group.front(), *rim)) return false;
+            group.push_back(*rim);
+            return true;
+        });
+    };
     for (std::size_t l = 0; l < loops.size(); ++l) {
         const auto rim = round_rim(model, loops[l], l);
-        if (!rim) continue;
-        const auto group = std::ranges::find_if(
-            groups, [&](const auto& other) { return may_join(model, other.front(), *rim); });
-        if (group != groups.end())
-            group->push_back(*rim);
-        else
+        if (!rim)
+            other.push_back(l);
+        else if (!join([&](const RoundRim&) { return rim; }))
             groups.push_back({*rim});
     }
+    // A rim that is not flat, such as one with a step, may run round the axis of a circle.
+    std::erase_if(other, [&](std::size_t l) {
+        return join([&](const RoundRim& first) {
+            return round_rim(model, loops[l], l, Circle{first.base, first.radius});
+        });
+    });
     std::vector<std::size_t> part(model.faces.size());
     const std::vector<std::vector<FaceId>> parts = connected_parts(model, all_faces(model));
     for (std::size_t p = 0; p < parts.size(); ++p)
@@ -468,8 +620,16 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
     for (const std::vector<RoundRim>& group : groups) {
         for (const auto& [from, to] : pairs_of(group, part)) {
             check_cancelled(context);
-            if (!add_tube(filling, from, loops[from.loop].uses, loops[to.loop].uses, context)) continue;
-            joined.insert({from.loop, to.loop});
+            std::vector<Loop> holes;
+            std::set<std::size_t> taken{from.loop, to.loop};
+            for (std::size_t l = 0; l < loops.size(); ++l) {
+                if (joined.contains(l) || !is_hole_between(model, loops[l], from, to)) continue;
+                holes.push_back({loops[l].uses});
+                taken.insert(l);
+            }
+            if (!add_tube(filling, from, loops[from.loop].uses, loops[to.loop].uses, holes, context))
+                continue;
+            joined.merge(taken);
             const std::vector<FaceId> faces{*from.beside.begin(), *to.beside.begin()};
             assume(filling.closure,
                    {"closure.round_wall", "the rims of {} are joined by a straight round wall",

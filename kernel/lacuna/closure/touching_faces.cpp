@@ -24,6 +24,8 @@
 #include <initializer_list>
 #include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 
 namespace lacuna::closure {
 
@@ -144,11 +146,11 @@ public:
                 const FaceSide chord = across(rest);
                 const auto image = both ? std::nullopt : image_of_opposite(rest);
                 if (image && tells_face(closed(rest, *image)) && tells_face(closed(flat, turned(*image))))
-                    found.push_back({closed(flat, turned(*image)), closed(rest, *image)});
+                    add(found, {closed(flat, turned(*image)), closed(rest, *image)});
                 else if ((told || (both && loop.size() == 4)) &&
                          fits(chord, {start_of(flat), end_of(flat), start_of(rest), end_of(rest)}) &&
                          (both || tells_face(closed(rest, chord))))
-                    found.push_back({closed(flat, turned(chord)), closed(rest, chord)});
+                    add(found, {closed(flat, turned(chord)), closed(rest, chord)});
             }
         }
         return found;
@@ -179,7 +181,7 @@ public:
                     fits(chord, {start_of(flat), end_of(flat), start_of(rest), end_of(rest)})) {
                     for (FaceSplit split : in_two(closed(rest, chord))) {
                         split.push_back(closed(flat, turned(chord)));
-                        if (!is_known(found, split)) found.push_back(std::move(split));
+                        add(found, std::move(split));
                     }
                 }
                 for (std::size_t k = j + 1; i < j && k < sides; ++k)
@@ -335,18 +337,20 @@ private:
         return split;
     }
 
-    /// Whether a split with the same new edges is known.
-    [[nodiscard]] static bool is_known(const std::vector<FaceSplit>& splits, const FaceSplit& split)
+    /// Add a split, unless one with the same new edges is known.
+    static void add(std::vector<FaceSplit>& splits, FaceSplit split)
     {
         const auto made = [](const FaceSplit& one) {
-            std::set<std::pair<VertexId, VertexId>> ends;
+            std::set<std::tuple<VertexId, VertexId, bool>> edges;
             for (const FaceChain& chain : one)
                 for (const FaceSide& side : chain)
-                    if (!side.given.edge.valid()) ends.insert(std::minmax(side.from, side.to));
-            return ends;
+                    if (!side.given.edge.valid())
+                        edges.emplace(std::min(side.from, side.to), std::max(side.from, side.to),
+                                      count_turns(side.points) == 0);
+            return edges;
         };
-        return std::ranges::any_of(splits,
-                                   [&](const FaceSplit& other) { return made(other) == made(split); });
+        if (std::ranges::none_of(splits, [&](const FaceSplit& other) { return made(other) == made(split); }))
+            splits.push_back(std::move(split));
     }
 
     const Model& model_;
@@ -441,11 +445,11 @@ bool is_untold(const Model& model, FaceId face)
            !cone_shape(model, face) && !tells_face(model, model[face].loops.front());
 }
 
-std::optional<Message> untold_face(const OpenVolume& sealed, const Closure& closure)
+std::optional<Message> untold_face(const OpenVolume& sealed, const Closure& closure, double least)
 {
     const Model& model = sealed.model;
     for (const FaceId face : closure.void_faces) {
-        if (!is_untold(model, face)) continue;
+        if (std::pow(face_area(model, face), 1.5) <= least || !is_untold(model, face)) continue;
         std::vector<NamedEntity> beside;
         for (const FaceId other : faces_beside(model, face))
             if (model[other].origin == Origin::given) beside.push_back(entity_of(model, other));

@@ -16,7 +16,8 @@ namespace lacuna::closure {
 /// A rim needs such a wall in two cases: a flat face in the rim would lie in the plane of the given faces
 /// round it; or the rim is not planar and the given faces round it do not continue the wall. Rims on one axis
 /// with equal radii are paired along the axis. A rim left over is paired with a rim that a flat face could
-/// also close. Rims of two unconnected parts are paired too.
+/// also close. Rims of two unconnected parts are paired too. Loops on the wall between two rims, such as those
+/// of branches, are holes of that wall.
 /// @return  the free loops that are left.
 std::vector<topology::Rim> add_tubes(FlatFilling& filling, std::vector<topology::Rim> loops,
                                      const RunContext& context);

@@ -41,6 +41,8 @@ bool is_untold(const topology::Model& model, FaceId face);
 
 /// The error "topology.shape_open" about the first bent void face whose rim does not determine its shape,
 /// without a remedy.
-std::optional<Message> untold_face(const topology::OpenVolume& sealed, const Closure& closure);
+/// @param least  a face is left out if a pocket as deep as its mouth is wide holds less [model length³]
+std::optional<Message> untold_face(const topology::OpenVolume& sealed, const Closure& closure,
+                                   double least = 0);
 
 } // namespace lacuna::closure
