@@ -106,6 +106,17 @@ end
 
 -- Bodies of which other shapes go through the rims as well: one is taken with a note on standard error.
 for what, case in pairs {
+  ["wall of a tee and its branch"] = { "Cylinder(1)={0,0,-3,0,0,6,1.2}; Cylinder(2)={0,0,0,4,0,0,0.9};"
+      .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}",
+    { { -1.2, 0, 1 }, { 3, 0.9, 0 }, { 4, 0, 0 } } },
+  ["flange of a hollow hub"] = { "Cylinder(1)={0,0,0,0,0,2,1.1}; Cylinder(2)={0,0,2,0,0,2,1.4};"
+      .. "BooleanUnion(3)={Volume{1};Delete;}{Volume{2};Delete;}; Cylinder(4)={0,0,-1,0,0,9,0.5};"
+      .. "BooleanDifference{Volume{3};Delete;}{Volume{4};Delete;}",
+    { { 1.4, 0, 3 }, { 1, 0, 4 }, { 1.3, 0, 2 } } },
+  ["outlet and its bore's end of a funnel"] = { "Cone(1)={0,0,0,0,0,3,2.5,1}; Cylinder(2)={0,0,3,0,0,2,1};"
+      .. "BooleanUnion(3)={Volume{1};Delete;}{Volume{2};Delete;}; Cylinder(4)={0,0,-1,0,0,9,0.5};"
+      .. "BooleanDifference{Volume{3};Delete;}{Volume{4};Delete;}",
+    { { 1, 0, 4 }, { 2, 0, 0 }, { 0.8, 0, 5 } } },
   ["ball end and base"] = { "Cylinder(1)={0,0,0,0,0,4,1.5}; Sphere(2)={0,0,4,1.5};"
       .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}", { { 0, 0, 5.5 }, { 0, 0, 0 } } },
   ["all but the outer wall of a ring"] = { "Cylinder(1)={0,0,0,0,0,2,3}; Cylinder(2)={0,0,-1,0,0,9,1.5};"

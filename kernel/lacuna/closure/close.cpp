@@ -259,6 +259,7 @@ private:
                           "straight edges continue them"},
                          closure);
         note_open_rims(sealed, options_.take_guess ? RolesBy::finding : RolesBy::person, closure);
+        if (options_.take_guess) note_joined_rims(sealed.model, closure);
         if (asks_for_shape(options_)) closure.assumptions.clear();
         note_closed_holes(volume_.model, all_faces(volume_.model), sealed, closure);
     }

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -182,13 +183,13 @@ bool may_lie_on_other_quadric(const OpenVolume& sealed, double enclosed, FaceId 
 /// about the same volume.
 bool closes_rough_rim(const Model& model, double enclosed, FaceId face)
 {
-    const bool about_flat = std::ranges::all_of(model[face].loops, [&](const Loop& loop) {
-        const std::vector<Vec3> places = loop_places(model, loop.uses);
-        const Vec3 middle = geometry::mean_point(places);
-        double radius = 0;
-        for (const Vec3& p : places) radius = std::max(radius, (p - middle).norm());
-        return off_one_plane(places) <= kRough * 2 * radius;
-    });
+    std::vector<Vec3> places;
+    for (const Loop& loop : model[face].loops)
+        std::ranges::copy(loop_places(model, loop.uses), std::back_inserter(places));
+    const Vec3 middle = geometry::mean_point(places);
+    double radius = 0;
+    for (const Vec3& p : places) radius = std::max(radius, (p - middle).norm());
+    const bool about_flat = off_one_plane(places) <= kRough * 2 * radius;
     return about_flat && std::abs(beside_thin_plate(model, face).above) <= kVolumeNoted * enclosed;
 }
 
@@ -274,6 +275,18 @@ std::vector<NamedEntity> given_beside(const Model& model, FaceId face)
     std::vector<NamedEntity> beside;
     for (const int tag : tags) beside.push_back({"face", tag});
     return beside;
+}
+
+/// Note that one face is assumed in a rim that more faces may fill.
+void note_one_wall(const Model& model, FaceId face, Closure& closure)
+{
+    assume(closure,
+           Message("closure.wall_assumed",
+                   "the rim of {} does not determine how many faces are missing beside {}; one face is "
+                   "assumed",
+                   entity_of(model, face), given_beside(model, face))
+               .remedy("if several faces or a whole part are missing there, give them"),
+           1);
 }
 
 /// Note flat void faces in circles: balls, cones and rings go through a circle as well, and no edge shows
@@ -419,19 +432,30 @@ void note_open_rims(const OpenVolume& sealed, RolesBy by, Closure& closure)
         // stand for several faces.
         if (by == RolesBy::finding && !is_membrane(model, face) &&
             (is_untold(model, face) || closes_hole_in_bent_face(model, face)))
-            assume(closure,
-                   Message("closure.wall_assumed",
-                           "the rim of {} does not determine how many faces are missing beside {}; one face "
-                           "is assumed",
-                           entity_of(model, face), given_beside(model, face))
-                       .remedy("if several faces or a whole part are missing there, give them"),
-                   1);
+            note_one_wall(model, face, closure);
         if (!is_rim_in_doubt(sealed, enclosed, face, by) || is_in_doubt(sealed, enclosed, face, by)) continue;
         assume(closure,
                Message("closure.rough_rim", "the rim of {} is rough and is closed by a smooth face",
                        entity_of(model, face))
                    .remedy("if the true face bulges otherwise, give it"),
                1);
+    }
+}
+
+void note_joined_rims(const Model& model, Closure& closure)
+{
+    const auto is_flat_and_given = [&](const Rim& rim) {
+        return is_flat(model, rim) && std::ranges::any_of(rim.uses, [&](const EdgeUse& use) {
+                   return std::ranges::any_of(model.uses_of_edge(use.edge), [&](const FaceUse& by) {
+                       return model[by.face].origin == Origin::given;
+                   });
+               });
+    };
+    for (const FaceId face : closure.void_faces) {
+        const std::vector<Rim> both = rims(model, {face});
+        if (both.size() == 2 && !plane_of(model, face) && !is_untold(model, face) &&
+            std::ranges::all_of(both, is_flat_and_given))
+            note_one_wall(model, face, closure);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <lacuna/closure/detail/membranes.h>
 
+#include <lacuna/closure/detail/flat_fill.h>
 #include <lacuna/closure/detail/rim_quadrics.h>
 #include <lacuna/geometry/newell.h>
 #include <lacuna/topology/shared/face_parts.h>
@@ -48,6 +49,8 @@ bool is_about_flat(const Model& model, FaceId face)
 bool bends_as_rim(const Model& model, FaceId face)
 {
     if (!(face_area_vector(model, face).norm() > 0)) return false;
+    // Cones, balls and steps go through any two circles on one axis.
+    if (model[face].loops.size() > 1 && has_flat_loops(model, face)) return false;
     const geometry::Plane plane = mean_plane(model, face);
     const double off = kNearIt * extent_of(model, face).z() / 2;
     const RimShapes shapes = shapes_of_rim(model, model[face].loops, plane);

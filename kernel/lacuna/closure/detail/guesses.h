@@ -54,4 +54,8 @@ void note_closed_holes(const topology::Model& model, const std::vector<FaceId>& 
 /// found, flat ones in a circle.
 void note_open_rims(const topology::OpenVolume& sealed, RolesBy by, Closure& closure);
 
+/// Note void faces between two flat rims of given faces: shoulders and whole branches may be missing there as
+/// well.
+void note_joined_rims(const topology::Model& model, Closure& closure);
+
 } // namespace lacuna::closure
