@@ -109,6 +109,9 @@ for what, case in pairs {
   ["wall of a tee and its branch"] = { "Cylinder(1)={0,0,-3,0,0,6,1.2}; Cylinder(2)={0,0,0,4,0,0,0.9};"
       .. "BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}",
     { { -1.2, 0, 1 }, { 3, 0.9, 0 }, { 4, 0, 0 } } },
+  ["wall of a cross and one of its branches"] = { "Cylinder(1)={0,0,-3,0,0,6,1.2};"
+      .. "Cylinder(2)={-4,0,0,8,0,0,0.9}; BooleanUnion{Volume{1};Delete;}{Volume{2};Delete;}",
+    { { 0, 1.2, 2 }, { 3, 0.9, 0 }, { 4, 0, 0 } } },
   ["flange of a hollow hub"] = { "Cylinder(1)={0,0,0,0,0,2,1.1}; Cylinder(2)={0,0,2,0,0,2,1.4};"
       .. "BooleanUnion(3)={Volume{1};Delete;}{Volume{2};Delete;}; Cylinder(4)={0,0,-1,0,0,9,0.5};"
       .. "BooleanDifference{Volume{3};Delete;}{Volume{4};Delete;}",

@@ -634,7 +634,7 @@ std::vector<Rim> add_tubes(FlatFilling& filling, std::vector<Rim> loops, const R
             assume(filling.closure,
                    {"closure.round_wall", "the rims of {} are joined by a straight round wall",
                     entities_of(model, faces)},
-                   from.needs_wall && to.needs_wall ? 0 : 1);
+                   from.needs_wall && to.needs_wall && holes.empty() ? 0 : 1);
         }
     }
     std::vector<Rim> left;
