@@ -2,12 +2,15 @@
 #include <lacuna/closure/detail/cut_planes.h>
 
 #include <lacuna/closure/detail/turns.h>
+#include <lacuna/closure/shared/piece_ends.h>
 #include <lacuna/core/shared/criteria.h>
 #include <lacuna/geometry/shared/union_find.h>
 #include <lacuna/topology/shared/cone_shape.h>
 #include <lacuna/topology/shared/face_plane.h>
 #include <lacuna/topology/shared/face_radius.h>
 #include <lacuna/topology/shared/use_places.h>
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +35,29 @@ std::optional<Vec3> straight_along(const Model& model, EdgeId edge)
     const Vec3 chord = model.at(model[model[edge].to].point) - model.at(model[model[edge].from].point);
     if (chord.norm() < (1 - kFlatShare) * edge_length(model, edge)) return std::nullopt;
     return chord.stableNormalized();
+}
+
+/// The direction in which a sweep may have both faces at an edge in one end, such as a flat face with a
+/// conical hollow: the normal of a flat face. Empty if there is none, or if the other face is as steep as a
+/// wall.
+std::optional<Vec3> across_hollow(const Model& model, EdgeId edge)
+{
+    const std::span<const FaceUse> uses = model.uses_of_edge(edge);
+    for (const FaceUse& flat : uses) {
+        const auto plane = plane_of(model, flat.face);
+        if (plane && std::ranges::all_of(uses, [&](const FaceUse& use) {
+                const double along = plane->normal.dot(face_area_vector(model, use.face));
+                return std::abs(along) > kFacesEnd * face_area(model, use.face);
+            }))
+            return plane->normal;
+    }
+    return std::nullopt;
+}
+
+/// Whether a face turns by more than a right angle, as a bore does and a fillet does not.
+bool turns_as_bore(const Model& model, FaceId face)
+{
+    return face_area_vector(model, face).norm() < kQuarterTurn * face_area(model, face);
 }
 
 /// The straight edges of a cylinder along its axis.
@@ -109,6 +135,7 @@ public:
     std::vector<CutPlane> run()
     {
         add_face_planes();
+        add_rim_planes();
         add_fillet_planes();
         find_features();
         for (const Vec3& normal : normals()) add_between(normal);
@@ -116,6 +143,7 @@ public:
         for (std::size_t b = 0; b < std::min(between_.size(), most_); ++b)
             planes_.push_back({between_[b].second, {}});
         add_through_axes();
+        add_at_bent_rims();
         return std::move(planes_);
     }
 
@@ -132,6 +160,40 @@ private:
             const auto plane = edges.empty() ? std::nullopt : plane_of(model_, face);
             if (plane) planes_.push_back({*plane, std::move(edges)});
         }
+    }
+
+    /// Add the planes of the flat rims of bores: below the plane, a cone, ball or rounded bottom of the bore
+    /// is a hollow in an end.
+    void add_rim_planes()
+    {
+        const std::size_t first = planes_.size();
+        for (const Bend& bend : bends_) {
+            if (!bend.face.valid() || !turns_as_bore(model_, bend.face)) continue;
+            for (const EdgeUse& use : uses_of(model_[bend.face])) {
+                const geometry::Plane plane = geometry::plane_across(
+                    model_.at(model_[model_[use.edge].from].point), *bend.axis);
+                const auto lies_flat = [&](const FaceUse& user) {
+                    return lies_in_plane(model_, user.face, plane);
+                };
+                if (!is_in_plane(use.edge, plane) ||
+                    std::ranges::any_of(model_.uses_of_edge(use.edge), lies_flat))
+                    continue;
+                const auto known = std::ranges::find_if(
+                    planes_.begin() + static_cast<std::ptrdiff_t>(first), planes_.end(),
+                    [&](const CutPlane& own) { return is_in_plane(use.edge, own.plane); });
+                if (known != planes_.end())
+                    known->edges.push_back(use.edge);
+                else
+                    planes_.push_back({plane, {use.edge}});
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_in_plane(EdgeId edge, const geometry::Plane& plane) const
+    {
+        return std::ranges::all_of(model_[edge].points, [&](Index p) {
+            return std::abs(geometry::height(plane, model_.at(p))) <= model_.tolerance;
+        });
     }
 
     /// Add the planes through the axis of a concave cylinder and an edge where a flat face continues it.
@@ -243,6 +305,46 @@ private:
         }
     }
 
+    /// Add the planes through the axis of a bore that leaves through a bent face, such as the side of a shaft
+    /// or of an elbow. Their normals are the directions in which that face is straightest and most bent: the
+    /// principal axes of the rim, weighted with its heights.
+    void add_at_bent_rims()
+    {
+        for (const Bend& bend : bends_) {
+            if (!bend.face.valid() || !turns_as_bore(model_, bend.face)) continue;
+            const Vec3 &axis = *bend.axis, centre = round_shape(model_, bend.face)->centre;
+            const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
+            double length = 0, mean = 0;
+            Eigen::Matrix2d moment = Eigen::Matrix2d::Zero(), around = moment;
+            for (const EdgeUse& use : uses_of(model_[bend.face])) {
+                const auto is_flat = [&](const FaceUse& user) {
+                    return plane_of(model_, user.face).has_value();
+                };
+                const std::vector<Vec3> line = use_places(model_, use);
+                if (is_in_plane(use.edge, geometry::plane_across(line.front(), axis)) ||
+                    std::ranges::any_of(model_.uses_of_edge(use.edge), is_flat) ||
+                    straight_along(model_, use.edge))
+                    continue;
+                for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+                    const Vec3 out = (line[i] + line[i + 1]) / 2 - centre;
+                    const Vec2 way = Vec2(out.dot(u), out.dot(v)).normalized();
+                    const double side = (line[i + 1] - line[i]).norm(), height = std::abs(out.dot(axis));
+                    const Eigen::Matrix2d own = side * way * way.transpose();
+                    length += side;
+                    mean += side * height;
+                    moment += height * own;
+                    around += own;
+                }
+            }
+            if (!(length > 0)) continue;
+            const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(moment - mean / length * around);
+            for (int k = 0; k < 2; ++k) {
+                const Vec2 normal = solver.eigenvectors().col(k);
+                add_new(geometry::plane_across(centre, normal.x() * u + normal.y() * v));
+            }
+        }
+    }
+
     void add_new(const geometry::Plane& plane)
     {
         if (std::ranges::none_of(planes_, [&](const CutPlane& other) {
@@ -265,9 +367,12 @@ private:
 std::vector<Bend> bends_of(const Model& model, const SkinTurns& turns)
 {
     std::vector<Bend> bends;
-    for (std::size_t e = 0; e < turns.concave.size(); ++e)
-        if (turns.concave[e] > kCreaseAngle)
-            bends.push_back({EdgeId(e), {}, edge_length(model, EdgeId(e)), straight_along(model, EdgeId(e))});
+    for (std::size_t e = 0; e < turns.concave.size(); ++e) {
+        const EdgeId edge(e);
+        if (!(turns.concave[e] > kCreaseAngle)) continue;
+        const auto along = straight_along(model, edge);
+        bends.push_back({edge, {}, edge_length(model, edge), along ? along : across_hollow(model, edge)});
+    }
     for (const FaceId face : all_faces(model))
         if (auto bend = round_bend(model, face, turns)) bends.push_back(std::move(*bend));
     return bends;

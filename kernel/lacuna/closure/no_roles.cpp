@@ -127,24 +127,27 @@ Message why_no_roles(const Model& given, const std::vector<FaceId>& faces, const
             .remedy("give the sides of the body as faces: one add_face for each, or a smaller feature_angle "
                     "where a file is loaded");
     const std::string cut = cut_at_concave_edge(volume, context);
-    const auto advised = [&](Message message) -> Message {
-        if (cut.empty())
-            return std::move(message).remedy(
-                "name the roles: open_volume{{ source = …, target = …, walls = … }}");
+    const auto advised = [&](Message message, const char* otherwise) -> Message {
+        if (cut.empty()) return std::move(message).remedy("{}", otherwise);
         return std::move(message).remedy("cut them: open_volume{{ walls = {} }}:{}", walls, cut);
     };
+    // Other roles do not help where no single sweep exists.
+    const char* const divide = "divide the volume by volume:cut{ plane = … }";
     for (const FaceId face : all_faces(model))
         if (is_cone_to_its_tip(model, face))
             return advised(Message("topology.cone",
                                    "{} is a cone up to its apex, where layers would have no width",
-                                   entity_of(model, face)));
+                                   entity_of(model, face)),
+                           divide);
     if (const EdgeId edge = crossing_of_bores(model); edge.valid())
         return advised(Message("topology.crossing_bores",
                                "bores cross at {}, and no single sweep can follow both",
-                               entity_of(model, edge)));
+                               entity_of(model, edge)),
+                       divide);
     std::vector<NamedEntity> tags = entities_of(given, faces);
     for (NamedEntity& face : tags) face.name.clear(); // keeps the message short
-    return advised(Message("topology.no_roles", "no source, target and walls were found among {}", tags));
+    return advised(Message("topology.no_roles", "no source, target and walls were found among {}", tags),
+                   "name the roles: open_volume{ source = …, target = …, walls = … }");
 }
 
 std::string listed(const std::vector<Reading>& readings, std::ptrdiff_t most)

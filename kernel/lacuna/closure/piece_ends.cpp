@@ -32,10 +32,6 @@ constexpr std::size_t kMostEnds = 600;
 /// Any two faces of one end have normals at less than 110°; this is its cosine. A lower cosine joins faces
 /// that fold back on each other; a higher one separates the slopes of a steep roof.
 constexpr double kOneEnd = -0.35;
-/// A face of an end turns from the end's mean normal by less than 70°; this is its cosine. A steeper face,
-/// such as a riser between two steps, is parallel to the columns, and the cells beside it would have no
-/// volume.
-constexpr double kFacesEnd = 0.34;
 /// A face may belong to an end if its mean normal, which has the length 1 on a flat face, is longer than 1 −
 /// kFlat.
 constexpr double kFlat = 0.1;
@@ -133,12 +129,13 @@ public:
         return found;
     }
 
-    /// The faces whose mean normal is within 60° of a direction: a flat end with its grooves.
+    /// The faces whose mean normal is within 60° of a direction: a flat end with its grooves and hollows. The
+    /// mean normal of a closed ring is 0 but for rounding.
     [[nodiscard]] FaceSet facing(const Vec3& direction) const
     {
         FaceSet set = 0;
         for (std::size_t f = 0; f < faces_.size(); ++f)
-            if (2 * faces_[f].normal.dot(direction) > faces_[f].normal.norm()) set |= one(f);
+            if (faces_[f].normal.dot(direction) > std::max(faces_[f].normal.norm() / 2, kFlat)) set |= one(f);
         return set;
     }
 
@@ -331,10 +328,13 @@ std::vector<Ends> ways_of(const OpenVolume& piece, const RunContext& context)
         for (std::size_t b = a + 1; b < ends.size(); ++b) consider(ends[a], ends[b]);
     }
     const auto is_known = [&](FaceSet set) { return std::ranges::find(ends, set) != ends.end(); };
-    for (const Vec3& direction : skin.directions()) {
-        const FaceSet a = skin.facing(direction), b = skin.facing(-direction);
-        if (!is_known(a) || !is_known(b)) consider(a, b);
-    }
+    std::vector<FaceSet> sides;
+    for (const Vec3& direction : skin.directions())
+        for (const FaceSet side : {skin.facing(direction), skin.facing(-direction)})
+            if (std::ranges::find(sides, side) == sides.end()) sides.push_back(side);
+    for (std::size_t a = 0; a < sides.size(); ++a)
+        for (std::size_t b = a + 1; b < sides.size(); ++b)
+            if (!is_known(sides[a]) || !is_known(sides[b])) consider(sides[a], sides[b]);
     if (ways.empty()) ways.emplace_back();
     return ways;
 }

@@ -265,9 +265,12 @@ std::optional<Filled> sweep_in_pieces(const Volume& volume, const Message& why, 
     sweep::SweepOptions options = request.options;
     options.layered = false;
     options.crew = nullptr;
-    // One size for all pieces: the default sizes of single pieces would not suit their neighbours.
+    // One size for all pieces: the default sizes of single pieces would not suit their neighbours. Ends that
+    // were found for the whole volume are not those of the pieces, and may be small.
     if (!options.size) {
-        options.size = surface::even_size(surface::default_size(volume.volume).length);
+        topology::OpenVolume sized = volume.volume;
+        if (volume.roles_found) std::ranges::fill(sized.role, topology::Role::wall);
+        options.size = surface::even_size(surface::default_size(sized).length);
         options.gap = std::max(options.gap, sweep::kDefaultGap);
     }
     Volume sealed = sealed_whole(volume, context);

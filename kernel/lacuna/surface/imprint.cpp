@@ -54,7 +54,6 @@ public:
     Imprint run()
     {
         if (match_alike()) return std::move(result_);
-        check_not_kept();
         pairs_ = pair_rims(model(), given_links_, inner_, size_);
         result_.links = link_anew(*result_.volume, given_links_, pairs_);
         base_ = *result_.volume;
@@ -68,6 +67,7 @@ public:
         cut_source();
         builder_.emplace(model());
         add_target();
+        check_not_kept();
         set_borders();
         check_sizes();
         split_faces();
@@ -118,12 +118,12 @@ private:
     /// Refuse to split a face whose given quads are kept.
     void check_not_kept()
     {
-        for (const FaceId face : result_.volume->faces(Role::source)) {
-            if (model()[face].given_quads.empty()) continue;
+        for (const FaceId face : split_) {
+            if (base_.model[face].given_quads.empty()) continue;
             throw NotSweepable(Message("surface.not_imprinted",
                                        "{} lies inside one end and cannot be imprinted on the other: {} "
                                        "keeps its given quads and cannot be split",
-                                       entity_of(model(), inner_.front()), entity_of(model(), face))
+                                       entity_of(base_.model, inner_.front()), entity_of(base_.model, face))
                                    .remedy("load with keep_mesh = false, or choose a target that is a single "
                                            "face"));
         }

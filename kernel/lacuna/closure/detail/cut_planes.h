@@ -19,7 +19,8 @@ struct Bend {
     /// it turns by more than one, this is multiplied by a factor that rises from 0 at a right angle to 1 at a
     /// full turn [model length].
     double length = 0;
-    std::optional<Vec3> axis; ///< a sweep in this direction follows the bend; empty for a curved edge
+    /// A sweep in this direction follows the bend, or has it in an end. Empty for other curved edges.
+    std::optional<Vec3> axis;
 };
 
 /// All bends of a sealed skin. O(facets).
@@ -37,11 +38,14 @@ struct CutPlane {
 
 /// Planes to cut a volume by, in this order:
 /// 1. the planes of flat faces beside concave edges, only in the regions that adjoin these edges;
-/// 2. planes through the axis of a concave cylinder and an edge where a flat face continues it, as beside a
+/// 2. the planes of flat rims of concave cylinders that go on in another bent face, in the regions that
+/// adjoin the rim;
+/// 3. planes through the axis of a concave cylinder and an edge where a flat face continues it, as beside a
 /// fillet, only in the regions that adjoin this edge;
-/// 3. planes midway between features (connected groups of bends) that reduce `length_to_cut()`, the best
+/// 4. planes midway between features (connected groups of bends) that reduce `length_to_cut()`, the best
 /// first; their normals are those of flat faces and the common normals of two axes;
-/// 4. planes through the axes of cylinders that cross each other, which divide a bore into two grooves.
+/// 5. planes through the axes of cylinders that cross each other, and of bores that leave through a bent
+/// face, which divide a bore into two grooves.
 /// @param most  largest number of planes between features.
 std::vector<CutPlane> cut_planes(const topology::OpenVolume& volume, const std::vector<Bend>& bends,
                                  std::size_t most);

@@ -22,8 +22,9 @@ using TakePieces = std::function<bool(std::vector<StepPiece>)>;
 /// Candidate cuts are those of `cut_planes()`:
 /// - the plane of a flat face next to concave edges, only in the regions of the plane that adjoin these
 ///   edges;
+/// - the plane in which the cylinder of a bore ends in a cone, a ball or another bent face;
 /// - planes midway between features;
-/// - planes through the axes of bores that cross each other.
+/// - planes through the axes of bores that cross each other or leave through a bent face.
 ///
 /// The best cut of a piece leaves the least length still to cut (`length_to_cut()`) in pieces without ends,
 /// which are then cut in turn. A piece has ends if `read_ends()` finds them, or if its closed skin has a

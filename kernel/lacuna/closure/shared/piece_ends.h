@@ -11,6 +11,10 @@
 
 namespace lacuna::closure {
 
+/// A face of an end turns from the end's mean normal by less than 70°; this is its cosine. Columns run along
+/// a steeper face, such as a riser between two steps, and cells beside it have no volume.
+inline constexpr double kFacesEnd = 0.34;
+
 /// Cut pieces, and the number of those whose ends were chosen again.
 struct ReadPieces {
     std::vector<StepPiece> pieces;
