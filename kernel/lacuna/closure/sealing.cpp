@@ -62,7 +62,8 @@ std::optional<FaceCrossing> first_crossing(const OpenVolume& volume, const RunCo
             if (first && *first <= pair) return true;
             const Triangle& mine = made.triangles[index(a)];
             const Triangle& theirs = others.triangles[index(b)];
-            // Facets that share a side can only fold onto each other, and the enclosed volume reveals that.
+            // Facets that share a side can only fold onto each other; the check of the enclosed volume finds
+            // folds.
             if (shared_points(mine, theirs) < 2 &&
                 geometry::triangles_cross(corners(mine), corners(theirs), model.tolerance))
                 first = pair;

@@ -32,8 +32,8 @@ bool has_branches(const topology::OpenVolume& volume, const RunContext& context 
 /// points of two such ends correspond.
 /// @return  pieces in the order of the cuts; the volume itself if it has no branches.
 /// @throw NotSweepable "closure.branches"  the main body has missing walls at a mouth, or more than two ends;
-///         mouths are adjacent (the remedy names where to cut); or a branch is wider than the side of the
-///         main body. Or the errors of `cut_by_plane()`.
+///         mouths are adjacent (the remedy names where to cut); or a branch reaches beyond the side of the
+///         main body, so that an end of the branch lies next to the mouth. Or the errors of `cut_by_plane()`.
 /// @note  O(branches · facets log facets).
 std::vector<StepPiece> cut_branches(const topology::OpenVolume& volume, const RunContext& context = {});
 
