@@ -9,8 +9,8 @@ namespace lacuna::healing {
 
 namespace {
 
-/// Divide a quad into two triangles along the diagonal on which they do not fold; if both or neither fold,
-/// along the shorter diagonal.
+/// Divide a quad into two triangles along the diagonal for which the triangles do not fold onto each other.
+/// If that holds for both diagonals or for none, the shorter diagonal is taken.
 std::array<Triangle, 2> halves(const Quad& q, const std::vector<Vec3>& points)
 {
     const auto at = [&](int i) { return points[static_cast<std::size_t>(q[static_cast<std::size_t>(i)])]; };
@@ -64,7 +64,7 @@ topology::Model model_of(const AddedFaces& added, const RunContext& context)
                                    "connected",
                                    needed(added.count), found(model.faces.size()))
                                .remedy("add each part as a face of its own"));
-    // Restore the order of adding: the splitter makes the faces of triangles before those of quads.
+    // Restore the order of adding: split_facets() makes the faces of triangles before those of quads.
     std::vector<topology::Face> faces(model.faces.size());
     std::vector<bool> met(model.faces.size(), false);
     std::size_t next = 0;
